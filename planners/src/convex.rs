@@ -1,0 +1,40 @@
+//! The customised interior-point method for the convex subproblems of sequential convex programming.
+//!
+//! A subproblem is an elastic linear programme over stages (Wang, Xu, Long 2020, P2 and P4, eq. 21, 22):
+//!
+//! ```text
+//! min  q θ + μ Σ |E z - d| + μ Σ max(F z - g, 0)     s.t.  lo <= z <= hi,      z = (w_0, ..., w_K, θ)
+//! ```
+//!
+//! - the hard box is the trust region (A_tr);
+//! - the elastic equalities E (A_eq) link neighbouring stages, w_k -> w_{k+1}, or pin single variables;
+//! - the elastic inequalities F (A_in) are bounds of single variables and planes of single stages;
+//! - θ is the one variable that all stages share.
+//!
+//! Slacks make it smooth, each with a dual of its own. With p, n, t, β >= 0 and multipliers y, λ, v:
+//!
+//! ```text
+//! E z - d = p - n        p ⟂ μ - y,  n ⟂ μ + y            |y| <= μ
+//! F z - g = β - t        t ⟂ λ,      β ⟂ μ - λ            0 <= λ <= μ
+//! u = hi - z, l = z - lo u ⟂ v_u,    l ⟂ v_l              v >= 0
+//! q e_θ + E^T y + F^T λ + v_u - v_l = 0
+//! ```
+//!
+//! This is the paper's P4 with its slacks taken out by hand: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p and
+//! multipliers λ_2 = (μ + y)/2, λ_3 = (μ - y)/2, so that 4 D_2 D_3/(D_2 + D_3) = 1/(p/(μ - y) + n/(μ + y)); and
+//! s_4 = t, λ_4 = λ, s_5 = β, λ_5 = μ - λ. Products, and therefore iterates, are the same; the linear system is smaller.
+//!
+//! No vehicle is named here.
+
+mod block;
+mod clarabel;
+mod interior_point;
+mod kernels;
+mod newton;
+mod point;
+mod program;
+mod progress;
+
+pub use self::clarabel::solve as solve_with_clarabel;
+pub use interior_point::{InteriorPoint, Settings, Solution, Status};
+pub use program::{LINK, Link, Pin, Plane, Program, STAGE};

@@ -1,0 +1,9 @@
+//! The trajectory planners, and the solvers they stand on. Planners never see the simulator or its models.
+
+#![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
+
+pub mod convex;
+mod registry;
+pub mod scp;
+
+pub use registry::{Entry, find, registry};

@@ -1,0 +1,24 @@
+//! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): every vehicle's problem is linearised about
+//! its last trajectory, the others' trajectories frozen, and solved as an elastic linear programme.
+
+mod avoidance;
+mod dynamics;
+mod initial_guess;
+mod iterate;
+mod options;
+pub mod parallel;
+mod plan;
+mod scaling;
+mod shooting;
+mod subproblem;
+mod time_bound;
+mod transcription;
+mod trapezoid;
+
+use scenarios::Scenario;
+
+/// Why these planners cannot handle a scenario, if they cannot.
+pub fn refuses(scenario: &Scenario) -> Option<String> {
+    let other = scenario.vehicles.iter().find(|vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model))?;
+    Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name))
+}

@@ -1,0 +1,98 @@
+//! From the last iterates to a plan, and what the planner says of it.
+
+use std::time::Duration;
+
+use scenarios::fixed_wing::{Control, State};
+use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario, Trajectory};
+
+use super::iterate::Iterate;
+
+/// Violation of a linearised row, in scaled units, above which a plan is not called solved: a millimetre of position.
+const SLACK_TOLERANCE: f64 = 1e-6;
+
+/// Defect of the planner's own equations above which a plan is not called solved, m.
+const DEFECT_TOLERANCE_M: f64 = 0.1;
+
+/// The plan that the last iterates make.
+pub fn assemble(
+    scenario: &Scenario,
+    planner: &str,
+    seed: u64,
+    trajectories: &[Iterate],
+    history: Vec<Iteration>,
+    (status, reason): (PlanStatus, Option<String>),
+    elapsed: Duration,
+) -> Plan {
+    let named = scenario.vehicles.iter().zip(trajectories);
+    let objective = trajectories.iter().map(Iterate::flight_time_s).fold(0.0, f64::max);
+    let distributed_s = history.iter().map(|iteration| iteration.distributed_s).sum();
+    Plan {
+        schema: 1,
+        scenario: scenario.name.clone(),
+        planner: planner.to_string(),
+        seed,
+        status,
+        reason,
+        objective: Some(objective),
+        trajectories: named.map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate)).collect(),
+        history,
+        timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
+    }
+}
+
+fn trajectory(vehicle: &str, iterate: &Iterate) -> Trajectory {
+    Trajectory {
+        vehicle: vehicle.to_string(),
+        interpolation: Interpolation::FirstOrderHold,
+        times_s: (0..=iterate.intervals()).map(|k| k as f64 * iterate.dt_s).collect(),
+        states: iterate.states.iter().map(|&state| State::from_array(state.into())).collect(),
+        controls: iterate.controls.iter().map(|&control| Control::from_array(control.into())).collect(),
+    }
+}
+
+/// What the planner can say honestly: solved only if it has come to rest, the rows and its own equations hold, and its
+/// own constraints hold at the nodes.
+pub fn status(
+    scenario: &Scenario,
+    history: &[Iteration],
+    converged: bool,
+    limit: usize,
+) -> (PlanStatus, Option<String>) {
+    let Some(last) = history.last() else {
+        return (PlanStatus::NotConverged, Some("no iteration was allowed".to_string()));
+    };
+    let separation_m = scenario.fleet.separation_m.unwrap_or(0.0);
+    let too_close = last.separation_m.is_some_and(|distance| distance < separation_m);
+    let complaint = if !converged {
+        Some(format!("the trajectories still moved by {:.3} m after {limit} iterations", last.change_m))
+    } else if last.slack > SLACK_TOLERANCE {
+        Some(format!("constraints are violated by up to {:.2e} scaled units", last.slack))
+    } else if last.defect_m > DEFECT_TOLERANCE_M {
+        Some(format!("the equations of motion are violated by up to {:.3} m per interval", last.defect_m))
+    } else if too_close || last.clearance_m.is_some_and(|clearance| clearance < 0.0) {
+        Some("separation or clearance is violated at the nodes".to_string())
+    } else {
+        None
+    };
+    (if complaint.is_none() { PlanStatus::Solved } else { PlanStatus::NotConverged }, complaint)
+}
+
+/// Smallest horizontal distance between two vehicles at the nodes, m.
+pub fn node_separation_m(trajectories: &[&Iterate]) -> Option<f64> {
+    let pairs = trajectories.iter().enumerate().flat_map(|(i, a)| trajectories[..i].iter().map(move |b| (a, b)));
+    pairs
+        .flat_map(|(a, b)| (0..=a.intervals()).map(move |k| distance_m(a.position_m(k), b.position_m(k))))
+        .reduce(f64::min)
+}
+
+/// Smallest distance from a node to the surface of a cylinder, m.
+pub fn node_clearance_m(trajectories: &[&Iterate], cylinders: &[Cylinder]) -> Option<f64> {
+    let nodes = trajectories.iter().flat_map(|trajectory| trajectory.states.iter());
+    nodes
+        .flat_map(|state| cylinders.iter().map(|cylinder| cylinder.signed_distance_m(state[0], state[1])))
+        .reduce(f64::min)
+}
+
+fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}

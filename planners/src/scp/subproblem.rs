@@ -1,0 +1,111 @@
+//! One vehicle's subproblem P2 as an elastic programme, in scaled deviations from the last trajectory:
+//! w_k = ((s_k, u_k) - (sbar_k, ubar_k)) / units, θ = dt - dtbar.
+
+use scenarios::Range;
+use scenarios::fixed_wing::Limits;
+
+use super::dynamics::{Control, State};
+use super::iterate::Iterate;
+use super::options::Options;
+use super::scaling::{NODE, node_units, scaled_rows, scaled_state};
+use super::transcription;
+use crate::convex::{Link, Pin, Plane, Program, STAGE};
+
+/// What one vehicle has to know in one iteration, besides its last trajectory.
+pub struct Context<'a> {
+    /// Planner options.
+    pub options: &'a Options,
+    /// The vehicle's boundary states.
+    pub boundary: [State; 2],
+    /// Bounds of (s, u) at every node, SI.
+    pub bounds: [Range; STAGE],
+    /// Half-widths of the trust region now, in the units of the state.
+    pub trust_region: State,
+    /// Lower bound of dt, s (eq. 10).
+    pub dt_bound_s: f64,
+}
+
+/// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map, SI. Heading is
+/// free.
+pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE] {
+    let free = Range::new(f64::MIN, f64::MAX);
+    let altitude = Range::new(limits.altitude_m.min.max(map.z_m.min), limits.altitude_m.max.min(map.z_m.max));
+    let γ = limits.flight_path_deg.to_radians();
+    [map.x_m, map.y_m, altitude, limits.speed_mps, free, γ, limits.n_x, limits.n_y, limits.n_z]
+}
+
+/// Assembles the subproblem about `last` with the given avoidance rows (in any order).
+pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<Plane>) -> Program {
+    planes.sort_by_key(|plane| plane.stage);
+    let mut program = Program {
+        theta_cost: 1.0,
+        penalty: context.options.penalty,
+        links: links(context, last),
+        pins: pins(context, last),
+        planes,
+        box_lower: Vec::new(),
+        box_upper: Vec::new(),
+        soft_lower: Vec::new(),
+        soft_upper: Vec::new(),
+    };
+    for (state, control) in last.states.iter().zip(&last.controls) {
+        append_node_bounds(context, state, control, &mut program);
+    }
+    append_dt_bounds(context, last, &mut program);
+    program
+}
+
+/// The trajectory that a solution of the subproblem stands for.
+pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
+    let (nodes, _) = z.as_chunks::<STAGE>();
+    let states = last.states.iter().zip(nodes).map(|(s, w)| State::from_fn(|i, _| s[i] + w[i] * NODE[i]));
+    let controls = last.controls.iter().zip(nodes).map(|(u, w)| Control::from_fn(|i, _| u[i] + w[6 + i] * NODE[6 + i]));
+    Iterate { states: states.collect(), controls: controls.collect(), dt_s: last.dt_s + z[z.len() - 1] }
+}
+
+/// Dynamics rows, eq. 5 or the shooting conditions.
+fn links(context: &Context, last: &Iterate) -> Vec<Link> {
+    let linearised =
+        (0..last.intervals()).map(|k| transcription::linearise(context.options.transcription, &last.interval(k)));
+    linearised
+        .map(|defect| Link {
+            left: scaled_rows(&defect.by_node(0)),
+            right: scaled_rows(&defect.by_node(1)),
+            theta: scaled_state(&defect.by_dt),
+            rhs: -scaled_state(&defect.value),
+        })
+        .collect()
+}
+
+/// s[0] = s_0 and s[K] = s_f, eq. 6 and 7.
+fn pins(context: &Context, last: &Iterate) -> Vec<Pin> {
+    let ends = [(0, context.boundary[0]), (last.intervals(), context.boundary[1])];
+    let pins = ends.into_iter().flat_map(|(k, state)| {
+        let value = scaled_state(&(state - last.states[k]));
+        (0..6).map(move |i| Pin { index: STAGE * k + i, value: value[i] })
+    });
+    pins.collect()
+}
+
+/// Trust region of the state; a box that cannot bind for the control; bounds eq. 8 and 9.
+fn append_node_bounds(context: &Context, state: &State, control: &Control, program: &mut Program) {
+    let units = node_units();
+    for i in 0..STAGE {
+        let (value, bounds) = if i < 6 { (state[i], context.bounds[i]) } else { (control[i - 6], context.bounds[i]) };
+        let half = if i < 6 { context.trust_region[i] } else { 4.0 * bounds.width() };
+        program.box_lower.push(-half / units[i]);
+        program.box_upper.push(half / units[i]);
+        // an elastic bound beyond the box never binds: bring it near, to keep all numbers of one size
+        program.soft_lower.push((bounds.min - value).max(-2.0 * half) / units[i]);
+        program.soft_upper.push((bounds.max - value).min(2.0 * half) / units[i]);
+    }
+}
+
+/// dt within half of itself, and eq. 10 from below. The elastic upper bound lies outside the box: it never binds.
+fn append_dt_bounds(context: &Context, last: &Iterate, program: &mut Program) {
+    let half = 0.5 * last.dt_s;
+    program.box_lower.push(-half);
+    program.box_upper.push(half);
+    program.soft_lower.push(context.dt_bound_s - last.dt_s);
+    program.soft_upper.push(2.0 * half);
+}

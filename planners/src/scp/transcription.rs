@@ -1,0 +1,109 @@
+//! From differential equations to rows between neighbouring nodes.
+
+use nalgebra::SMatrix;
+use scenarios::Transcription;
+
+use super::dynamics::{Control, ControlJacobian, State, StateJacobian};
+use super::{shooting, trapezoid};
+
+/// One interval of a trajectory: its end nodes and its length.
+#[derive(Clone, Copy, Debug)]
+pub struct Interval {
+    /// States at the beginning and at the end.
+    pub states: [State; 2],
+    /// Controls at the beginning and at the end.
+    pub controls: [Control; 2],
+    /// Length dt, s.
+    pub dt_s: f64,
+}
+
+/// Defect of an interval and its derivatives. The defect is what is missing at the end: zero when the trajectory obeys
+/// the transcribed equations of motion.
+#[derive(Clone, Debug)]
+pub struct Defect {
+    /// The defect, in the units of the state.
+    pub value: State,
+    /// With respect to the two states.
+    pub by_states: [StateJacobian; 2],
+    /// With respect to the two controls.
+    pub by_controls: [ControlJacobian; 2],
+    /// With respect to dt, per second.
+    pub by_dt: State,
+}
+
+/// The defect alone.
+pub fn defect(transcription: Transcription, interval: &Interval) -> State {
+    match transcription {
+        Transcription::Trapezoid => trapezoid::defect(interval),
+        Transcription::Shooting => shooting::defect(interval),
+    }
+}
+
+/// The defect with its derivatives.
+pub fn linearise(transcription: Transcription, interval: &Interval) -> Defect {
+    match transcription {
+        Transcription::Trapezoid => trapezoid::linearise(interval),
+        Transcription::Shooting => shooting::linearise(interval),
+    }
+}
+
+impl Defect {
+    /// ∂(defect)/∂(s, u) at one end, 6 x 9.
+    pub fn by_node(&self, end: usize) -> SMatrix<f64, 6, 9> {
+        let mut jacobian = SMatrix::<f64, 6, 9>::zeros();
+        jacobian.fixed_columns_mut::<6>(0).copy_from(&self.by_states[end]);
+        jacobian.fixed_columns_mut::<3>(6).copy_from(&self.by_controls[end]);
+        jacobian
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn interval() -> Interval {
+        Interval {
+            states: [State::new(0.0, 0.0, 400.0, 34.0, 0.3, 0.02), State::new(190.0, 75.0, 405.0, 35.5, 0.45, -0.01)],
+            controls: [Control::new(0.05, 0.12, 1.01), Control::new(-0.08, -0.15, 0.97)],
+            dt_s: 5.8,
+        }
+    }
+
+    fn check(transcription: Transcription) {
+        let at = interval();
+        let exact = linearise(transcription, &at);
+        assert!((exact.value - defect(transcription, &at)).amax() < 1e-12);
+        let difference = |change: &dyn Fn(&mut Interval, f64)| {
+            let ε = 1e-5;
+            let (mut plus, mut minus) = (at, at);
+            change(&mut plus, ε);
+            change(&mut minus, -ε);
+            (defect(transcription, &plus) - defect(transcription, &minus)) / (2.0 * ε)
+        };
+        for end in 0..2 {
+            for j in 0..6 {
+                let column = difference(&|interval, ε| interval.states[end][j] += ε);
+                assert!((column - exact.by_states[end].column(j)).amax() < 1e-6, "{transcription:?} state {end} {j}");
+            }
+            for j in 0..3 {
+                let column = difference(&|interval, ε| interval.controls[end][j] += ε);
+                assert!(
+                    (column - exact.by_controls[end].column(j)).amax() < 1e-5,
+                    "{transcription:?} control {end} {j}"
+                );
+            }
+        }
+        let column = difference(&|interval, ε| interval.dt_s += ε);
+        assert!((column - exact.by_dt).amax() < 1e-6, "{transcription:?} dt");
+    }
+
+    #[test]
+    fn trapezoid_jacobians_agree_with_differences() {
+        check(Transcription::Trapezoid);
+    }
+
+    #[test]
+    fn shooting_jacobians_agree_with_differences() {
+        check(Transcription::Shooting);
+    }
+}

@@ -1,0 +1,146 @@
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// Why no list of scenario files could be made.
+#[derive(Debug, Error, Diagnostic)]
+pub enum FindError {
+    /// A path that is not there, or that may not be read.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(help("give a scenario file, or a folder with scenario files in it or below it"))]
+    Read {
+        /// The path.
+        path: PathBuf,
+        /// What the operating system says.
+        reason: std::io::Error,
+    },
+    /// A folder without any scenario.
+    #[error("{}: found no scenario file (*.toml) in this folder, nor below it", path.display())]
+    #[diagnostic(help("give a scenario file, or a folder with scenario files in it or below it"))]
+    Empty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Two files of one name, whose results would land in the same place.
+    #[error("two scenarios are named `{name}`: {} and {}", first.display(), second.display())]
+    #[diagnostic(help("rename one of the files, and its `name` with it"))]
+    SameName {
+        /// The name.
+        name: String,
+        /// One file.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+    },
+}
+
+/// All scenario files that `paths` stand for, sorted by folder and name, each once.
+///
+/// A file stands for itself, a folder for every `*.toml` in it and below it, except for `Cargo.toml` and for files and
+/// folders whose names begin with a dot.
+pub fn find(paths: &[impl AsRef<Path>]) -> Result<Vec<PathBuf>, FindError> {
+    let mut files = Vec::new();
+    for path in paths {
+        collect(path.as_ref(), &mut files)?;
+    }
+    files.sort_by(|a, b| (a.parent(), a.file_stem()).cmp(&(b.parent(), b.file_stem())));
+    let mut seen = BTreeSet::new();
+    files.retain(|file| seen.insert(file.canonicalize().unwrap_or_else(|_| file.clone())));
+    unique_names(&files)?;
+    Ok(files)
+}
+
+fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), FindError> {
+    let metadata = std::fs::metadata(path).map_err(|reason| FindError::Read { path: path.to_owned(), reason })?;
+    if !metadata.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    let before = files.len();
+    walk(path, files)?;
+    if files.len() == before { Err(FindError::Empty { path: path.to_owned() }) } else { Ok(()) }
+}
+
+fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), FindError> {
+    let unreadable = |reason| FindError::Read { path: folder.to_owned(), reason };
+    for entry in std::fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let path = entry.path();
+        if entry.file_name().to_string_lossy().starts_with('.') {
+            continue;
+        }
+        if entry.file_type().map_err(unreadable)?.is_dir() {
+            walk(&path, files)?;
+        } else if path.extension().is_some_and(|extension| extension == "toml") && !path.ends_with("Cargo.toml") {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn unique_names(files: &[PathBuf]) -> Result<(), FindError> {
+    let mut by_name = BTreeMap::new();
+    for file in files {
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if let Some(first) = by_name.insert(name.clone(), file) {
+            return Err(FindError::SameName { name, first: first.clone(), second: file.clone() });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::{FindError, find};
+
+    fn folder_with(files: &[&str]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for file in files {
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "").unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn folders_are_searched_to_the_bottom_and_files_are_sorted() {
+        let folder = folder_with(&["b/two.toml", "a/deep/one.toml", "Cargo.toml", "notes.md", ".hidden/no.toml"]);
+        let found = find(&[folder.path()]).unwrap();
+        let found: Vec<_> = found.iter().map(|file| file.strip_prefix(folder.path()).unwrap()).collect();
+        assert_eq!(found, [Path::new("a/deep/one.toml"), Path::new("b/two.toml")]);
+    }
+
+    #[test]
+    fn a_name_comes_before_the_longer_ones_that_begin_with_it() {
+        let folder = folder_with(&["fleet-7-wind.toml", "fleet-7.toml"]);
+        let found = find(&[folder.path()]).unwrap();
+        let names: Vec<_> = found.iter().map(|file| file.file_name().unwrap()).collect();
+        assert_eq!(names, ["fleet-7.toml", "fleet-7-wind.toml"]);
+    }
+
+    #[test]
+    fn a_file_that_is_named_twice_counts_once() {
+        let folder = folder_with(&["a/one.toml"]);
+        let paths = [folder.path().join("a/one.toml"), folder.path().to_owned(), folder.path().join("a/../a/one.toml")];
+        assert_eq!(find(&paths).unwrap().len(), 1);
+    }
+
+    #[test]
+    fn two_files_of_one_name_are_refused() {
+        let folder = folder_with(&["a/one.toml", "b/one.toml"]);
+        assert!(matches!(find(&[folder.path()]), Err(FindError::SameName { name, .. }) if name == "one"));
+    }
+
+    #[test]
+    fn nothing_found_is_an_error_that_names_the_path() {
+        let folder = folder_with(&["notes.md"]);
+        assert!(matches!(find(&[folder.path()]), Err(FindError::Empty { path }) if path == folder.path()));
+        let missing = folder.path().join("missing.toml");
+        assert!(matches!(find(&[&missing]), Err(FindError::Read { path, .. }) if path == missing));
+    }
+}

@@ -1,0 +1,118 @@
+//! The fixed-wing point mass: state, control, limits.
+//!
+//! Wang, Xu, Long (2020), eq. 2: state (x, y, h, V, χ, γ), control the load factors (n_x, n_y, n_z).
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::Range;
+
+/// Standard gravity as the papers use it, m/s².
+pub const GRAVITY_MPS2: f64 = 9.81;
+
+/// A fixed-wing aircraft as a point mass that is steered by load factors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Model {
+    /// Nominal mass, kg. Forces are computed with it, whatever the true mass is.
+    pub mass_kg: f64,
+    /// Radius of the sphere that encloses the airframe, for contacts, m.
+    pub body_radius_m: f64,
+    /// Physical limits, by which the flight is judged.
+    pub limits: Limits,
+    /// Limits inside the physical ones, to which a planner keeps, so that a tracker has authority left.
+    pub planning_limits: Limits,
+}
+
+/// Box limits of state and control. In the simulator speed means airspeed, and load factors act in the air frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Altitude, m.
+    pub altitude_m: Range,
+    /// Airspeed, m/s.
+    pub speed_mps: Range,
+    /// Flight-path angle, deg, inside (-90, 90).
+    pub flight_path_deg: Range,
+    /// Load factor along the velocity, -.
+    pub n_x: Range,
+    /// Horizontal load factor, perpendicular to the velocity, positive to the left, -.
+    pub n_y: Range,
+    /// Load factor perpendicular to the velocity in the vertical plane, positive up, -.
+    pub n_z: Range,
+}
+
+impl Limits {
+    /// Limits of (n_x, n_y, n_z).
+    pub fn controls(&self) -> [Range; 3] {
+        [self.n_x, self.n_y, self.n_z]
+    }
+}
+
+/// State s = (x, y, h, V, χ, γ).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// East, m.
+    pub x_m: f64,
+    /// North, m.
+    pub y_m: f64,
+    /// Altitude, m.
+    pub z_m: f64,
+    /// Speed V, m/s.
+    pub speed_mps: f64,
+    /// Heading χ, counterclockwise from x (east), rad; not wrapped, so that it is continuous along a trajectory.
+    pub heading_rad: f64,
+    /// Flight-path angle γ, rad.
+    pub flight_path_rad: f64,
+}
+
+impl State {
+    /// Position in the world frame, m.
+    pub fn position_m(&self) -> [f64; 3] {
+        [self.x_m, self.y_m, self.z_m]
+    }
+
+    /// Velocity in the world frame, m/s.
+    pub fn velocity_mps(&self) -> [f64; 3] {
+        let (sin_χ, cos_χ) = self.heading_rad.sin_cos();
+        let (sin_γ, cos_γ) = self.flight_path_rad.sin_cos();
+        let horizontal = self.speed_mps * cos_γ;
+        [horizontal * cos_χ, horizontal * sin_χ, self.speed_mps * sin_γ]
+    }
+
+    /// (x, y, h, V, χ, γ).
+    pub fn to_array(self) -> [f64; 6] {
+        [self.x_m, self.y_m, self.z_m, self.speed_mps, self.heading_rad, self.flight_path_rad]
+    }
+
+    /// From (x, y, h, V, χ, γ).
+    pub fn from_array([x_m, y_m, z_m, speed_mps, heading_rad, flight_path_rad]: [f64; 6]) -> Self {
+        Self { x_m, y_m, z_m, speed_mps, heading_rad, flight_path_rad }
+    }
+}
+
+/// Control u = (n_x, n_y, n_z): load factors along the velocity, horizontal, and vertical, -.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Control {
+    /// Along the velocity.
+    pub n_x: f64,
+    /// Horizontal, positive to the left.
+    pub n_y: f64,
+    /// Perpendicular to the velocity in the vertical plane, positive up.
+    pub n_z: f64,
+}
+
+impl Control {
+    /// Straight and level flight at constant speed.
+    pub const CRUISE: Self = Self { n_x: 0.0, n_y: 0.0, n_z: 1.0 };
+
+    /// (n_x, n_y, n_z).
+    pub fn to_array(self) -> [f64; 3] {
+        [self.n_x, self.n_y, self.n_z]
+    }
+
+    /// From (n_x, n_y, n_z).
+    pub fn from_array([n_x, n_y, n_z]: [f64; 3]) -> Self {
+        Self { n_x, n_y, n_z }
+    }
+}

@@ -1,0 +1,44 @@
+//! The question that a planner is asked, and the form of its answer.
+//!
+//! A [`Scenario`] holds the world, the vehicles, the fleet's rules, the disturbances and the limits that a verdict
+//! applies. A [`Plan`] is what a planner hands back. Nothing here knows how plans are made or flown.
+//!
+//! Frames and units: the world frame is ENU (x east, y north, z up, REP 103); SI and radians everywhere, except that
+//! scenario files give angles in degrees, in fields whose names say so.
+
+mod check_names;
+mod find;
+pub mod fixed_wing;
+mod fleet;
+mod load;
+mod nearest;
+mod plan;
+mod plan_file;
+mod planner_settings;
+mod problem;
+mod random;
+mod range;
+mod scenario;
+mod simulation;
+mod validate;
+mod vehicle;
+mod verdict_limits;
+mod world;
+
+pub use check_names::CHECK_NAMES;
+pub use find::{FindError, find};
+pub use fleet::FleetRules;
+pub use load::{Fault, Invalid, LoadError, Source, load, parse};
+pub use nearest::nearest;
+pub use plan::{Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Trajectory};
+pub use plan_file::CSV_COLUMNS;
+pub use planner_settings::{Convergence, PlannerSettings, Solver, Transcription, TrustRegion};
+pub use problem::Problem;
+pub use random::stream;
+pub use range::Range;
+pub use scenario::Scenario;
+pub use simulation::{Gusts, Mismatch, Sensors, Simulation, Tracker, Wind};
+pub use validate::validate;
+pub use vehicle::{Models, Vehicle, Waypoint};
+pub use verdict_limits::VerdictLimits;
+pub use world::{Cylinder, Map, World};

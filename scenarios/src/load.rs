@@ -1,0 +1,115 @@
+//! From the text of a file to a scenario that holds together, or to a list of everything that is wrong with it.
+
+mod error;
+mod finite;
+mod position;
+mod shape;
+
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
+
+pub use error::{Fault, Invalid, LoadError};
+
+use crate::{Problem, Scenario, validate};
+
+/// Reads and validates a scenario file.
+pub fn load(path: &Path) -> Result<Scenario, LoadError> {
+    Source::read(path)?.scenario()
+}
+
+/// Validates the text of a scenario file. `name` stands for the file in messages; its stem must be the scenario's name.
+pub fn parse(name: &str, text: &str) -> Result<Scenario, LoadError> {
+    Source::new(name, text).scenario()
+}
+
+/// The text of a scenario file, kept so that whoever finds fault with a field later can point to it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    name: String,
+    text: String,
+}
+
+impl Source {
+    /// A file with this name and this text.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Reads the file.
+    pub fn read(path: &Path) -> Result<Self, LoadError> {
+        let text = std::fs::read_to_string(path).map_err(|reason| LoadError::Read { path: path.to_owned(), reason })?;
+        Ok(Self::new(path.display().to_string(), text))
+    }
+
+    /// The scenario in this file. All faults of the file are reported together, as far as they can be told apart: a
+    /// text that is no TOML says nothing about fields, and without a field that must be there (or with one of the wrong
+    /// kind) there is no scenario yet whose values could be judged.
+    pub fn scenario(&self) -> Result<Scenario, LoadError> {
+        let tree = self.tree()?;
+        let mut faults = shape::faults(&Scenario::json_schema(), &tree);
+        let unknown_keys = faults.iter().filter(|(problem, _)| problem.found == shape::UNKNOWN_KEY);
+        let known = position::without(&tree, unknown_keys.map(|(problem, _)| problem.field.as_str()));
+        faults.extend(finite::faults(tree.get_ref()));
+        match Scenario::deserialize(Deserializer::from(known)) {
+            Ok(scenario) => {
+                let problems = self.name_problem(&scenario).into_iter().chain(validate(&scenario));
+                let fresh: Vec<Problem> = problems.filter(|problem| !is_reported(&problem.field, &faults)).collect();
+                faults.extend(fresh.into_iter().map(|problem| locate(tree.get_ref(), problem)));
+                if faults.is_empty() { Ok(scenario) } else { Err(self.invalid(faults)) }
+            }
+            Err(error) if faults.is_empty() => Err(self.invalid(vec![beyond_the_schema(&error)])),
+            Err(_) => Err(self.invalid(faults)),
+        }
+    }
+
+    /// An error that points to the fields of this file that `problems` are about.
+    pub fn error(&self, problems: Vec<Problem>) -> LoadError {
+        let located = |problem: Problem| match DeTable::parse(&self.text) {
+            Ok(tree) => locate(tree.get_ref(), problem),
+            Err(_) => (problem, 0..0),
+        };
+        self.invalid(problems.into_iter().map(located).collect())
+    }
+
+    fn tree(&self) -> Result<Spanned<DeTable<'_>>, LoadError> {
+        let (tree, errors) = DeTable::parse_recoverable(&self.text);
+        if errors.is_empty() { Ok(tree) } else { Err(self.invalid(errors.iter().map(syntax_fault).collect())) }
+    }
+
+    fn name_problem(&self, scenario: &Scenario) -> Option<Problem> {
+        let stem = Path::new(&self.name).file_stem()?.to_string_lossy().into_owned();
+        (scenario.name != stem).then(|| {
+            Problem::new("name", format!("\"{}\"", scenario.name), format!("\"{stem}\", as the file is named"))
+                .remedy("change the name, or rename the file")
+        })
+    }
+
+    fn invalid(&self, faults: Vec<(Problem, Range<usize>)>) -> LoadError {
+        Box::new(Invalid::new(&self.name, &self.text, faults)).into()
+    }
+}
+
+fn locate(tree: &DeTable<'_>, problem: Problem) -> (Problem, Range<usize>) {
+    let span = position::span_of_field(tree, &problem.field);
+    (problem, span)
+}
+
+fn syntax_fault(error: &toml::de::Error) -> (Problem, Range<usize>) {
+    let (found, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), "valid TOML"));
+    (Problem::new("TOML syntax", found, expected), error.span().unwrap_or(0..0))
+}
+
+/// The last word is serde's: should the schema let something through that the types refuse, it is reported as this.
+fn beyond_the_schema(error: &toml::de::Error) -> (Problem, Range<usize>) {
+    let problem = Problem::new("scenario", error.message(), "the form that `harness schema scenario` shows");
+    (problem, error.span().unwrap_or(0..0))
+}
+
+/// Is one of `faults` about `field`, about a part of it, or about what it is a part of?
+fn is_reported(field: &str, faults: &[(Problem, Range<usize>)]) -> bool {
+    faults.iter().any(|(known, _)| known.field.starts_with(field) || field.starts_with(&known.field))
+}

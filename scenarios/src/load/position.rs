@@ -1,0 +1,105 @@
+//! Where a field stands in the text.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Bytes of the text that hold the value of `field`, a path as `vehicles[3].start.x_m`.
+///
+/// A table's span is its header. If the field is not in the file, or only a part of its path is, the span is that of
+/// the last part that is there; of the root, the beginning of the file.
+pub(super) fn span_of_field(root: &DeTable<'_>, field: &str) -> Range<usize> {
+    let mut steps = steps(field).into_iter();
+    let Some(mut value) = steps.next().and_then(|key| root.get(key)) else { return 0..0 };
+    for step in steps {
+        match child(value, step) {
+            Some(next) => value = next,
+            None => break,
+        }
+    }
+    value.span()
+}
+
+/// `vehicles[3].start.x_m` as `vehicles`, `3`, `start`, `x_m`.
+fn steps(field: &str) -> Vec<&str> {
+    field.split(['.', '[', ']']).filter(|step| !step.is_empty()).collect()
+}
+
+fn child<'t, 'i>(value: &'t Spanned<DeValue<'i>>, step: &str) -> Option<&'t Spanned<DeValue<'i>>> {
+    match value.get_ref() {
+        DeValue::Table(table) => table.get(step),
+        DeValue::Array(array) => array.get(step.parse::<usize>().ok()?),
+        _ => None,
+    }
+}
+
+/// The document without the keys that `fields` lead to.
+pub(super) fn without<'i, 'f>(
+    root: &Spanned<DeTable<'i>>,
+    fields: impl Iterator<Item = &'f str>,
+) -> Spanned<DeTable<'i>> {
+    let mut root = root.clone();
+    for field in fields {
+        let steps = steps(field);
+        if let Some((key, parents)) = steps.split_last() {
+            remove(root.get_mut(), parents, key);
+        }
+    }
+    root
+}
+
+fn remove(root: &mut DeTable<'_>, parents: &[&str], key: &str) {
+    let Some((first, rest)) = parents.split_first() else {
+        root.remove(key);
+        return;
+    };
+    let parent = root.get_mut(*first).and_then(|top| rest.iter().try_fold(top, |value, step| child_mut(value, step)));
+    if let Some(parent) = parent
+        && let DeValue::Table(table) = parent.get_mut()
+    {
+        table.remove(key);
+    }
+}
+
+fn child_mut<'t, 'i>(value: &'t mut Spanned<DeValue<'i>>, step: &str) -> Option<&'t mut Spanned<DeValue<'i>>> {
+    match value.get_mut() {
+        DeValue::Table(table) => table.get_mut(step),
+        DeValue::Array(array) => array.get_mut(step.parse::<usize>().ok()?),
+        _ => None,
+    }
+}
+
+/// Line and column of a byte of the text, both from 1; columns count characters.
+pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(offset)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use toml::de::DeTable;
+
+    use super::{line_and_column, span_of_field};
+
+    const TEXT: &str = "a = \"α\" # β\n[[b]]\nc = { d = [1, 22] }\n[[b]]\n";
+
+    #[test]
+    fn fields_are_found_by_their_paths() {
+        let tree = DeTable::parse(TEXT).unwrap();
+        let found = |field| &TEXT[span_of_field(tree.get_ref(), field)];
+        assert_eq!(found("b[0].c.d[1]"), "22");
+        assert_eq!(found("b[0].c"), "{ d = [1, 22] }");
+        assert_eq!(found("b[1].missing.too"), "[[b]]");
+        assert_eq!(found("missing"), "");
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(line_and_column(TEXT, 0), (1, 1));
+        assert_eq!(line_and_column(TEXT, TEXT.find('β').unwrap()), (1, 11));
+        assert_eq!(line_and_column(TEXT, TEXT.find("c =").unwrap()), (3, 1));
+        assert_eq!(line_and_column(TEXT, TEXT.len() + 7), (5, 1));
+    }
+}

@@ -1,0 +1,183 @@
+//! Has the document the shape of a scenario: no unknown key, none missing, every value of the right kind?
+//!
+//! The document is held against the JSON Schema that is generated from the scenario's own types, so that everything
+//! that is wrong is found in one go, with its place in the text and the field's documentation. (Deserialisation would
+//! stop at the first fault, and take `[1, 2, 3]` for a pair.)
+
+use std::ops::Range;
+
+use serde_json::{Map, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::{Problem, nearest};
+
+/// What is found where a key stands that means nothing.
+pub(super) const UNKNOWN_KEY: &str = "an unknown key";
+
+/// Everything in `root` that differs from `schema`, with the bytes of the text where it stands.
+pub(super) fn faults(schema: &Value, root: &Spanned<DeTable<'_>>) -> Vec<(Problem, Range<usize>)> {
+    let mut check = Check { definitions: &schema["$defs"], faults: Vec::new() };
+    check.table(schema, root.get_ref(), &root.span(), "");
+    check.faults
+}
+
+struct Check<'s> {
+    definitions: &'s Value,
+    faults: Vec<(Problem, Range<usize>)>,
+}
+
+impl<'s> Check<'s> {
+    /// The schema that `schema` points to, or that it allows beside `null` (TOML has no null).
+    fn resolve(&self, schema: &'s Value) -> &'s Value {
+        if let Some(reference) = schema["$ref"].as_str() {
+            return self.resolve(&self.definitions[reference.trim_start_matches("#/$defs/")]);
+        }
+        match schema["anyOf"].as_array().and_then(|schemas| schemas.iter().find(|schema| schema["type"] != "null")) {
+            Some(inner) => self.resolve(inner),
+            None => schema,
+        }
+    }
+
+    fn value(&mut self, schema: &'s Value, value: &Spanned<DeValue<'_>>, field: &str) {
+        let schema = self.resolve(schema);
+        match (kind(schema), value.get_ref()) {
+            ("object", DeValue::Table(table)) => self.table(schema, table, &value.span(), field),
+            ("array", DeValue::Array(array)) => self.array(schema, array, &value.span(), field),
+            ("string", DeValue::String(text)) => self.choice(schema, text, &value.span(), field),
+            ("integer", DeValue::Integer(integer)) => self.integer(schema, integer.as_str(), &value.span(), field),
+            ("number", DeValue::Integer(_) | DeValue::Float(_)) | ("boolean", DeValue::Boolean(_)) => {}
+            _ => self.fault(field, describe(value.get_ref()), expectation(schema), &value.span(), String::new()),
+        }
+    }
+
+    fn table(&mut self, schema: &'s Value, table: &DeTable<'_>, span: &Range<usize>, field: &str) {
+        let no_properties = Map::new();
+        let properties = schema["properties"].as_object().unwrap_or(&no_properties);
+        for (key, value) in table {
+            let inner = join(field, key.get_ref());
+            match schema["properties"].get(key.get_ref().as_ref()) {
+                Some(property) => self.value(property, value, &inner),
+                None if schema["additionalProperties"].is_object() => {
+                    self.value(&schema["additionalProperties"], value, &inner);
+                }
+                None => self.unknown_key(properties, table, key.get_ref(), &key.span(), &inner),
+            }
+        }
+        let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        for key in required.filter(|key| !table.contains_key(*key) && !is_misspelt(key, table, properties)) {
+            let expected = expectation(self.resolve(&schema["properties"][key]));
+            let remedy = format!("add `{key}`: {}", documentation(&schema["properties"][key]));
+            self.fault(&join(field, key), "nothing".into(), expected, span, remedy);
+        }
+    }
+
+    fn array(&mut self, schema: &'s Value, array: &[Spanned<DeValue<'_>>], span: &Range<usize>, field: &str) {
+        let fewest = schema["minItems"].as_u64().unwrap_or(0);
+        let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
+        if !(fewest..=most).contains(&(array.len() as u64)) {
+            self.fault(field, format!("{} values", array.len()), expectation(schema), span, String::new());
+        }
+        for (index, value) in array.iter().enumerate() {
+            self.value(&schema["items"], value, &format!("{field}[{index}]"));
+        }
+    }
+
+    fn choice(&mut self, schema: &Value, text: &str, span: &Range<usize>, field: &str) {
+        let choices = choices(schema);
+        if !choices.is_empty() && !choices.contains(&text) {
+            let remedy =
+                nearest(text, choices).map_or_else(String::new, |choice| format!("did you mean \"{choice}\"?"));
+            self.fault(field, format!("\"{text}\""), expectation(schema), span, remedy);
+        }
+    }
+
+    fn integer(&mut self, schema: &Value, digits: &str, span: &Range<usize>, field: &str) {
+        if schema["minimum"] == 0 && digits.starts_with('-') {
+            self.fault(field, digits.to_owned(), expectation(schema), span, String::new());
+        }
+    }
+
+    fn unknown_key(
+        &mut self,
+        properties: &Map<String, Value>,
+        table: &DeTable<'_>,
+        key: &str,
+        span: &Range<usize>,
+        field: &str,
+    ) {
+        let free: Vec<&str> = properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name)).collect();
+        let remedy = match nearest(key, free.iter().copied()) {
+            Some(name) => format!("did you mean `{name}`: {}", documentation(&properties[name])),
+            None => "remove it; keys that mean nothing are refused, so that a misspelt one is never overlooked".into(),
+        };
+        let expected = match free.as_slice() {
+            [] => "no further key here".into(),
+            names => format!("one of the keys {}", names.join(", ")),
+        };
+        self.fault(field, UNKNOWN_KEY.into(), expected, span, remedy);
+    }
+
+    fn fault(&mut self, field: &str, found: String, expected: String, span: &Range<usize>, remedy: String) {
+        self.faults.push((Problem::new(field, found, expected).remedy(remedy), span.clone()));
+    }
+}
+
+/// Is `key` absent because a key of `table` that means nothing was meant to be it? Then one fault says it all.
+fn is_misspelt(key: &str, table: &DeTable<'_>, properties: &Map<String, Value>) -> bool {
+    let free = || properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name));
+    let unknown = table.keys().filter(|written| !properties.contains_key(written.get_ref().as_ref()));
+    unknown.into_iter().any(|written| nearest(written.get_ref(), free()) == Some(key))
+}
+
+fn join(field: &str, key: &str) -> String {
+    if field.is_empty() { key.to_owned() } else { format!("{field}.{key}") }
+}
+
+/// `object`, `array`, `string`, `number`, `integer` or `boolean`.
+fn kind(schema: &Value) -> &str {
+    match &schema["type"] {
+        Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).find(|kind| *kind != "null").unwrap_or(""),
+        kind => kind.as_str().unwrap_or(if schema["oneOf"].is_array() { "string" } else { "" }),
+    }
+}
+
+fn choices(schema: &Value) -> Vec<&str> {
+    let documented = schema["oneOf"].as_array().into_iter().flatten().map(|choice| &choice["const"]);
+    let plain = schema["enum"].as_array().into_iter().flatten();
+    documented.chain(plain).filter_map(Value::as_str).collect()
+}
+
+/// What the schema asks for, in words.
+fn expectation(schema: &Value) -> String {
+    match kind(schema) {
+        "object" => "a table".into(),
+        "array" => match (schema["minItems"].as_u64(), kind(&schema["items"])) {
+            (Some(length), "number") => format!("{length} numbers in brackets"),
+            _ => "an array".into(),
+        },
+        "string" if choices(schema).is_empty() => "text in quotes".into(),
+        "string" => choices(schema).iter().map(|choice| format!("\"{choice}\"")).collect::<Vec<_>>().join(" or "),
+        "integer" if schema["minimum"] == 0 => "a whole number, 0 or more".into(),
+        "integer" => "a whole number".into(),
+        "boolean" => "true or false".into(),
+        _ => "a number".into(),
+    }
+}
+
+/// The field's documentation on one line.
+fn documentation(schema: &Value) -> String {
+    schema["description"].as_str().unwrap_or_default().replace('\n', " ")
+}
+
+fn describe(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the text \"{text}\""),
+        DeValue::Integer(integer) => format!("the whole number {}", integer.as_str()),
+        DeValue::Float(float) => format!("the number {}", float.as_str()),
+        DeValue::Boolean(boolean) => boolean.to_string(),
+        DeValue::Datetime(_) => "a date".into(),
+        DeValue::Array(_) => "an array".into(),
+        DeValue::Table(_) => "a table".into(),
+    }
+}

@@ -1,0 +1,57 @@
+/// The candidate that `word` was probably meant to be: the one with the fewest edits (insertions, deletions,
+/// substitutions), if a third of the longer word or less has to change. A unit that is missing or too much (`mass` for
+/// `mass_kg`) counts as one edit.
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    candidates
+        .into_iter()
+        .map(|candidate| (edits(word, candidate), candidate))
+        .filter(|(edits, candidate)| 3 * edits <= word.chars().count().max(candidate.chars().count()))
+        .min_by_key(|(edits, _)| *edits)
+        .map(|(_, candidate)| candidate)
+}
+
+fn edits(word: &str, candidate: &str) -> usize {
+    let differs_by_unit = |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.starts_with('_'));
+    if differs_by_unit(word, candidate) || differs_by_unit(candidate, word) {
+        1
+    } else {
+        edit_distance(word, candidate)
+    }
+}
+
+/// Levenshtein distance, one row of the table at a time.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{edit_distance, nearest};
+
+    #[test]
+    fn edit_distances_of_the_textbook() {
+        assert_eq!(edit_distance("kitten", "sitting"), 3);
+        assert_eq!(edit_distance("", "abc"), 3);
+        assert_eq!(edit_distance("speed_mps", "speed_mps"), 0);
+    }
+
+    #[test]
+    fn a_typo_finds_its_word_and_nonsense_finds_none() {
+        let keys = ["margin_m", "max_iterations", "name"];
+        assert_eq!(nearest("margins_m", keys), Some("margin_m"));
+        assert_eq!(nearest("margin", keys), Some("margin_m"));
+        assert_eq!(nearest("nam", keys), Some("name"));
+        assert_eq!(nearest("colour", keys), None);
+    }
+}

@@ -1,0 +1,90 @@
+//! The two forms in which a plan is written: JSON, which holds all of it, and CSV, which any program can read.
+
+use std::io::{self, Write};
+
+use crate::{Plan, Trajectory};
+
+/// Columns of a fixed-wing plan: time, state and control, one row per vehicle and node. World frame, SI, radians.
+pub const CSV_COLUMNS: [&str; 11] =
+    ["vehicle", "t_s", "x_m", "y_m", "z_m", "speed_mps", "heading_rad", "flight_path_rad", "n_x", "n_y", "n_z"];
+
+impl Plan {
+    /// Writes the whole plan as JSON, indented. Numbers read back as they were, to the last bit; JSON has no NaN and no
+    /// infinity, so these are written as `null`.
+    pub fn write_json(&self, mut writer: impl Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut writer, self)?;
+        writer.write_all(b"\n")
+    }
+
+    /// Writes the trajectories as CSV, with [`CSV_COLUMNS`] as the first line. Numbers read back as they were, to the
+    /// last bit. Between the rows controls run linearly in time (first-order hold).
+    pub fn write_csv(&self, mut writer: impl Write) -> io::Result<()> {
+        writeln!(writer, "{}", CSV_COLUMNS.join(","))?;
+        self.trajectories.iter().try_for_each(|trajectory| write_rows(trajectory, &mut writer))
+    }
+}
+
+fn write_rows(trajectory: &Trajectory, writer: &mut impl Write) -> io::Result<()> {
+    let nodes = trajectory.times_s.iter().zip(&trajectory.states).zip(&trajectory.controls);
+    for ((t_s, state), control) in nodes {
+        write!(writer, "{},{t_s:?}", trajectory.vehicle)?;
+        for value in state.to_array().into_iter().chain(control.to_array()) {
+            write!(writer, ",{value:?}")?;
+        }
+        writeln!(writer)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CSV_COLUMNS;
+    use crate::fixed_wing::{Control, State};
+    use crate::{Interpolation, Plan, PlanStatus, PlanTimings, Trajectory};
+
+    /// Numbers that a format with a fixed number of digits would not bring back.
+    const NODE: [f64; 10] = [0.1 + 0.2, -1.0 / 3.0, 1e-300, 4e22, 35.0, -0.0, f64::EPSILON, 1e-7, 123456789.123, 1.0];
+
+    fn plan() -> Plan {
+        let trajectory = Trajectory {
+            vehicle: "uav-1".into(),
+            interpolation: Interpolation::FirstOrderHold,
+            times_s: vec![0.0, NODE[0]],
+            states: vec![State::from_array([0.0; 6]), State::from_array(std::array::from_fn(|i| NODE[i + 1]))],
+            controls: vec![Control::CRUISE, Control::from_array(std::array::from_fn(|i| NODE[i + 7]))],
+        };
+        Plan {
+            schema: 1,
+            scenario: "pair".into(),
+            planner: "by-hand".into(),
+            seed: 7,
+            status: PlanStatus::NotConverged,
+            reason: Some("made by hand".into()),
+            objective: None,
+            trajectories: vec![trajectory],
+            history: Vec::new(),
+            timings: PlanTimings::default(),
+        }
+    }
+
+    #[test]
+    fn csv_numbers_read_back_to_the_last_bit() {
+        let mut csv = Vec::new();
+        plan().write_csv(&mut csv).unwrap();
+        let csv = String::from_utf8(csv).unwrap();
+        let lines: Vec<&str> = csv.lines().collect();
+        assert_eq!(lines[0], "vehicle,t_s,x_m,y_m,z_m,speed_mps,heading_rad,flight_path_rad,n_x,n_y,n_z");
+        assert_eq!(lines.len(), 3);
+        let cells: Vec<&str> = lines[2].split(',').collect();
+        assert_eq!((cells.len(), cells[0]), (CSV_COLUMNS.len(), "uav-1"));
+        let bits: Vec<u64> = cells[1..].iter().map(|cell| cell.parse::<f64>().unwrap().to_bits()).collect();
+        assert_eq!(bits, NODE.map(f64::to_bits));
+    }
+
+    #[test]
+    fn json_reads_back_as_the_same_plan() {
+        let mut json = Vec::new();
+        plan().write_json(&mut json).unwrap();
+        assert_eq!(serde_json::from_slice::<Plan>(&json).unwrap(), plan());
+    }
+}

@@ -1,0 +1,93 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which planner answers, and its options. An option that is absent takes the planner's own default, in most cases the
+/// value of its paper (`harness list` shows the planners).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlannerSettings {
+    /// Name of the planner.
+    pub name: String,
+    /// How the equations of motion become rows of the subproblem.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transcription: Option<Transcription>,
+    /// Who solves the convex subproblems.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solver: Option<Solver>,
+    /// Number of intervals K between the nodes, from 2 to 1000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intervals: Option<usize>,
+    /// Distance that the planner keeps beyond the separation and beyond every obstacle's surface, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin_m: Option<f64>,
+    /// Weight μ of the exact penalty on violated rows: seconds of step length per scaled unit of violation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penalty: Option<f64>,
+    /// Share by which the fleet's common lower bound of the flight time falls whenever all vehicles sit on it, in
+    /// [0, 1). Zero is the paper's rule, by which the bound never falls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_bound_release: Option<f64>,
+    /// Most iterations of the sequential convex programme.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_iterations: Option<usize>,
+    /// How far one iteration may move each state.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trust_region: Option<TrustRegion>,
+    /// When the sequence has converged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub convergence: Option<Convergence>,
+}
+
+/// Transcription of the equations of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Transcription {
+    /// Trapezoid rule over each interval (Wang, Xu, Long 2020, eq. 5).
+    Trapezoid,
+    /// Multiple shooting: the flow of the equations under first-order-hold controls.
+    Shooting,
+}
+
+/// Solver of the convex subproblems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// The customised interior-point method on the block structure.
+    Block,
+    /// Clarabel, a general interior-point method: the baseline.
+    Clarabel,
+}
+
+/// Half-widths ρ of the trust region, and how they shrink.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TrustRegion {
+    /// x and y, m.
+    pub position_m: f64,
+    /// Altitude, m.
+    pub altitude_m: f64,
+    /// Speed, m/s.
+    pub speed_mps: f64,
+    /// Heading, deg.
+    pub heading_deg: f64,
+    /// Flight-path angle, deg.
+    pub flight_path_deg: f64,
+    /// Factor on all of them after each iteration, in (0, 1].
+    pub shrink: f64,
+}
+
+/// Largest change of any state between two iterations for which the sequence counts as converged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Convergence {
+    /// x and y, m.
+    pub position_m: f64,
+    /// Altitude, m.
+    pub altitude_m: f64,
+    /// Speed, m/s.
+    pub speed_mps: f64,
+    /// Heading, deg.
+    pub heading_deg: f64,
+    /// Flight-path angle, deg.
+    pub flight_path_deg: f64,
+}

@@ -1,0 +1,50 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{FleetRules, Models, PlannerSettings, Simulation, Vehicle, VerdictLimits, World};
+
+/// One scenario: everything a planner, the simulator and the judge need to know. One TOML file holds one scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Name of the scenario: the same as its file's name without `.toml`, unique over all families. Lower case letters,
+    /// digits and `-`.
+    pub name: String,
+    /// What is hard about it, in a sentence or two; shown by `harness list` and in the recording.
+    pub description: String,
+    /// Free words to select scenarios by.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tags: Vec<String>,
+    /// The map and what stands on it.
+    pub world: World,
+    /// Vehicle models: dynamics and limits, by kind and name.
+    pub models: Models,
+    /// The vehicles: which model, from where, to where.
+    pub vehicles: Vec<Vehicle>,
+    /// What the vehicles owe to each other.
+    #[serde(default)]
+    pub fleet: FleetRules,
+    /// The planner that answers, unless the command line names another, and its options.
+    pub planner: PlannerSettings,
+    /// How the plan is flown.
+    #[serde(default)]
+    pub simulation: Simulation,
+    /// The limits that the verdict applies.
+    #[serde(default)]
+    pub verdict: VerdictLimits,
+}
+
+impl Scenario {
+    /// The fixed-wing model of a vehicle. Panics if there is none: validation has seen to that.
+    pub fn fixed_wing_model(&self, vehicle: &Vehicle) -> &crate::fixed_wing::Model {
+        &self.models.fixed_wing[&vehicle.model]
+    }
+}
+
+/// JSON Schema (draft 2020-12) of a scenario file, generated from these very types.
+impl Scenario {
+    /// The schema as a JSON value, the same on every call.
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(Self).into()
+    }
+}

@@ -1,0 +1,103 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a plan is flown. Everything that disturbs a flight is off unless it is named.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Simulation {
+    /// Step of the simulator, s.
+    pub step_s: f64,
+    /// Seed of everything random in planning and flight.
+    pub seed: u64,
+    /// A plan that takes longer than this is not flown to its end, s.
+    pub max_duration_s: f64,
+    /// Straight flight beyond the end of the plan, so that a late arrival can be seen, s.
+    pub coast_s: f64,
+    /// Gains of the tracking controller.
+    pub tracker: Tracker,
+    /// Moving air.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind: Option<Wind>,
+    /// What the tracker's sensors add to the truth.
+    pub sensors: Sensors,
+    /// How the true vehicle differs from its model.
+    pub mismatch: Mismatch,
+}
+
+impl Default for Simulation {
+    fn default() -> Self {
+        Self {
+            step_s: 0.01,
+            seed: 0,
+            max_duration_s: 600.0,
+            coast_s: 2.0,
+            tracker: Tracker::default(),
+            wind: None,
+            sensors: Sensors::default(),
+            mismatch: Mismatch::default(),
+        }
+    }
+}
+
+/// Tracking controller: the plan's load factors plus feedback on position and velocity,
+/// a = ω² (p_ref - p) + 2 ζ ω (v_ref - v).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tracker {
+    /// Natural frequency ω of the position error, rad/s.
+    pub natural_frequency_radps: f64,
+    /// Damping ratio ζ of the position error, -.
+    pub damping_ratio: f64,
+}
+
+impl Default for Tracker {
+    fn default() -> Self {
+        Self { natural_frequency_radps: 0.8, damping_ratio: 1.0 }
+    }
+}
+
+/// The motion of the air, the same for all vehicles, plus gusts that each vehicle meets on its own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wind {
+    /// Constant part: velocity of the air in the world frame (towards east, north, up), m/s.
+    pub mean_mps: [f64; 3],
+    /// Continuous gusts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gusts: Option<Gusts>,
+}
+
+/// Dryden gusts (MIL-F-8785C): the low-altitude form below 1000 ft, interpolated between 1000 ft and 2000 ft.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gusts {
+    /// Mean wind speed W20 at 20 ft (6.1 m) above ground, m/s; sets the intensity below 1000 ft. The standard calls
+    /// 15 kt (7.7 m/s) light, 30 kt moderate, 45 kt severe.
+    pub wind_at_20ft_mps: f64,
+    /// Intensity σ of all three components at 2000 ft and above, m/s.
+    pub sigma_aloft_mps: f64,
+}
+
+/// Standard deviations of the white noise on what the tracker measures, per axis. Zero: the truth.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sensors {
+    /// Position, m.
+    pub position_noise_m: f64,
+    /// Velocity over ground, m/s.
+    pub velocity_noise_mps: f64,
+}
+
+/// Difference between the model that plans and the vehicle that flies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Mismatch {
+    /// True mass over nominal mass, -. Forces stay those of the nominal mass.
+    pub mass_ratio: f64,
+}
+
+impl Default for Mismatch {
+    fn default() -> Self {
+        Self { mass_ratio: 1.0 }
+    }
+}

@@ -1,0 +1,36 @@
+//! Names end up in paths, tables and CSV files, so they are plain words.
+
+use crate::Problem;
+
+/// A scenario's name: lower case letters, digits and `-`.
+pub(super) fn scenario_name(name: &str) -> Option<Problem> {
+    let is_allowed = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    well_formed("name", name, is_allowed, "lower case letters, digits and `-`, a letter or a digit first")
+}
+
+/// The name of a vehicle, an obstacle or a model: letters, digits, `-` and `_`.
+pub(super) fn entity_name(field: &str, name: &str) -> Option<Problem> {
+    let is_allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    well_formed(field, name, is_allowed, "letters, digits, `-` and `_`, a letter or a digit first")
+}
+
+fn well_formed(field: &str, name: &str, is_allowed: impl Fn(char) -> bool, expected: &str) -> Option<Problem> {
+    let is_good = name.starts_with(|c: char| c.is_ascii_alphanumeric()) && name.chars().all(is_allowed);
+    (!is_good).then(|| Problem::new(field, format!("\"{name}\""), expected))
+}
+
+/// Problems with a list of things that need names of their own: `list[i].name`.
+pub(super) fn entity_names<'n>(list: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    let mut seen: Vec<&str> = Vec::new();
+    for (index, name) in names.into_iter().enumerate() {
+        let field = format!("{list}[{index}].name");
+        problems.extend(entity_name(&field, name));
+        if let Some(first) = seen.iter().position(|other| *other == name) {
+            let expected = format!("a name of its own; {list}[{first}] has this one already");
+            problems.push(Problem::new(field, format!("\"{name}\""), expected).remedy("rename one of the two"));
+        }
+        seen.push(name);
+    }
+    problems
+}

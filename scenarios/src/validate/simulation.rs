@@ -1,0 +1,31 @@
+//! The simulation: step, duration, tracker, and disturbances.
+
+use super::quantity::{above_up_to, not_negative, positive};
+use crate::{Gusts, Problem, Simulation};
+
+/// Longest step that the simulator takes, s.
+const LONGEST_STEP_S: f64 = 0.1;
+
+pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
+    let tracker = &simulation.tracker;
+    let rules = [
+        above_up_to("simulation.step_s", simulation.step_s, 0.0, LONGEST_STEP_S),
+        positive("simulation.max_duration_s", simulation.max_duration_s),
+        not_negative("simulation.coast_s", simulation.coast_s),
+        positive("simulation.tracker.natural_frequency_radps", tracker.natural_frequency_radps),
+        positive("simulation.tracker.damping_ratio", tracker.damping_ratio),
+        not_negative("simulation.sensors.position_noise_m", simulation.sensors.position_noise_m),
+        not_negative("simulation.sensors.velocity_noise_mps", simulation.sensors.velocity_noise_mps),
+        positive("simulation.mismatch.mass_ratio", simulation.mismatch.mass_ratio),
+    ];
+    let gusts = simulation.wind.iter().flat_map(|wind| &wind.gusts).flat_map(gusts);
+    rules.into_iter().flatten().chain(gusts).collect()
+}
+
+fn gusts(gusts: &Gusts) -> Vec<Problem> {
+    let rules = [
+        not_negative("simulation.wind.gusts.wind_at_20ft_mps", gusts.wind_at_20ft_mps),
+        not_negative("simulation.wind.gusts.sigma_aloft_mps", gusts.sigma_aloft_mps),
+    ];
+    rules.into_iter().flatten().collect()
+}

@@ -1,0 +1,36 @@
+//! The limits of the verdict, and the checks that it names.
+
+use super::quantity::positive;
+use crate::{CHECK_NAMES, Problem, VerdictLimits, nearest};
+
+pub(super) fn problems(limits: &VerdictLimits) -> Vec<Problem> {
+    let rules = [
+        positive("verdict.tracking_max_m", limits.tracking_max_m),
+        positive("verdict.tracking_rms_m", limits.tracking_rms_m),
+        positive("verdict.arrival_spread_s", limits.arrival_spread_s),
+        positive("verdict.goal_m", limits.goal_m),
+        positive("verdict.dynamics_m", limits.dynamics_m),
+        positive("verdict.rollout_m", limits.rollout_m),
+        share("verdict.saturation", limits.saturation),
+    ];
+    let names = unknown_checks("verdict.advisory", &limits.advisory);
+    rules.into_iter().flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
+}
+
+fn share(field: &str, value: f64) -> Option<Problem> {
+    (!(0.0..=1.0).contains(&value)).then(|| Problem::new(field, value.to_string(), "a share from 0 to 1"))
+}
+
+fn unknown_checks(field: &str, names: &[String]) -> Vec<Problem> {
+    let is_unknown = |(_, name): &(usize, &String)| !CHECK_NAMES.contains(&name.as_str());
+    names.iter().enumerate().filter(is_unknown).map(|(index, name)| unknown_check(field, index, name)).collect()
+}
+
+fn unknown_check(field: &str, index: usize, name: &str) -> Problem {
+    let remedy = match nearest(name, CHECK_NAMES.iter().copied()) {
+        Some(known) => format!("did you mean \"{known}\"?"),
+        None => format!("the checks are {}", CHECK_NAMES.join(", ")),
+    };
+    let expected = "the full name of a check, as \"flight.separation\"";
+    Problem::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)
+}

@@ -1,0 +1,51 @@
+//! The motion of the air around one vehicle: a constant mean and continuous gusts.
+
+mod dryden;
+mod turbulence;
+
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+
+use turbulence::Turbulence;
+
+/// The air around one vehicle.
+#[derive(Clone, Debug)]
+pub(crate) struct Air {
+    mean_mps: Vector3<f64>,
+    turbulence: Option<Turbulence>,
+}
+
+impl Air {
+    /// Still air without settings; the gusts begin in their stationary distribution.
+    pub fn new(settings: Option<&scenarios::Wind>, rng: ChaCha8Rng) -> Self {
+        Self {
+            mean_mps: settings.map_or_else(Vector3::zeros, |wind| wind.mean_mps.into()),
+            turbulence: settings.and_then(|wind| wind.gusts.as_ref()).map(|gusts| Turbulence::new(gusts, rng)),
+        }
+    }
+
+    /// Velocity of the air now, world frame, m/s, around a vehicle at an altitude (m above z = 0) with a velocity over
+    /// ground (m/s).
+    pub fn velocity_mps(&self, altitude_m: f64, vehicle_mps: &Vector3<f64>) -> Vector3<f64> {
+        match &self.turbulence {
+            Some(turbulence) => self.mean_mps + self.along(vehicle_mps) * turbulence.gust_mps(altitude_m),
+            None => self.mean_mps,
+        }
+    }
+
+    /// Lets `step_s` pass for a vehicle that flies through the air at an airspeed, m/s.
+    pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) {
+        if let Some(turbulence) = &mut self.turbulence {
+            turbulence.advance(step_s, altitude_m, airspeed_mps);
+        }
+    }
+
+    /// World from gust axes: u along the horizontal mean wind (without one, along the vehicle's horizontal velocity),
+    /// v to the left of it, w up.
+    fn along(&self, vehicle_mps: &Vector3<f64>) -> nalgebra::Matrix3<f64> {
+        let along = if self.mean_mps.xy().norm() > 0.0 { self.mean_mps } else { vehicle_mps - self.mean_mps };
+        let horizontal = Vector3::new(along.x, along.y, 0.0);
+        let u = horizontal.try_normalize(1e-9).unwrap_or_else(Vector3::x);
+        nalgebra::Matrix3::from_columns(&[u, Vector3::new(-u.y, u.x, 0.0), Vector3::z()])
+    }
+}

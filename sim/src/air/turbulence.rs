@@ -1,0 +1,199 @@
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+
+use super::dryden::{Longitudinal, Transverse};
+
+const M_PER_FT: f64 = 0.3048;
+
+/// Lowest height for which the low-altitude form is given, ft.
+const LOWEST_FT: f64 = 10.0;
+
+/// Top of the low-altitude form, and bottom of the form for medium and high altitude, ft.
+const LOW_FT: f64 = 1000.0;
+const ALOFT_FT: f64 = 2000.0;
+
+/// Scale length of all components at medium and high altitude, ft.
+const SCALE_ALOFT_FT: f64 = 1750.0;
+
+/// Below this airspeed, m/s, the gusts change as if the vehicle flew at it: frozen turbulence needs a motion through it.
+const LOWEST_AIRSPEED_MPS: f64 = 1.0;
+
+/// Continuous gusts in Dryden's form (MIL-F-8785C, 3.7): longitudinal u, lateral v, vertical w, independent.
+#[derive(Clone, Debug)]
+pub(super) struct Turbulence {
+    settings: scenarios::Gusts,
+    u: Longitudinal,
+    v: Transverse,
+    w: Transverse,
+    rng: ChaCha8Rng,
+}
+
+impl Turbulence {
+    /// In the stationary distribution.
+    pub fn new(settings: &scenarios::Gusts, mut rng: ChaCha8Rng) -> Self {
+        Self {
+            settings: settings.clone(),
+            u: Longitudinal::stationary(&mut rng),
+            v: Transverse::stationary(&mut rng),
+            w: Transverse::stationary(&mut rng),
+            rng,
+        }
+    }
+
+    /// Lets `step_s` pass for a vehicle that flies through the gusts.
+    pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) {
+        let scales = Scales::at(&self.settings, altitude_m);
+        let passed_m = airspeed_mps.max(LOWEST_AIRSPEED_MPS) * step_s;
+        self.u.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
+        self.v.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
+        self.w.advance(passed_m / scales.vertical_length_m, &mut self.rng);
+    }
+
+    /// (u, v, w), m/s.
+    pub fn gust_mps(&self, altitude_m: f64) -> Vector3<f64> {
+        let Scales { horizontal_sigma_mps, vertical_sigma_mps, .. } = Scales::at(&self.settings, altitude_m);
+        Vector3::new(
+            horizontal_sigma_mps * self.u.output(),
+            horizontal_sigma_mps * self.v.output(),
+            vertical_sigma_mps * self.w.output(),
+        )
+    }
+}
+
+/// Scale lengths L, m, and intensities σ, m/s; u and v have the same.
+#[derive(Clone, Copy, Debug)]
+struct Scales {
+    horizontal_length_m: f64,
+    vertical_length_m: f64,
+    horizontal_sigma_mps: f64,
+    vertical_sigma_mps: f64,
+}
+
+impl Scales {
+    /// At a height above ground, which lies at z = 0: the low-altitude form up to 1000 ft, isotropic from 2000 ft on,
+    /// linear in between.
+    fn at(gusts: &scenarios::Gusts, altitude_m: f64) -> Self {
+        let height_ft = altitude_m / M_PER_FT;
+        let low = Self::low(gusts, height_ft.clamp(LOWEST_FT, LOW_FT));
+        if height_ft <= LOW_FT {
+            return low;
+        }
+        let share = ((height_ft - LOW_FT) / (ALOFT_FT - LOW_FT)).min(1.0);
+        let blend = |low: f64, aloft: f64| low + (aloft - low) * share;
+        Self {
+            horizontal_length_m: blend(low.horizontal_length_m, SCALE_ALOFT_FT * M_PER_FT),
+            vertical_length_m: blend(low.vertical_length_m, SCALE_ALOFT_FT * M_PER_FT),
+            horizontal_sigma_mps: blend(low.horizontal_sigma_mps, gusts.sigma_aloft_mps),
+            vertical_sigma_mps: blend(low.vertical_sigma_mps, gusts.sigma_aloft_mps),
+        }
+    }
+
+    /// L_w = h,  L_u = L_v = h / (0.177 + 0.000823 h)^1.2,  σ_w = 0.1 W_20,  σ_u = σ_v = σ_w / (0.177 + 0.000823 h)^0.4,
+    /// h in ft.        [MIL-F-8785C, 3.7.3.4, figures 10 and 11]
+    fn low(gusts: &scenarios::Gusts, height_ft: f64) -> Self {
+        let shear = (0.177 + 0.000823 * height_ft).powf(0.4);
+        let vertical_sigma_mps = 0.1 * gusts.wind_at_20ft_mps;
+        Self {
+            horizontal_length_m: height_ft / (shear * shear * shear) * M_PER_FT,
+            vertical_length_m: height_ft * M_PER_FT,
+            horizontal_sigma_mps: vertical_sigma_mps / shear,
+            vertical_sigma_mps,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GUSTS: scenarios::Gusts = scenarios::Gusts { wind_at_20ft_mps: 15.0, sigma_aloft_mps: 0.9 };
+
+    /// Worked by hand: (height ft, L_u ft, L_w ft, σ_u m/s, σ_w m/s).
+    const WORKED: [[f64; 5]; 5] = [
+        [100.0, 505.169_335, 100.0, 2.573_773_07, 1.5],
+        [500.0, 944.657_210, 500.0, 1.854_354_11, 1.5],
+        [1000.0, 1000.0, 1000.0, 1.5, 1.5],
+        [1500.0, 1375.0, 1375.0, 1.2, 1.2],
+        [3000.0, 1750.0, 1750.0, 0.9, 0.9],
+    ];
+
+    #[test]
+    fn scales_are_the_standards() {
+        for [height_ft, length_u_ft, length_w_ft, sigma_u, sigma_w] in WORKED {
+            let scales = Scales::at(&GUSTS, height_ft * M_PER_FT);
+            for (found, expected) in [
+                (scales.horizontal_length_m, length_u_ft * M_PER_FT),
+                (scales.vertical_length_m, length_w_ft * M_PER_FT),
+                (scales.horizontal_sigma_mps, sigma_u),
+                (scales.vertical_sigma_mps, sigma_w),
+            ] {
+                assert!((found / expected - 1.0).abs() < 1e-6, "{height_ft} ft: {found}, expected {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_low_form_ends_at_ten_feet() {
+        let [ground, lowest] = [-50.0, LOWEST_FT * M_PER_FT].map(|altitude| Scales::at(&GUSTS, altitude));
+        assert_eq!(ground.horizontal_length_m, lowest.horizontal_length_m);
+        assert_eq!(ground.horizontal_sigma_mps, lowest.horizontal_sigma_mps);
+    }
+
+    /// Fast, so that little time holds many scale lengths.
+    const AIRSPEED_MPS: f64 = 350.0;
+
+    /// Gusts at every `step_s` over `duration_s`.
+    fn gusts_mps(altitude_m: f64, step_s: f64, duration_s: f64) -> Vec<Vector3<f64>> {
+        let mut turbulence = Turbulence::new(&GUSTS, scenarios::stream(5, "turbulence"));
+        let mut next = || {
+            turbulence.advance(step_s, altitude_m, AIRSPEED_MPS);
+            turbulence.gust_mps(altitude_m)
+        };
+        (0..(duration_s / step_s) as usize).map(|_| next()).collect()
+    }
+
+    /// Mean over time of the products of each component at t and at t + lag, m²/s².
+    fn autocorrelation(gusts: &[Vector3<f64>], lag: usize) -> Vector3<f64> {
+        let sum: Vector3<f64> = gusts.iter().zip(&gusts[lag..]).map(|(a, b)| a.component_mul(b)).sum();
+        sum / (gusts.len() - lag) as f64
+    }
+
+    /// Dryden's autocorrelation over σ², with x the distance in scale lengths.
+    fn dryden(lag_s: f64, scales: [[f64; 2]; 3]) -> Vector3<f64> {
+        let [u, v, w] = scales.map(|[length_m, sigma_mps]| (lag_s * AIRSPEED_MPS / length_m, sigma_mps.powi(2)));
+        let transverse = |(x, variance): (f64, f64)| variance * (-x).exp() * (1.0 - x / 2.0);
+        Vector3::new(u.1 * (-u.0).exp(), transverse(v), transverse(w))
+    }
+
+    /// 500 ft and 1500 ft, from the table above, at the simulator's step and at ten times that. Over T = 40,000 s, some
+    /// 33,000 scale lengths of the longest, an estimate's relative standard deviation is below sqrt(2/33,000) = 0.008.
+    #[test]
+    fn variance_and_autocorrelation_are_drydens_at_any_step() {
+        for [height_ft, length_u_ft, length_w_ft, sigma_u, sigma_w] in [WORKED[1], WORKED[3]] {
+            let horizontal = [length_u_ft * M_PER_FT, sigma_u];
+            let scales = [horizontal, horizontal, [length_w_ft * M_PER_FT, sigma_w]];
+            for step_s in [0.1, 0.01] {
+                let gusts = gusts_mps(height_ft * M_PER_FT, step_s, 40_000.0);
+                for lag_s in [0.0, 0.2, 0.6, 1.5, 4.0] {
+                    let found = autocorrelation(&gusts, (lag_s / step_s + 0.5) as usize);
+                    let error = found - dryden(lag_s, scales);
+                    let relative = error.component_div(&dryden(0.0, scales));
+                    assert!(relative.amax() < 0.04, "{height_ft} ft, step {step_s} s, lag {lag_s} s: {relative}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn components_are_independent() {
+        let gusts = gusts_mps(150.0, 0.1, 40_000.0);
+        let mean_product = |i: usize, j: usize| {
+            let product: f64 = gusts.iter().map(|gust| gust[i] * gust[j]).sum();
+            let power = |axis: usize| gusts.iter().map(|gust| gust[axis].powi(2)).sum::<f64>();
+            product / (power(i) * power(j)).sqrt()
+        };
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            assert!(mean_product(i, j).abs() < 0.04, "{i}{j}: {}", mean_product(i, j));
+        }
+    }
+}

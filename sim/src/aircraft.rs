@@ -1,0 +1,112 @@
+use nalgebra::Vector3;
+use scenarios::fixed_wing::{Control, Model};
+use scenarios::{Scenario, Trajectory, Vehicle};
+
+use crate::air::Air;
+use crate::fixed_wing::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
+use crate::saturation::SaturationWatch;
+use crate::sensors::{Measurement, Sensors};
+use crate::tracker::{Tracker, saturated};
+use crate::{EventKind, Pilot, Sample, VehicleLog};
+
+/// One aircraft of the fleet: everything about it but its body.
+pub(crate) struct Aircraft {
+    model: Model,
+    reference: Reference,
+    pilot: Pilot,
+    tracker: Tracker,
+    sensors: Sensors,
+    air: Air,
+    step_s: f64,
+    /// Load factors that act during the coming step.
+    control: Control,
+    /// Velocity of the air at the coming step's beginning, m/s.
+    wind_mps: Vector3<f64>,
+    saturation: SaturationWatch,
+    log: VehicleLog,
+}
+
+impl Aircraft {
+    /// `steps`: how many will be flown, for the log's size.
+    pub fn new(
+        scenario: &Scenario,
+        vehicle: &Vehicle,
+        trajectory: &Trajectory,
+        pilot: Pilot,
+        seed: u64,
+        steps: usize,
+    ) -> Self {
+        let settings = &scenario.simulation;
+        let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
+        Self {
+            model: scenario.fixed_wing_model(vehicle).clone(),
+            reference: Reference::new(trajectory),
+            pilot,
+            tracker: Tracker::new(&settings.tracker, settings.step_s),
+            sensors: Sensors::new(&settings.sensors, stream("sensors")),
+            air: Air::new(settings.wind.as_ref(), stream("gusts")),
+            step_s: settings.step_s,
+            control: Control::CRUISE,
+            wind_mps: Vector3::zeros(),
+            saturation: SaturationWatch::default(),
+            log: VehicleLog { vehicle: vehicle.name.clone(), samples: Vec::with_capacity(steps + 1) },
+        }
+    }
+
+    /// Name of the vehicle.
+    pub fn name(&self) -> &str {
+        &self.log.vehicle
+    }
+
+    /// Measures, decides on the control of the coming step, and logs. `position_m`, `velocity_mps`: the truth at `t_s`.
+    ///
+    /// Returns an event with its time, s, if there is one.
+    pub fn decide(
+        &mut self,
+        t_s: f64,
+        position_m: Vector3<f64>,
+        velocity_mps: Vector3<f64>,
+    ) -> Option<(f64, EventKind)> {
+        let measured = self.sensors.measure(position_m, velocity_mps);
+        let reference = self.reference.at(t_s);
+        let command = self.command(t_s, &measured, &reference);
+        self.control = saturated(command, &self.model.limits);
+        self.wind_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
+        let sample = Sample {
+            t_s,
+            position_m: position_m.into(),
+            velocity_mps: velocity_mps.into(),
+            wind_mps: self.wind_mps.into(),
+            world_from_body: world_from_body(&(velocity_mps - self.wind_mps), self.control),
+            measured_position_m: measured.position_m.into(),
+            measured_velocity_mps: measured.velocity_mps.into(),
+            reference_position_m: reference.position_m.into(),
+            reference_velocity_mps: reference.velocity_mps.into(),
+            command,
+            control: self.control,
+        };
+        self.log.samples.push(sample);
+        self.saturation.observe(t_s, sample.is_saturated())
+    }
+
+    fn command(&self, t_s: f64, measured: &Measurement, reference: &ReferencePoint) -> Control {
+        let ahead = self.reference.at(t_s + self.step_s / 2.0);
+        match self.pilot {
+            Pilot::Tracker => self.tracker.command(measured, reference, &ahead),
+            Pilot::OpenLoop => ahead.control,
+        }
+    }
+
+    /// Force in the middle of the coming step, N, from the truth at its beginning, for which
+    /// [`decide`](Self::decide) was called. The air moves on.
+    pub fn force_n(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>, mass_kg: f64) -> Vector3<f64> {
+        self.air.advance(self.step_s, position_m.z, (velocity_mps - self.wind_mps).norm());
+        let wind_mps = (self.wind_mps + self.air.velocity_mps(position_m.z, &velocity_mps)) / 2.0;
+        mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, self.step_s)
+    }
+
+    /// The flight is over. Returns the log, and an event with its time, s, if one was still to come.
+    pub fn land(mut self) -> (VehicleLog, Option<(f64, EventKind)>) {
+        (self.log, self.saturation.finish())
+    }
+}

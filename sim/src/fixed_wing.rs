@@ -1,0 +1,17 @@
+//! The fixed-wing point mass from physics: forces along the axes of the air path, Newton's law in the world frame.
+//!
+//! The model is written in Cartesian coordinates, where the papers use polar ones (Wang, Xu, Long 2020, eq. 2). The two
+//! are the same motion, but share no formula, so that an error in one is not repeated in the other.
+
+mod air_path;
+mod attitude;
+mod flow;
+mod plant;
+mod quintic;
+mod reference;
+
+pub use air_path::{AirPath, acceleration_mps2, gravity_mps2};
+pub use attitude::world_from_body;
+pub use flow::{Knot, flow, rollout};
+pub(crate) use plant::mid_step_force_n;
+pub use reference::{Reference, ReferencePoint};

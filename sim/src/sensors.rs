@@ -1,0 +1,75 @@
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// What the sensors say of position (m) and velocity over ground (m/s), world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Measurement {
+    pub position_m: Vector3<f64>,
+    pub velocity_mps: Vector3<f64>,
+}
+
+/// Sensors with white Gaussian noise, independent on every axis and at every step.
+#[derive(Clone, Debug)]
+pub(crate) struct Sensors {
+    position_noise_m: f64,
+    velocity_noise_mps: f64,
+    rng: ChaCha8Rng,
+}
+
+impl Sensors {
+    pub fn new(settings: &scenarios::Sensors, rng: ChaCha8Rng) -> Self {
+        let scenarios::Sensors { position_noise_m, velocity_noise_mps } = *settings;
+        Self { position_noise_m, velocity_noise_mps, rng }
+    }
+
+    /// One measurement. What has no noise draws no random number.
+    pub fn measure(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
+        Measurement {
+            position_m: self.disturbed(position_m, self.position_noise_m),
+            velocity_mps: self.disturbed(velocity_mps, self.velocity_noise_mps),
+        }
+    }
+
+    fn disturbed(&mut self, truth: Vector3<f64>, sigma: f64) -> Vector3<f64> {
+        if sigma == 0.0 {
+            return truth;
+        }
+        truth.map(|component| {
+            let unit: f64 = StandardNormal.sample(&mut self.rng);
+            component + sigma * unit
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_has_the_standard_deviation_of_the_settings() {
+        let settings = scenarios::Sensors { position_noise_m: 2.0, velocity_noise_mps: 0.1 };
+        let mut sensors = Sensors::new(&settings, scenarios::stream(3, "sensors/test"));
+        let draws = 100_000;
+        let (mut position, mut velocity, mut cross) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+        for _ in 0..draws {
+            let Measurement { position_m, velocity_mps } = sensors.measure(Vector3::zeros(), Vector3::zeros());
+            position += position_m.component_mul(&position_m) / f64::from(draws);
+            velocity += velocity_mps.component_mul(&velocity_mps) / f64::from(draws);
+            cross += position_m.x * velocity_mps.x / f64::from(draws);
+        }
+        // A variance from n samples has the relative standard deviation sqrt(2/n) = 0.0045.
+        for axis in 0..3 {
+            assert!((position[axis] / 4.0 - 1.0).abs() < 0.02, "{position}");
+            assert!((velocity[axis] / 0.01 - 1.0).abs() < 0.02, "{velocity}");
+        }
+        assert!((cross / 0.2).abs() < 0.013, "{cross}");
+    }
+
+    #[test]
+    fn without_noise_the_truth_is_measured() {
+        let mut sensors = Sensors::new(&scenarios::Sensors::default(), scenarios::stream(0, "sensors/test"));
+        let (p, v) = (Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, 5.0, 6.0));
+        assert_eq!(sensors.measure(p, v), Measurement { position_m: p, velocity_mps: v });
+    }
+}

@@ -1,0 +1,11 @@
+//! Whole flights against what physics says about them.
+
+mod arena;
+mod crash;
+mod disturbances;
+mod flow;
+mod open_loop;
+mod polar;
+mod reference;
+mod repeatability;
+mod tracking;

@@ -1,0 +1,111 @@
+//! Every way in which a run can end, and its exit code.
+//!
+//! Findings about a plan (no plan, a failed check, a crash) are no errors: they are data in a verdict. A bug is a panic,
+//! which ends the process with 101. What is left is bad input and trouble with the environment: the errors of this file.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use miette::Diagnostic;
+use scenarios::{FindError, LoadError};
+use thiserror::Error;
+
+use crate::record::RecordError;
+
+/// How a command ended that did what it was asked to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Every verdict passed, or there was none to make.
+    Passed,
+    /// Some verdict failed, or no plan was found.
+    Failed,
+    /// Some input could not be used; the rest was done all the same.
+    BadInput,
+}
+
+impl Exit {
+    /// The process's exit code: 0, 1 or 2.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Passed => 0,
+            Self::Failed => 1,
+            Self::BadInput => 2,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        exit.code().into()
+    }
+}
+
+/// Why a command could not do what it was asked to do: bad usage, bad input, or the environment.
+#[derive(Debug, Error, Diagnostic)]
+pub enum Error {
+    /// No list of scenario files could be made.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Find(#[from] FindError),
+    /// A file is no scenario, or not one for the planner that it names.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Load(#[from] LoadError),
+    /// `--planner` names none.
+    #[error("--planner {name}: there is no planner of that name, expected one of {known}")]
+    #[diagnostic(help("{remedy}"))]
+    UnknownPlanner {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: String,
+        /// What may have been meant.
+        remedy: String,
+    },
+    /// A planner that was asked for on the command line cannot handle a scenario.
+    #[error("{file}: planner `{planner}` cannot handle this scenario: {reason}")]
+    #[diagnostic(help("`harness list` shows what each planner handles"))]
+    Unfit {
+        /// The scenario's file.
+        file: String,
+        /// The planner.
+        planner: &'static str,
+        /// Why.
+        reason: String,
+    },
+    /// `--record rrd` without the library for it.
+    #[error("--record rrd: this harness was built without the rerun recording")]
+    #[diagnostic(help("build it with `--features rrd` (on by default), or ask for `--record none`"))]
+    RecordingNotBuilt,
+    /// The worker threads could not be started.
+    #[error("--jobs {jobs}: cannot start the worker threads: {reason}")]
+    Threads {
+        /// How many.
+        jobs: usize,
+        /// What stood in the way.
+        reason: String,
+    },
+    /// A recording could not be written.
+    #[error(transparent)]
+    #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]
+    Record(#[from] RecordError),
+    /// A result could not be written.
+    #[error("cannot write {}: {reason}", path.display())]
+    #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the operating system says.
+        reason: std::io::Error,
+    },
+    /// Standard output is gone.
+    #[error("cannot write to standard output")]
+    Output(#[from] std::io::Error),
+}
+
+impl Error {
+    /// Tells the user, on standard error.
+    pub fn print(self) {
+        eprintln!("{:?}", miette::Report::new(self));
+    }
+}

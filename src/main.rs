@@ -1,0 +1,17 @@
+//! The command `harness`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use harness::cli::Cli;
+use harness::error::Exit;
+
+fn main() -> ExitCode {
+    match Cli::parse().execute() {
+        Ok(exit) => exit.into(),
+        Err(error) => {
+            error.print();
+            Exit::BadInput.into()
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! One job from the scenario to the files on disk.
+//!
+//!     Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
+
+use std::path::Path;
+use std::time::Instant;
+
+use scenarios::{Plan, Scenario};
+use sim::Flight;
+
+use crate::error::Error;
+use crate::jobs::Job;
+use crate::progress::Progress;
+use crate::record::{self, Recorder, Run};
+use crate::report::{Report, Timings};
+use crate::{metrics, output, verdict};
+
+/// Names of the recordings that a result folder may hold.
+const RECORDINGS: [&str; 1] = ["flight.rrd"];
+
+/// Plans, flies, judges, records and reports one job into `folder`, which is made if it is not there.
+pub fn run(
+    job: &Job,
+    recorders: &[Box<dyn Recorder>],
+    folder: &Path,
+    progress: &mut Progress,
+) -> Result<Report, Error> {
+    let mut timings = Timings::default();
+    let plan = timed(&mut timings.planning_s, || plan(job, progress));
+    let flight = timed(&mut timings.flying_s, || fly(job, &plan, progress));
+    progress.judging();
+    let verdict = timed(&mut timings.judging_s, || verdict::judge(&job.scenario, &plan, flight.as_ref()));
+    let metrics = metrics::measure(&job.scenario, &plan, flight.as_ref());
+    output::create_folder(folder)?;
+    let run = Run { scenario: &job.scenario, plan: &plan, flight: flight.as_ref(), verdict: &verdict };
+    timed(&mut timings.recording_s, || record(&run, recorders, folder, progress))?;
+    let report = Report::new(&plan, verdict, metrics, timings);
+    write(&plan, &report, folder)?;
+    Ok(report)
+}
+
+fn plan(job: &Job, progress: &mut Progress) -> Plan {
+    progress.planning();
+    job.planner.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
+}
+
+/// No flight if there is nothing that could be flown; the judge says why.
+fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
+    verdict::is_flyable(&job.scenario, plan).ok()?;
+    progress.flying(flight_duration_s(&job.scenario, plan));
+    Some(sim::fly(&job.scenario, plan, job.seed, &mut |t_s| progress.flown(t_s)))
+}
+
+fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {
+    let plan_end_s = plan.flight_time_s().unwrap_or(0.0);
+    (plan_end_s + scenario.simulation.coast_s).min(scenario.simulation.max_duration_s)
+}
+
+fn record(run: &Run<'_>, recorders: &[Box<dyn Recorder>], folder: &Path, progress: &mut Progress) -> Result<(), Error> {
+    let is_stale = |name: &&str| recorders.iter().all(|recorder| recorder.file_name() != *name);
+    RECORDINGS.iter().copied().filter(is_stale).try_for_each(|name| output::remove_stale(&folder.join(name)))?;
+    for recorder in recorders {
+        progress.recording(recorder.file_name());
+        record::record(recorder.as_ref(), run, folder)?;
+    }
+    Ok(())
+}
+
+fn write(plan: &Plan, report: &Report, folder: &Path) -> Result<(), Error> {
+    output::write_file(&folder.join("plan.json"), |writer| plan.write_json(writer))?;
+    output::write_file(&folder.join("plan.csv"), |writer| plan.write_csv(writer))?;
+    output::write_json(&folder.join("report.json"), report)
+}
+
+/// Does `work` and adds the time it took to `total_s`.
+fn timed<T>(total_s: &mut f64, work: impl FnOnce() -> T) -> T {
+    let began = Instant::now();
+    let done = work();
+    *total_s += began.elapsed().as_secs_f64();
+    done
+}

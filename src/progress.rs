@@ -1,0 +1,100 @@
+//! What the user sees while a job runs, on standard error: a moving line on a terminal, plain lines elsewhere.
+
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use scenarios::Iteration;
+
+use crate::jobs::Job;
+
+/// Tells how far a job has come.
+pub struct Progress {
+    display: Display,
+    iterations: usize,
+    duration_s: f64,
+}
+
+enum Display {
+    Nothing,
+    Lines { prefix: String },
+    Bar(ProgressBar),
+}
+
+impl Progress {
+    /// Progress of job `number` (from 1) of `total`.
+    pub fn new(job: &Job, number: usize, total: usize, is_quiet: bool) -> Self {
+        let prefix = format!("[{number}/{total}] {} · {}", job.scenario.name, job.planner.name);
+        let display = if is_quiet {
+            Display::Nothing
+        } else if std::io::stderr().is_terminal() {
+            Display::Bar(bar(prefix))
+        } else {
+            Display::Lines { prefix }
+        };
+        Self { display, iterations: 0, duration_s: 0.0 }
+    }
+
+    /// The planner begins.
+    pub fn planning(&mut self) {
+        self.begin("planning".into());
+    }
+
+    /// The planner has done one more iteration.
+    pub fn planned(&mut self, iteration: &Iteration) {
+        self.iterations += 1;
+        self.update(|this| format!("planning: iteration {}, objective {:.3}", this.iterations, iteration.objective));
+    }
+
+    /// The simulator begins on a flight of this duration, s.
+    pub fn flying(&mut self, duration_s: f64) {
+        self.duration_s = duration_s;
+        self.begin(format!("flying {duration_s:.1} s"));
+    }
+
+    /// The simulator has come to this time, s.
+    pub fn flown(&mut self, t_s: f64) {
+        self.update(|this| format!("flying: {t_s:.0} s of {:.1} s", this.duration_s));
+    }
+
+    /// The judge begins.
+    pub fn judging(&mut self) {
+        self.begin("judging".into());
+    }
+
+    /// A recording begins.
+    pub fn recording(&mut self, file_name: &str) {
+        self.begin(format!("recording {file_name}"));
+    }
+
+    /// The job is done; its line makes way for the result.
+    pub fn finish(self) {
+        if let Display::Bar(bar) = self.display {
+            bar.finish_and_clear();
+        }
+    }
+
+    /// A new stage: shown everywhere.
+    fn begin(&self, message: String) {
+        match &self.display {
+            Display::Nothing => {}
+            Display::Lines { prefix } => eprintln!("{prefix}: {message}"),
+            Display::Bar(bar) => bar.set_message(message),
+        }
+    }
+
+    /// A step within a stage: shown where it replaces the last one.
+    fn update(&self, message: impl FnOnce(&Self) -> String) {
+        if let Display::Bar(bar) = &self.display {
+            bar.set_message(message(self));
+        }
+    }
+}
+
+fn bar(prefix: String) -> ProgressBar {
+    let style =
+        ProgressStyle::with_template("{spinner} {prefix}: {wide_msg} {elapsed}").expect("the template is valid");
+    let bar = ProgressBar::new_spinner().with_style(style).with_prefix(prefix);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}

@@ -1,0 +1,144 @@
+//! The rerun recording: `flight.rrd`, with a layout that opens by itself.
+//!
+//! | entities | what | where it is written |
+//! |---|---|---|
+//! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | [`world`] |
+//! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | [`paths`] |
+//! | `/world/fleet/NAME` | the moving aircraft and its safety volume | [`fleet`] |
+//! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | [`closest`] |
+//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | [`series`] |
+//! | `/planner/NAME` | convergence, on the timeline `planner_iter` | [`convergence`] |
+//! | `/events` | text log | [`events`] |
+//! | `/verdict`, `/convergence` | documents | [`document`], [`convergence`] |
+//!
+//! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
+
+mod airframe;
+mod blueprint;
+mod closest;
+mod convergence;
+mod distances;
+mod document;
+mod events;
+mod fleet;
+mod layout;
+mod palette;
+mod paths;
+mod quantity;
+mod series;
+mod thinning;
+mod world;
+
+use std::error::Error;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::Path;
+
+use rerun::components::Text;
+use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStreamBuilder, TimeColumn};
+
+use self::distances::Distances;
+use super::{Recorder, Run};
+use crate::verdict::Outcome;
+
+/// What logging functions return: rerun's own errors, which concern serialisation and the file.
+type Logged = Result<(), Box<dyn Error + Send + Sync>>;
+
+/// Application id: viewers keep one default layout per application.
+const APPLICATION: &str = "harness";
+/// Timeline of the flight, s.
+const SIM_TIME: &str = "sim_time";
+
+/// Writes recordings for the rerun viewer.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rrd;
+
+impl Recorder for Rrd {
+    fn file_name(&self) -> &'static str {
+        "flight.rrd"
+    }
+
+    fn write(&self, run: &Run<'_>, path: &Path) -> Logged {
+        let stream = open(run, path)?;
+        let distances = Distances::of(run);
+        layout::send(&stream, run, &distances)?;
+        document::log(&stream, run)?;
+        events::log(&stream, run)?;
+        world::log(&stream, run.scenario)?;
+        convergence::log(&stream, run.plan)?;
+        paths::log_planned(&stream, run)?;
+        if let Some(flight) = run.flight {
+            paths::log_flown(&stream, flight)?;
+            fleet::log(&stream, run.scenario, flight)?;
+            closest::log(&stream, run, flight)?;
+            series::log(&stream, run.scenario, flight, distances)?;
+        }
+        stream.flush_blocking()?;
+        Ok(())
+    }
+}
+
+/// Opens the file and says whose recording it is.
+fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + Send + Sync>> {
+    let name = format!("{} · {} · {}", run.scenario.name, run.plan.planner, outcome_word(run.verdict.outcome));
+    let stream = RecordingStreamBuilder::new(APPLICATION)
+        .enabled(true) // also when the variable RERUN says otherwise: the user has asked for this file
+        .recording_id(recording_id(run))
+        .send_properties(true)
+        .recording_name(name)
+        .save(path)?;
+    stream.set_log_time_enabled(false);
+    stream.set_log_tick_enabled(false);
+    let text = |value: &str| [Text::from(value)];
+    let properties = AnyValues::default()
+        .with_component::<Text>("scenario", text(&run.scenario.name))
+        .with_component::<Text>("planner", text(&run.plan.planner))
+        .with_component::<Text>("seed", text(&run.plan.seed.to_string()))
+        .with_component::<Text>("verdict", text(outcome_word(run.verdict.outcome)));
+    stream.send_property("harness", &properties)?;
+    Ok(stream)
+}
+
+/// The same for the same plan and flight, so that a run recorded twice is one recording to the viewer, while two
+/// different results of one scenario can be open side by side.
+fn recording_id(run: &Run<'_>) -> String {
+    let mut hasher = DefaultHasher::new();
+    let planned =
+        run.plan.trajectories.iter().flat_map(|trajectory| &trajectory.states).map(|state| state.position_m());
+    let logs = run.flight.iter().flat_map(|flight| &flight.vehicles);
+    let flown = logs.flat_map(|log| &log.samples).map(|sample| sample.position_m);
+    planned.chain(flown).flatten().for_each(|coordinate| coordinate.to_bits().hash(&mut hasher));
+    format!("{}/{}/seed-{}/{:016x}", run.scenario.name, run.plan.planner, run.plan.seed, hasher.finish())
+}
+
+/// `PASS`, `FAIL` or `NO PLAN`.
+fn outcome_word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Pass => "PASS",
+        Outcome::Fail => "FAIL",
+        Outcome::NoPlan => "NO PLAN",
+    }
+}
+
+/// The entity `name` in `group`, whatever characters the name has.
+fn entity(group: &str, name: &str) -> EntityPath {
+    EntityPath::from(group) / EntityPathPart::new(name)
+}
+
+/// A column of times on `sim_time`, s.
+fn sim_times(times_s: impl IntoIterator<Item = f64>) -> TimeColumn {
+    TimeColumn::new_duration_secs(SIM_TIME, times_s)
+}
+
+/// To the viewer's single precision.
+fn to_f32<const N: usize>(values: [f64; N]) -> [f32; N] {
+    values.map(|value| value as f32)
+}
+
+/// Can the viewer draw a vehicle from this sample?
+fn is_drawable(sample: &sim::Sample) -> bool {
+    let attitude_norm: f64 = sample.world_from_body.iter().map(|q| q * q).sum();
+    sample.t_s.is_finite() && sample.position_m.iter().all(|p| p.is_finite()) && (0.5..2.0).contains(&attitude_norm)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,67 @@
+//! The aircraft as a mesh: fuselage, wings, tailplane, fin. Body frame x forward, y left, z up; wing span 1.
+
+use rerun::Mesh3D;
+
+use super::palette;
+
+type Point = [f64; 3];
+
+/// Fuselage: nose, waist in a ring, tail.
+const NOSE: Point = [0.52, 0.0, 0.0];
+const TAIL: Point = [-0.5, 0.0, 0.04];
+const WAIST: [Point; 4] = [[0.22, 0.075, 0.0], [0.22, 0.0, 0.075], [0.22, -0.075, 0.0], [0.22, 0.0, -0.06]];
+
+/// Flat surfaces as leading root, leading tip, trailing tip, trailing root. Left side; the right one is its mirror image.
+const WING: [Point; 4] = [[0.24, 0.0, 0.0], [0.0, 0.5, 0.04], [-0.12, 0.5, 0.04], [-0.08, 0.0, 0.0]];
+const TAILPLANE: [Point; 4] = [[-0.3, 0.0, 0.04], [-0.44, 0.19, 0.05], [-0.52, 0.19, 0.05], [-0.5, 0.0, 0.04]];
+const FIN: [Point; 4] = [[-0.26, 0.0, 0.05], [-0.46, 0.0, 0.24], [-0.54, 0.0, 0.24], [-0.5, 0.0, 0.04]];
+
+/// The mesh with wing span `span_m`, in one colour.
+pub fn mesh(span_m: f64, colour: [u8; 3]) -> Mesh3D {
+    let triangles = triangles();
+    let corners = triangles.iter().flatten().map(|corner| super::to_f32(corner.map(|x| x * span_m)));
+    let normals = triangles.iter().flat_map(|triangle| [super::to_f32(normal(triangle)); 3]);
+    let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+    Mesh3D::new(corners)
+        .with_vertex_normals(normals)
+        .with_triangle_indices(indices)
+        .with_albedo_factor(palette::opaque(colour).0)
+}
+
+fn triangles() -> Vec<[Point; 3]> {
+    let ring = (0..4).map(|i| (WAIST[i], WAIST[(i + 1) % 4]));
+    let fuselage = ring.flat_map(|(a, b)| [[NOSE, a, b], [TAIL, b, a]]);
+    let surfaces = [WING, WING.map(mirrored), TAILPLANE, TAILPLANE.map(mirrored), FIN];
+    fuselage.chain(surfaces.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])).collect()
+}
+
+fn mirrored([x, y, z]: Point) -> Point {
+    [x, -y, z]
+}
+
+/// Unit normal of a triangle; flat surfaces are lit from above, whichever way round their corners are listed.
+fn normal([a, b, c]: &[Point; 3]) -> Point {
+    let u: Point = std::array::from_fn(|i| b[i] - a[i]);
+    let v: Point = std::array::from_fn(|i| c[i] - a[i]);
+    let cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let length = cross.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let upwards = if cross[2] < 0.0 { -1.0 } else { 1.0 };
+    cross.map(|x| upwards * x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{normal, triangles};
+
+    #[test]
+    fn the_mesh_is_symmetric_with_span_one_and_sound_triangles() {
+        let triangles = triangles();
+        let y = || triangles.iter().flatten().map(|corner| corner[1]);
+        assert_eq!(y().fold(f64::MAX, f64::min), -0.5);
+        assert_eq!(y().fold(f64::MIN, f64::max), 0.5);
+        for triangle in &triangles {
+            let length = normal(triangle).iter().map(|x| x * x).sum::<f64>().sqrt();
+            assert!((length - 1.0).abs() < 1e-12, "{triangle:?} has no area");
+        }
+    }
+}

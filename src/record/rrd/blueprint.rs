@@ -1,0 +1,155 @@
+//! A layout written entity by entity: rerun's builders know neither camera nor axis ranges nor the play state.
+//!
+//! The entities and their meaning: `re_sdk::blueprint` writes the same ones.
+
+use rerun::external::re_log_types::BlueprintActivationCommand;
+use rerun::external::re_sdk_types::blueprint::archetypes as archetype;
+use rerun::external::re_sdk_types::blueprint::components as component;
+use rerun::external::re_sdk_types::components::Range1D;
+use rerun::external::re_sdk_types::datatypes::{Float32, TimeRange, TimeRangeBoundary};
+use rerun::log::LogMsg;
+use rerun::sink::MemorySinkStorage;
+use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
+use uuid::Uuid;
+
+use super::{APPLICATION, Logged, SIM_TIME};
+
+type Error = Box<dyn std::error::Error + Send + Sync>;
+
+/// What a view shows.
+#[derive(Clone, Copy, Debug)]
+pub enum ViewClass {
+    /// Space.
+    Spatial3D,
+    /// Scalars over time.
+    TimeSeries,
+    /// A text log.
+    TextLog,
+    /// A document.
+    TextDocument,
+}
+
+impl ViewClass {
+    fn identifier(self) -> &'static str {
+        match self {
+            Self::Spatial3D => "3D",
+            Self::TimeSeries => "TimeSeries",
+            Self::TextLog => "TextLog",
+            Self::TextDocument => "TextDocument",
+        }
+    }
+}
+
+/// A view or a container, as its parent refers to it.
+#[derive(Clone, Debug)]
+pub struct Part {
+    path: String,
+    id: Uuid,
+}
+
+/// A layout in the making.
+pub struct Blueprint {
+    stream: RecordingStream,
+    messages: MemorySinkStorage,
+    parts: std::cell::Cell<u128>,
+}
+
+impl Blueprint {
+    /// An empty layout.
+    pub fn new() -> Result<Self, Error> {
+        let builder = RecordingStreamBuilder::new(APPLICATION).enabled(true).recording_id("layout").blueprint();
+        let (stream, messages) = builder.memory()?;
+        stream.set_log_time_enabled(false);
+        stream.set_log_tick_enabled(false);
+        stream.set_time_sequence("blueprint", 0);
+        Ok(Self { stream, messages, parts: 0.into() })
+    }
+
+    /// A view of `contents` (query expressions) below `origin`.
+    pub fn view(&self, class: ViewClass, name: &str, origin: &str, contents: &[String]) -> Result<Part, Error> {
+        let part = self.part("view");
+        let queries = contents.iter().map(|query| component::QueryExpression(query.as_str().into()));
+        self.stream.log(format!("{}/ViewContents", part.path), &archetype::ViewContents::new(queries))?;
+        let view = archetype::ViewBlueprint::new(component::ViewClass(class.identifier().into()));
+        self.stream.log(part.path.as_str(), &view.with_display_name(name).with_space_origin(origin))?;
+        Ok(part)
+    }
+
+    /// Sets the property `name` of a view, the name being the archetype's.
+    pub fn property(&self, view: &Part, name: &str, value: &dyn AsComponents) -> Logged {
+        Ok(self.stream.log(format!("{}/{name}", view.path), value)?)
+    }
+
+    /// Fixes the vertical axis of a time series view.
+    pub fn values(&self, view: &Part, min: f64, max: f64) -> Logged {
+        self.property(view, "ScalarAxis", &archetype::ScalarAxis::new().with_range(Range1D::new(min, max)))
+    }
+
+    /// Fixes the horizontal axis of a time series view, s: without it a playing viewer shows some seconds only.
+    pub fn times(&self, view: &Part, start_s: f64, end_s: f64) -> Logged {
+        let [start, end] = [start_s, end_s].map(|t_s| TimeRangeBoundary::Absolute(((1e9 * t_s) as i64).into()));
+        let range = component::TimeRange(TimeRange { start, end });
+        self.property(view, "TimeAxis", &archetype::TimeAxis::new().with_view_range(range))
+    }
+
+    /// Parts above each other, with their shares of the height.
+    pub fn rows(&self, name: &str, parts: &[(Part, f32)]) -> Result<Part, Error> {
+        let shares = parts.iter().map(|(_, share)| component::RowShare(Float32(*share)));
+        let kind = archetype::ContainerBlueprint::new(component::ContainerKind::Vertical).with_row_shares(shares);
+        self.container(kind, name, &parts.iter().map(|(part, _)| part.clone()).collect::<Vec<_>>())
+    }
+
+    /// Parts side by side, with their shares of the width.
+    pub fn columns(&self, name: &str, parts: &[(Part, f32)]) -> Result<Part, Error> {
+        let shares = parts.iter().map(|(_, share)| component::ColumnShare(Float32(*share)));
+        let kind = archetype::ContainerBlueprint::new(component::ContainerKind::Horizontal).with_col_shares(shares);
+        self.container(kind, name, &parts.iter().map(|(part, _)| part.clone()).collect::<Vec<_>>())
+    }
+
+    /// Parts behind each other; the first is in front.
+    pub fn tabs(&self, name: &str, parts: &[Part]) -> Result<Part, Error> {
+        let mut kind = archetype::ContainerBlueprint::new(component::ContainerKind::Tabs);
+        if let Some(first) = parts.first() {
+            kind = kind.with_active_tab(first.path.as_str());
+        }
+        self.container(kind, name, parts)
+    }
+
+    /// Makes `root` the whole window and sends the layout along with the recording `to`, which plays from its start,
+    /// `playback_speed` times as fast as it happened.
+    pub fn send(self, root: &Part, playback_speed: f64, to: &RecordingStream) -> Logged {
+        let viewport = archetype::ViewportBlueprint::new()
+            .with_root_container(component::RootContainer(root.id.into()))
+            .with_auto_layout(false)
+            .with_auto_views(false);
+        self.stream.log("viewport", &viewport)?;
+        let time_panel = archetype::TimePanelBlueprint::new()
+            .with_timeline(SIM_TIME)
+            .with_state(component::PanelState::Collapsed)
+            .with_playback_speed(playback_speed)
+            .with_loop_mode(component::LoopMode::All)
+            .with_play_state(component::PlayState::Playing);
+        self.stream.log("time_panel", &time_panel)?;
+        let hidden = archetype::PanelBlueprint::new().with_state(component::PanelState::Hidden);
+        self.stream.log("selection_panel", &hidden)?;
+        self.stream.log("blueprint_panel", &hidden)?;
+        let Some(blueprint_id) = self.stream.store_info().map(|info| info.store_id) else { return Ok(()) };
+        let messages: Vec<LogMsg> = self.messages.take();
+        to.send_blueprint(messages, BlueprintActivationCommand { blueprint_id, make_active: true, make_default: true });
+        Ok(())
+    }
+
+    fn container(&self, kind: archetype::ContainerBlueprint, name: &str, parts: &[Part]) -> Result<Part, Error> {
+        let part = self.part("container");
+        let contents = parts.iter().map(|part| component::IncludedContent(part.path.as_str().into()));
+        self.stream.log(part.path.as_str(), &kind.with_display_name(name).with_contents(contents))?;
+        Ok(part)
+    }
+
+    /// The next part; ids count up, so that the same layout has the same ids.
+    fn part(&self, kind: &str) -> Part {
+        self.parts.set(self.parts.get() + 1);
+        let id = Uuid::from_u128(self.parts.get());
+        Part { path: format!("{kind}/{id}"), id }
+    }
+}

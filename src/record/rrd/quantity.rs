@@ -1,0 +1,107 @@
+//! The quantities that are plotted per vehicle, and what each is held against.
+
+use scenarios::Scenario;
+use scenarios::fixed_wing::Limits;
+use sim::Sample;
+
+/// A plotted quantity of one vehicle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Distance from the plan.
+    Tracking,
+    /// Load factor along the velocity.
+    Nx,
+    /// Horizontal load factor.
+    Ny,
+    /// Vertical load factor.
+    Nz,
+    /// Speed relative to the air.
+    Airspeed,
+    /// Height above the map's zero.
+    Altitude,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::Tracking, Self::Nx, Self::Ny, Self::Nz, Self::Airspeed, Self::Altitude];
+
+    /// Its group of entities.
+    pub fn group(self) -> &'static str {
+        match self {
+            Self::Tracking => "tracking",
+            Self::Nx => "n_x",
+            Self::Ny => "n_y",
+            Self::Nz => "n_z",
+            Self::Airspeed => "airspeed",
+            Self::Altitude => "altitude",
+        }
+    }
+
+    /// Title of its view.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Tracking => "Tracking error: distance from the plan [m]",
+            Self::Nx => "Load factor n_x, along the velocity [-]",
+            Self::Ny => "Load factor n_y, horizontal, positive to the left [-]",
+            Self::Nz => "Load factor n_z, vertical [-]",
+            Self::Airspeed => "Airspeed [m/s]",
+            Self::Altitude => "Altitude [m]",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Tracking | Self::Altitude => "m",
+            Self::Nx | Self::Ny | Self::Nz => "-",
+            Self::Airspeed => "m/s",
+        }
+    }
+
+    /// Its value in a sample, in its unit.
+    pub fn of(self, sample: &Sample) -> f64 {
+        match self {
+            Self::Tracking => norm(std::array::from_fn(|i| sample.position_m[i] - sample.reference_position_m[i])),
+            Self::Nx => sample.control.n_x,
+            Self::Ny => sample.control.n_y,
+            Self::Nz => sample.control.n_z,
+            Self::Airspeed => norm(sample.air_velocity_mps()),
+            Self::Altitude => sample.position_m[2],
+        }
+    }
+
+    /// What it is held against, with a name: the scenario's limit, or the bounds of every model that flies.
+    pub fn limits(self, scenario: &Scenario) -> Vec<(String, f64)> {
+        if self == Self::Tracking {
+            return vec![("limit".to_owned(), scenario.verdict.tracking_max_m)];
+        }
+        let mut models: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.model.as_str()).collect();
+        models.sort_unstable();
+        models.dedup();
+        let alone = models.len() == 1;
+        let limits = models.iter().filter_map(|name| Some((*name, &scenario.models.fixed_wing.get(*name)?.limits)));
+        let named = |bound: &str, model: &str| if alone { bound.to_owned() } else { format!("{bound} of {model}") };
+        limits
+            .flat_map(|(model, limits)| {
+                let range = self.range(limits);
+                [(named("lowest", model), range.min), (named("highest", model), range.max)]
+            })
+            .filter(|(_, value)| value.is_finite())
+            .collect()
+    }
+
+    fn range(self, limits: &Limits) -> scenarios::Range {
+        match self {
+            Self::Tracking => scenarios::Range::new(0.0, f64::INFINITY),
+            Self::Nx => limits.n_x,
+            Self::Ny => limits.n_y,
+            Self::Nz => limits.n_z,
+            Self::Airspeed => limits.speed_mps,
+            Self::Altitude => limits.altitude_m,
+        }
+    }
+}
+
+fn norm(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

@@ -1,0 +1,87 @@
+//! Fewer points for the viewer, without losing an extreme.
+
+/// A quantity over time: finite times in s and finite values, as many of one as of the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Curve {
+    /// Times, s.
+    pub times_s: Vec<f64>,
+    /// Values.
+    pub values: Vec<f64>,
+}
+
+impl Curve {
+    /// Appends a point unless its time or value is NaN or infinite: a viewer shows the gap.
+    pub fn push(&mut self, t_s: f64, value: f64) {
+        if t_s.is_finite() && value.is_finite() {
+            self.times_s.push(t_s);
+            self.values.push(value);
+        }
+    }
+
+    /// Smallest value, or `None` without points.
+    pub fn min(&self) -> Option<f64> {
+        self.values.iter().copied().reduce(f64::min)
+    }
+
+    /// Largest value, or `None` without points.
+    pub fn max(&self) -> Option<f64> {
+        self.values.iter().copied().reduce(f64::max)
+    }
+
+    /// At most `points` points (at least 4): the smallest and the largest of every run of equally many neighbours, in
+    /// the order of time, and the two ends.
+    pub fn thinned(self, points: usize) -> Self {
+        let n = self.values.len();
+        if n <= points {
+            return self;
+        }
+        let run = n.div_ceil((points.max(4) - 2) / 2);
+        let mut kept = vec![0];
+        for start in (0..n).step_by(run) {
+            let indices = start..(start + run).min(n);
+            let low = indices.clone().min_by(|&a, &b| self.values[a].total_cmp(&self.values[b]));
+            let high = indices.max_by(|&a, &b| self.values[a].total_cmp(&self.values[b]));
+            kept.extend(low.into_iter().chain(high));
+        }
+        kept.push(n - 1);
+        kept.sort_unstable();
+        kept.dedup();
+        Self {
+            times_s: kept.iter().map(|&i| self.times_s[i]).collect(),
+            values: kept.iter().map(|&i| self.values[i]).collect(),
+        }
+    }
+}
+
+impl FromIterator<(f64, f64)> for Curve {
+    fn from_iter<T: IntoIterator<Item = (f64, f64)>>(points: T) -> Self {
+        let mut curve = Self::default();
+        points.into_iter().for_each(|(t_s, value)| curve.push(t_s, value));
+        curve
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Curve;
+
+    #[test]
+    fn one_spike_among_many_points_survives() {
+        let value = |i: usize| if i == 7_777 { -3.0 } else { (i as f64 * 1e-3).sin() };
+        let curve: Curve = (0..20_000).map(|i| (i as f64 * 0.01, value(i))).collect();
+        let thinned = curve.clone().thinned(200);
+        assert!(thinned.values.len() <= 200, "{} points", thinned.values.len());
+        assert_eq!((thinned.min(), thinned.max()), (curve.min(), curve.max()));
+        assert_eq!(thinned.times_s[thinned.values.iter().position(|&v| v == -3.0).unwrap()], 77.77);
+        assert!(thinned.times_s.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!((thinned.times_s[0], *thinned.times_s.last().unwrap()), (0.0, 199.99));
+    }
+
+    #[test]
+    fn what_is_not_a_number_becomes_a_gap() {
+        let curve: Curve =
+            [(0.0, 1.0), (1.0, f64::NAN), (f64::NAN, 2.0), (3.0, f64::INFINITY), (4.0, 5.0)].into_iter().collect();
+        assert_eq!(curve, Curve { times_s: vec![0.0, 4.0], values: vec![1.0, 5.0] });
+        assert_eq!(Curve::default().thinned(10), Curve::default());
+    }
+}

@@ -1,0 +1,85 @@
+//! A recording is there completely, or not at all.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use scenarios::{
+    FleetRules, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario, Simulation,
+    VerdictLimits, World,
+};
+
+use super::{Recorder, Run, record};
+use crate::verdict::{Outcome, Verdict};
+
+/// Writes a line, and then fails if it is told to.
+struct Scribe {
+    fails: bool,
+}
+
+impl Recorder for Scribe {
+    fn file_name(&self) -> &'static str {
+        "flight.txt"
+    }
+
+    fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
+        fs::write(path, &run.scenario.name)?;
+        if self.fails { Err("disk full".into()) } else { Ok(()) }
+    }
+}
+
+/// Calls `look` with a run in which nothing happens.
+fn with_run(look: impl FnOnce(&Run<'_>)) {
+    let axis = Range::new(0.0, 1.0);
+    let scenario = Scenario {
+        name: "nothing".to_owned(),
+        description: String::new(),
+        tags: Vec::new(),
+        world: World { map: Map { x_m: axis, y_m: axis, z_m: axis }, cylinders: Vec::new() },
+        models: Models::default(),
+        vehicles: Vec::new(),
+        fleet: FleetRules::default(),
+        planner: PlannerSettings::default(),
+        simulation: Simulation::default(),
+        verdict: VerdictLimits::default(),
+    };
+    let plan = Plan {
+        schema: 1,
+        scenario: scenario.name.clone(),
+        planner: String::new(),
+        seed: 0,
+        status: PlanStatus::NoPlan,
+        reason: None,
+        objective: None,
+        trajectories: Vec::new(),
+        history: Vec::new(),
+        timings: PlanTimings::default(),
+    };
+    let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new() };
+    look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict });
+}
+
+#[test]
+fn a_recorder_that_fails_half_way_leaves_the_old_recording_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    with_run(|run| {
+        fs::write(folder.path().join("flight.txt"), "old").unwrap();
+        let error = record(&Scribe { fails: true }, run, folder.path()).unwrap_err();
+        assert!(error.to_string().contains("flight.txt") && error.to_string().contains("disk full"), "{error}");
+        assert_eq!(fs::read_to_string(folder.path().join("flight.txt")).unwrap(), "old");
+        record(&Scribe { fails: false }, run, folder.path()).unwrap();
+        assert_eq!(fs::read_to_string(folder.path().join("flight.txt")).unwrap(), "nothing");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    });
+}
+
+#[test]
+fn a_folder_that_is_missing_is_an_error_that_names_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    with_run(|run| {
+        let error = record(&Scribe { fails: false }, run, &folder.path().join("missing")).unwrap_err();
+        assert!(error.to_string().contains("missing/flight.txt"), "{error}");
+        #[cfg(feature = "rrd")]
+        assert!(record(&super::rrd::Rrd, run, &folder.path().join("missing")).is_err());
+    });
+}

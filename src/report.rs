@@ -1,0 +1,124 @@
+//! What a run tells: `report.json` for one job, the summary of all of them, and both for people to read.
+
+mod headline;
+mod markdown;
+mod quantity;
+mod summary;
+pub mod table;
+pub mod terminal;
+
+use scenarios::{Plan, PlanStatus};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use summary::{RefusedFile, Summary, SummaryRun};
+
+use crate::metrics::Metrics;
+use crate::verdict::{Check, Outcome, Verdict};
+
+/// Version of the form of `report.json` and `summary.json`.
+pub const SCHEMA: u32 = 1;
+
+/// `report.json`: everything that was measured about one scenario and one planner.
+///
+/// The same scenario, planner and seed give the same report on any number of threads, except for `timings` and the fields
+/// `wall_s` and `distributed_s`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Report {
+    /// Version of this form: 1.
+    pub schema: u32,
+    /// Version of the harness that wrote it.
+    pub harness: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the planner.
+    pub planner: String,
+    /// Seed of planning and flight.
+    pub seed: u64,
+    /// The whole in one word.
+    pub verdict: Outcome,
+    /// Does the planner call its plan solved although a check of the group `plan` failed?
+    pub overclaimed: bool,
+    /// Every check, in the order nodes, plan, flight.
+    pub checks: Vec<Check>,
+    /// What the planner says.
+    pub plan: PlanSummary,
+    /// What is measured beside the checks, without a limit.
+    pub metrics: Metrics,
+    /// Time that each stage took.
+    pub timings: Timings,
+}
+
+/// A plan without its trajectories.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlanSummary {
+    /// What the planner says of its plan: `solved`, `not-converged` or `no-plan`. The judge does not ask.
+    #[schemars(with = "String")]
+    pub status: PlanStatus,
+    /// Why the status is not `solved`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Iterations of the planner.
+    pub iterations: usize,
+    /// Time that planning took on this machine, s.
+    pub wall_s: f64,
+    /// Time that planning would take if every vehicle had its own computer, s.
+    pub distributed_s: f64,
+    /// Time at which the last vehicle reaches the end of its trajectory, s.
+    pub flight_time_s: Option<f64>,
+    /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
+    pub objective: Option<f64>,
+}
+
+/// Wall time of the stages, s.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timings {
+    /// Planning.
+    pub planning_s: f64,
+    /// Simulation.
+    pub flying_s: f64,
+    /// Judging.
+    pub judging_s: f64,
+    /// Writing the recordings.
+    pub recording_s: f64,
+}
+
+impl Timings {
+    /// All stages together, s.
+    pub fn total_s(&self) -> f64 {
+        self.planning_s + self.flying_s + self.judging_s + self.recording_s
+    }
+}
+
+impl Report {
+    /// The report on a plan that was judged.
+    pub fn new(plan: &Plan, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
+        Self {
+            schema: SCHEMA,
+            harness: env!("CARGO_PKG_VERSION").to_owned(),
+            scenario: plan.scenario.clone(),
+            planner: plan.planner.clone(),
+            seed: plan.seed,
+            verdict: verdict.outcome,
+            overclaimed: verdict.overclaimed,
+            checks: verdict.checks,
+            plan: PlanSummary::new(plan),
+            metrics,
+            timings,
+        }
+    }
+}
+
+impl PlanSummary {
+    fn new(plan: &Plan) -> Self {
+        Self {
+            status: plan.status,
+            reason: plan.reason.clone(),
+            iterations: plan.history.len(),
+            wall_s: plan.timings.wall_s,
+            distributed_s: plan.timings.distributed_s,
+            flight_time_s: plan.flight_time_s(),
+            objective: plan.objective,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! A verdict in one line.
+
+use scenarios::PlanStatus;
+
+use super::Report;
+use super::quantity::{margin, place};
+use crate::verdict::{Check, Outcome, Status};
+
+/// Checks whose margins say most about how close it was, by their names without the group.
+const TELLING: [&str; 3] = ["separation", "clearance", "tracking_max"];
+
+/// Failed checks that the line names; the others are counted.
+const FAILURES_NAMED: usize = 3;
+
+/// The outcome in capitals.
+pub(super) fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Pass => "PASS",
+        Outcome::Fail => "FAIL",
+        Outcome::NoPlan => "NO PLAN",
+    }
+}
+
+/// What stands behind the word: the smallest margins of a pass, the checks that failed, or why there is no plan.
+pub(super) fn reason(report: &Report) -> String {
+    match report.verdict {
+        Outcome::Pass => smallest_margins(report),
+        Outcome::Fail => failures(report),
+        Outcome::NoPlan => report.plan.reason.clone().unwrap_or_else(|| "the planner returned no trajectory".into()),
+    }
+}
+
+/// Said only if the planner calls a plan solved that is none.
+pub(super) fn overclaim(report: &Report) -> Option<String> {
+    let is_false = report.overclaimed && report.plan.status == PlanStatus::Solved;
+    is_false.then(|| "the planner calls this plan solved, but it fails checks of the group `plan`".to_owned())
+}
+
+/// The checks that decided against the plan.
+pub(super) fn failed(report: &Report) -> impl Iterator<Item = &Check> {
+    report.checks.iter().filter(|check| is_bad(check) && !check.advisory)
+}
+
+/// Advisory checks that failed: shown, not deciding.
+pub(super) fn warnings(report: &Report) -> impl Iterator<Item = &Check> {
+    report.checks.iter().filter(|check| is_bad(check) && check.advisory)
+}
+
+/// Failed, or too close to tell.
+pub(super) fn is_bad(check: &Check) -> bool {
+    matches!(check.status, Status::Fail | Status::Undecided)
+}
+
+/// For each telling name the check with the smallest margin over all groups.
+fn smallest_margins(report: &Report) -> String {
+    let margins: Vec<String> = TELLING.iter().filter_map(|name| smallest_margin(&report.checks, name)).collect();
+    match margins.as_slice() {
+        [] => "every deciding check passed".into(),
+        margins => format!("smallest margins: {}", margins.join("; ")),
+    }
+}
+
+fn smallest_margin(checks: &[Check], name: &str) -> Option<String> {
+    let asked = checks.iter().filter(|check| check.name.split_once('.').is_some_and(|(_, after)| after == name));
+    let with_margin = asked.filter(|check| check.margin.is_some());
+    let check = with_margin.min_by(|a, b| a.margin.partial_cmp(&b.margin).unwrap_or(std::cmp::Ordering::Equal))?;
+    Some(line(check))
+}
+
+fn failures(report: &Report) -> String {
+    let failed: Vec<&Check> = failed(report).collect();
+    let asked = report.checks.iter().filter(|check| check.status != Status::Skip).count();
+    let first: Vec<String> = failed.iter().take(FAILURES_NAMED).map(|check| line(check)).collect();
+    let others = failed.len().saturating_sub(FAILURES_NAMED);
+    let rest = if others > 0 { format!("; and {others} more") } else { String::new() };
+    format!("{} of {asked} checks failed: {}{rest}", failed.len(), first.join("; "))
+}
+
+/// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`.
+fn line(check: &Check) -> String {
+    let margin = margin(check).map_or_else(String::new, |margin| format!(" {margin}"));
+    let place = place(check).map_or_else(String::new, |place| format!(" ({place})"));
+    format!("{}{margin}{place}", check.name)
+}

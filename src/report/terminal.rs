@@ -1,0 +1,126 @@
+//! Results on the terminal: a table of checks, the plan in one line, the verdict in one line.
+//!
+//! Text carries its colours; whoever prints it strips them where they are not wanted.
+
+use std::path::Path;
+
+use anstyle::{AnsiColor, Style};
+use comfy_table::{Cell, CellAlignment, Color, Table};
+
+use super::quantity::{number, signed};
+use super::{Report, Summary, headline, table};
+use crate::verdict::{Check, Outcome, Status};
+
+/// Everything about one job.
+pub fn report(report: &Report) -> String {
+    let mut lines = vec![checks_table(report).trim_fmt()];
+    lines.extend(skipped(report));
+    lines.push(plan_line(report));
+    lines.extend(flight_line(report));
+    lines.push(format!(
+        "{}  {}",
+        verdict_line(report.verdict, &report.scenario, &report.planner),
+        headline::reason(report)
+    ));
+    let warnings: Vec<&str> = headline::warnings(report).map(|check| check.name.as_str()).collect();
+    if !warnings.is_empty() {
+        lines.push(format!("{} advisory checks failed: {}", painted("note", AnsiColor::Yellow), warnings.join(", ")));
+    }
+    lines.extend(headline::overclaim(report).map(|text| format!("{} {text}", painted("note", AnsiColor::Yellow))));
+    format!("{}\n", lines.join("\n"))
+}
+
+/// The whole run: how many passed, and where the files are.
+pub fn summary(summary: &Summary, out: &Path) -> String {
+    let color = if summary.runs.iter().all(|run| run.verdict == Outcome::Pass) && summary.refused.is_empty() {
+        AnsiColor::Green
+    } else {
+        AnsiColor::Red
+    };
+    format!("{}; results in {}", painted(&summary.counts_line(), color), out.display())
+}
+
+fn checks_table(report: &Report) -> Table {
+    let mut table =
+        table::with_header(&["check", "status", "value", "limit", "margin", "unit", "at s", "between, remarks"]);
+    table.enforce_styling();
+    for check in report.checks.iter().filter(|check| check.status != Status::Skip) {
+        table.add_row(row(check));
+    }
+    for column in [2, 3, 4, 6] {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}
+
+fn row(check: &Check) -> Vec<Cell> {
+    let shown = |value: Option<f64>, form: fn(f64) -> String| Cell::new(value.map_or_else(String::new, form));
+    let remarks = [Some(check.between.join(", ")), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
+    let remarks: Vec<String> = remarks.into_iter().flatten().filter(|remark| !remark.is_empty()).collect();
+    let (status, color) = status(check);
+    vec![
+        Cell::new(&check.name),
+        Cell::new(status).fg(color),
+        shown(check.value, number),
+        shown(check.limit, number),
+        shown(check.margin, signed),
+        Cell::new(&check.unit),
+        shown(check.at_s, |at_s| format!("{at_s:.2}")),
+        Cell::new(remarks.join("; ")),
+    ]
+}
+
+fn status(check: &Check) -> (&'static str, Color) {
+    match check.status {
+        Status::Pass => ("pass", Color::Green),
+        Status::Fail if check.advisory => ("fail", Color::Yellow),
+        Status::Fail => ("fail", Color::Red),
+        Status::Undecided => ("undecided", Color::Yellow),
+        Status::Skip => ("skip", Color::Reset),
+    }
+}
+
+/// What was not asked, one line per reason.
+fn skipped(report: &Report) -> Vec<String> {
+    let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
+    for check in report.checks.iter().filter(|check| check.status == Status::Skip) {
+        let reason = check.reason.as_deref().unwrap_or("not applicable");
+        match by_reason.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, names)) => names.push(&check.name),
+            None => by_reason.push((reason, vec![&check.name])),
+        }
+    }
+    by_reason.into_iter().map(|(reason, names)| format!("skipped: {} ({reason})", names.join(", "))).collect()
+}
+
+fn plan_line(report: &Report) -> String {
+    let plan = &report.plan;
+    let mut parts = vec![format!("plan: {}, {} iterations in {:.3} s", plan.status, plan.iterations, plan.wall_s)];
+    parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
+    parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {} s", number(flight_time_s))));
+    parts.join("; ")
+}
+
+fn flight_line(report: &Report) -> Option<String> {
+    let flight = report.metrics.flight.as_ref()?;
+    let figures = [
+        ("mean speed", flight.mean_speed_mps, "m/s"),
+        ("standard deviation of speed", flight.speed_std_mps, "m/s"),
+        ("of altitude", flight.altitude_std_m, "m"),
+    ];
+    let known = figures.into_iter().filter_map(|(name, value, unit)| Some(format!("{name} {} {unit}", number(value?))));
+    let simulated = format!("simulated in {:.3} s", report.timings.flying_s);
+    Some(format!("flight: {}", std::iter::once(simulated).chain(known).collect::<Vec<_>>().join("; ")))
+}
+
+fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {
+    let color = if outcome == Outcome::Pass { AnsiColor::Green } else { AnsiColor::Red };
+    format!("{}  {scenario} · {planner}", painted(headline::word(outcome), color))
+}
+
+fn painted(text: &str, color: AnsiColor) -> String {
+    let style = Style::new().bold().fg_color(Some(color.into()));
+    format!("{style}{text}{style:#}")
+}

@@ -1,0 +1,110 @@
+//! The judge: can the plan be flown, and with what margin?
+//!
+//! It looks at the plan and at the flight, and never asks the planner whether it succeeded.
+
+mod arrival;
+mod bernstein;
+mod blocks;
+mod clearance;
+mod closest;
+mod compare;
+mod dynamics;
+mod flight_integrity;
+mod flown;
+mod integrity;
+mod judge;
+mod limits;
+mod motion;
+mod planned;
+mod question;
+#[cfg(test)]
+mod random;
+mod separation;
+mod tracking;
+mod worst;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use arrival::duration_s as flown_duration_s;
+pub use clearance::at_nodes as clearance_at_nodes;
+pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
+pub use flown::{Flown, FlownVehicle};
+pub use integrity::is_flyable;
+pub use judge::judge;
+pub use motion::{Knot, Motion};
+pub use planned::Planned;
+pub use separation::at_nodes as separation_at_nodes;
+pub use tracking::{
+    largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
+};
+
+/// What the judge found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// The whole in one word.
+    pub outcome: Outcome,
+    /// The planner calls its plan solved, and a check of the plan between its nodes (`plan.*`) says otherwise.
+    #[serde(default)]
+    pub overclaimed: bool,
+    /// Every check, in the order nodes, plan, flight.
+    pub checks: Vec<Check>,
+}
+
+/// The whole verdict in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Every deciding check passed.
+    Pass,
+    /// A deciding check failed or is undecided, or a required one was skipped.
+    Fail,
+    /// The planner returned no trajectory.
+    NoPlan,
+}
+
+/// One question put to a plan or a flight, and its answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Check {
+    /// Group and name, as `flight.separation`.
+    pub name: String,
+    /// The answer.
+    pub status: Status,
+    /// What was measured, in `unit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// What it is held against, in `unit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
+    /// Distance to the limit, positive when it is kept, in `unit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
+    /// Unit of the three.
+    pub unit: String,
+    /// Where the worst value stands in time, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_s: Option<f64>,
+    /// The vehicles and obstacles concerned at that instant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub between: Vec<String>,
+    /// Shown and counted, but not deciding.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub advisory: bool,
+    /// Why it was skipped or is undecided, or what exactly is wrong.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// Status of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The limit is kept.
+    Pass,
+    /// The limit is broken.
+    Fail,
+    /// It could not be told which.
+    Undecided,
+    /// Not asked, for the reason given.
+    Skip,
+}

@@ -1,0 +1,59 @@
+//! Do the vehicles keep clear of the obstacles?
+//!
+//! The smallest signed horizontal distance from any vehicle to any cylinder's surface, over continuous time. The limit
+//! is 0: a threat's radius is the distance to keep.
+
+use scenarios::{Plan, Scenario, World};
+
+use crate::verdict::Check;
+use crate::verdict::closest::{self, Approach};
+use crate::verdict::compare::is_smaller;
+use crate::verdict::motion::Motion;
+use crate::verdict::question::{Evidence, Group, Measured, Question};
+
+/// Over continuous time.
+pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(group, scenario, motions, |motions| closest::to_cylinders(motions, &scenario.world.cylinders))
+}
+
+/// At the planner's own nodes.
+pub fn check_nodes(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    answer(Group::Nodes, scenario, plan, |plan| at_nodes(&scenario.world, plan))
+}
+
+fn answer<T: ?Sized>(
+    group: Group,
+    scenario: &Scenario,
+    evidence: Evidence<'_, T>,
+    measure: impl Fn(&T) -> Option<Approach>,
+) -> Check {
+    let question = Question::new(group, "clearance", "m");
+    if scenario.world.cylinders.is_empty() {
+        return question.skip("there are no obstacles");
+    }
+    match evidence.map(measure) {
+        Err(reason) => question.fail(reason),
+        Ok(None) => question.fail("no vehicle could be compared with an obstacle at any time"),
+        Ok(Some(nearest)) => {
+            let [vehicle, obstacle] = nearest.who;
+            let names = [&scenario.vehicles[vehicle].name, &scenario.world.cylinders[obstacle].name];
+            question.at_least(Measured::approach(&nearest).with(names[0]).with(names[1]), 0.0)
+        }
+    }
+}
+
+/// Smallest distance of a node to an obstacle's surface. `None` without nodes or obstacles.
+pub fn at_nodes(world: &World, plan: &Plan) -> Option<Approach> {
+    let mut nearest: Option<Approach> = None;
+    for (i, trajectory) in plan.trajectories.iter().enumerate() {
+        for (state, &at_s) in trajectory.states.iter().zip(&trajectory.times_s) {
+            for (m, cylinder) in world.cylinders.iter().enumerate() {
+                let distance_m = cylinder.signed_distance_m(state.x_m, state.y_m);
+                if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
+                    nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, m] });
+                }
+            }
+        }
+    }
+    nearest
+}

@@ -1,0 +1,270 @@
+//! Closest approach over continuous time: of two vehicles, of vehicles and cylinders, of a vehicle and a point.
+//!
+//! The squared distance of two cubics is a polynomial of degree 6 in time, and [`bernstein::minimise`] bounds its
+//! smallest value. One search runs over all segments with the best distance so far, so that a segment, or a whole
+//! [block](super::blocks) of them, that is farther away costs one look at a box.
+
+use std::ops::Range;
+
+use scenarios::Cylinder;
+
+use crate::verdict::bernstein;
+use crate::verdict::blocks::{Blocks, Frame};
+use crate::verdict::motion::{Motion, Segment};
+
+/// Distance between the bounds that counts as close enough, m.
+const RESOLUTION_M: f64 = 1e-9;
+/// Rounding of a squared distance, as a share of the largest coefficient of its polynomial.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`], which are
+/// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// No distance is smaller, m.
+    pub lower_m: f64,
+    /// A distance that is reached at `at_s`, m.
+    pub upper_m: f64,
+    /// When, s.
+    pub at_s: f64,
+    /// Who: two vehicles, or a vehicle and an obstacle, by their indices.
+    pub who: [usize; 2],
+}
+
+/// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
+pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
+    let frame = Frame::over(motions);
+    let blocks: Vec<Blocks> = motions.iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    let mut search = Search::new();
+    for (i, first) in motions.iter().enumerate() {
+        for (j, second) in motions.iter().enumerate().skip(i + 1) {
+            for (a, b) in blocks[i].iter().zip(blocks[j].iter()) {
+                if search.may_be_within(a.gap_m(b), 0.0) {
+                    search.look_at_pair([first, second], [a.segments.clone(), b.segments.clone()], [i, j]);
+                }
+            }
+        }
+    }
+    search.found()
+}
+
+/// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, negative inside.
+/// `None` without either.
+pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approach> {
+    let frame = Frame::over(motions);
+    let mut search = Search::new();
+    for (i, motion) in motions.iter().enumerate() {
+        let blocks = Blocks::new(motion, &frame);
+        for (m, cylinder) in cylinders.iter().enumerate() {
+            let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
+            for block in blocks.iter() {
+                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), cylinder.radius_m) {
+                    for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts) {
+                        let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
+                        search.look(&relative, &segment, cylinder.radius_m, [i, m]);
+                    }
+                }
+            }
+        }
+    }
+    search.found()
+}
+
+/// Smallest distance, in space, from `motion` to `point_m` from the time `from_s` on. `None` if it ends before.
+pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<Approach> {
+    let mut search = Search::new();
+    for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
+        let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
+        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, 0.0, [0, 0]);
+    }
+    search.found()
+}
+
+fn difference(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn horizontal(points_m: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+    points_m.map(|[x, y, _]| [x, y, 0.0])
+}
+
+/// Distance from the origin to the smallest horizontal box around `points_m`, squared.
+fn squared_gap_to_box(points_m: &[[f64; 3]; 4]) -> f64 {
+    let axis_gap = |axis: usize| {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for point in points_m {
+            low = low.min(point[axis]);
+            high = high.max(point[axis]);
+        }
+        low.max(-high).max(0.0)
+    };
+    let (x, y) = (axis_gap(0), axis_gap(1));
+    x * x + y * y
+}
+
+/// The search over all segments: bounds of the smallest distance so far.
+struct Search {
+    lower_m: f64,
+    upper_m: f64,
+    at: Option<(f64, [usize; 2])>,
+}
+
+impl Search {
+    fn new() -> Self {
+        Self { lower_m: f64::INFINITY, upper_m: f64::INFINITY, at: None }
+    }
+
+    /// Can something that is `gap_m` or farther from the centre of a circle be nearer to the circle than the best?
+    fn may_be_within(&self, gap_m: f64, radius_m: f64) -> bool {
+        gap_m - radius_m < self.upper_m
+    }
+
+    /// The segments of two vehicles, each pair while both last.
+    fn look_at_pair(&mut self, [first, second]: [&Motion; 2], [mut a, mut b]: [Range<usize>; 2], who: [usize; 2]) {
+        while a.start < a.end && b.start < b.end {
+            let (one, other) = (first.segment(a.start), second.segment(b.start));
+            let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
+            if from_s < to_s {
+                let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
+                let relative = std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k]));
+                self.look(&horizontal(relative), &one, 0.0, who);
+            }
+            let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
+            a.start += usize::from(one_end_s <= other_end_s);
+            b.start += usize::from(other_end_s <= one_end_s);
+        }
+    }
+
+    /// One segment, by its control points relative to the centre of a circle of `radius_m`.
+    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, radius_m: f64, who: [usize; 2]) {
+        let reach_m = self.upper_m + radius_m;
+        if reach_m <= 0.0 || squared_gap_to_box(relative_m) >= reach_m * reach_m {
+            return;
+        }
+        let c = bernstein::squared_norm(relative_m);
+        let rounding = ROUNDING * c.iter().copied().fold(0.0, f64::max);
+        let tolerance = |best: f64| (RESOLUTION_M * best.sqrt()).max(RESOLUTION_M * RESOLUTION_M).max(rounding);
+        let minimum = bernstein::minimise(&c, reach_m * reach_m, tolerance);
+        self.lower_m = self.lower_m.min((minimum.lower - rounding).max(0.0).sqrt() - radius_m);
+        if let Some(u) = minimum.at {
+            self.upper_m = (minimum.upper + rounding).sqrt() - radius_m;
+            self.at = Some((span.instant_s(u), who));
+        }
+    }
+
+    fn found(&self) -> Option<Approach> {
+        let (at_s, who) = self.at?;
+        Some(Approach { lower_m: self.lower_m.min(self.upper_m), upper_m: self.upper_m, at_s, who })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use scenarios::Cylinder;
+
+    use super::{Approach, between_vehicles, to_cylinders, to_point};
+    use crate::verdict::motion::{Knot, Motion};
+    use crate::verdict::random::Uniform;
+
+    /// p = p0 + v t, with knots every `step_s` until `end_s`.
+    fn line(position_m: [f64; 3], velocity_mps: [f64; 3], step_s: f64, end_s: f64) -> Motion {
+        let steps = (end_s / step_s).round() as usize;
+        let knot = |step: usize| {
+            let t_s = if step == steps { end_s } else { step as f64 * step_s };
+            let position_m = std::array::from_fn(|axis| position_m[axis] + velocity_mps[axis] * t_s);
+            Knot { t_s, position_m, velocity_mps }
+        };
+        Motion::new("uav", (0..=steps).map(knot).collect()).unwrap()
+    }
+
+    fn assert_is(approach: &Approach, distance_m: f64, at_s: f64) {
+        assert!(approach.lower_m <= distance_m + 1e-12 && distance_m <= approach.upper_m + 1e-9, "{approach:?}");
+        assert!(approach.upper_m - approach.lower_m <= 1e-9, "{approach:?}");
+        assert!((approach.at_s - at_s).abs() < 1e-4, "{approach:?}, not {at_s} s");
+    }
+
+    /// (-700, 0) + (35, 0) t and (0, -710) + (0, 35) t: relative (-700, 710) + (35, -35) t, nearest at 705/35 s,
+    /// where it is (5, 5). On grids of any step, the same or not.
+    #[test]
+    fn crossing_lines_meet_where_geometry_says_on_any_grid() {
+        for (one_s, other_s) in [(0.01, 0.01), (0.01, 0.03), (40.0, 40.0), (40.0, 0.7), (7.3, 5.1)] {
+            let crossing = [
+                line([-700.0, 0.0, 300.0], [35.0, 0.0, 0.0], one_s, 40.0),
+                line([0.0, -710.0, 500.0], [0.0, 35.0, 1.0], other_s, 40.0),
+            ];
+            assert_is(&between_vehicles(&crossing).unwrap(), 50.0_f64.sqrt(), 705.0 / 35.0);
+        }
+    }
+
+    #[test]
+    fn three_vehicles_have_their_nearest_pair_named() {
+        let north = |y_m| line([0.0, y_m, 0.0], [30.0, 0.0, 0.0], 0.05, 10.0);
+        let nearest = between_vehicles(&[north(0.0), north(170.0), north(300.0)]).unwrap();
+        assert_eq!(nearest.who, [1, 2]);
+        assert!(between_vehicles(&[north(0.0)]).is_none());
+    }
+
+    #[test]
+    fn vehicles_are_compared_while_both_last() {
+        // At 10 s they would meet; the second motion ends at 8 s, 40 m earlier.
+        let first = line([-100.0, 0.0, 0.0], [10.0, 0.0, 0.0], 0.1, 20.0);
+        let second = line([100.0, 0.0, 0.0], [-10.0, 0.0, 0.0], 0.1, 8.0);
+        assert_is(&between_vehicles(&[first, second]).unwrap(), 40.0, 8.0);
+    }
+
+    #[test]
+    fn a_line_passes_a_cylinder_at_its_offset() {
+        let cylinder = |x_m, y_m, radius_m| Cylinder { name: "pillar".to_owned(), center_m: [x_m, y_m], radius_m };
+        let motion = [line([0.0, 0.0, 50.0], [35.0, 0.0, 0.0], 0.05, 20.0)];
+        let pillars = [cylinder(350.0, 420.0, 400.0), cylinder(100.0, -30.0, 5.0)];
+        assert_is(&to_cylinders(&motion, &pillars).unwrap(), 20.0, 10.0);
+        assert_eq!(to_cylinders(&motion, &pillars).unwrap().who, [0, 0]);
+        // Inside a large one, a small one is never nearer.
+        let nested = [cylinder(351.0, 3.0, 1.0), cylinder(350.0, 4.0, 400.0)];
+        assert_is(&to_cylinders(&motion, &nested).unwrap(), -396.0, 10.0);
+        assert!(to_cylinders(&motion, &[]).is_none());
+    }
+
+    #[test]
+    fn a_goal_is_passed_in_space_and_inside_the_window() {
+        let motion = line([0.0, 0.0, 50.0], [35.0, 0.0, 0.0], 0.05, 20.0);
+        assert_is(&to_point(&motion, 0.0, [350.0, 3.0, 54.0]).unwrap(), 5.0, 10.0);
+        assert_is(&to_point(&motion, 12.025, [350.0, 0.0, 50.0]).unwrap(), 70.875, 12.025);
+        assert!(to_point(&motion, 20.0, [350.0, 0.0, 50.0]).is_none());
+    }
+
+    /// Knots at random times, places and velocities.
+    fn wild(uniform: &mut Uniform) -> Motion {
+        let mut t_s = 0.0;
+        let knots = (0..40).map(|_| {
+            let position_m = std::array::from_fn(|_| uniform.between(-60.0, 60.0));
+            let velocity_mps = std::array::from_fn(|_| uniform.between(-50.0, 50.0));
+            let knot = Knot { t_s, position_m, velocity_mps };
+            t_s += uniform.between(0.1, 2.0);
+            knot
+        });
+        Motion::new("uav", knots.collect()).unwrap()
+    }
+
+    #[test]
+    fn no_sample_of_wild_motions_is_nearer_than_the_bound() {
+        let mut uniform = Uniform::seeded(3);
+        for round in 0..40 {
+            let motions: Vec<Motion> = (0..3).map(|_| wild(&mut uniform)).collect();
+            let nearest = between_vehicles(&motions).unwrap();
+            let distance_at = |i: usize, j: usize, t_s: f64| {
+                let (a, b) = (motions[i].position_m(t_s)?, motions[j].position_m(t_s)?);
+                Some((a[0] - b[0]).hypot(a[1] - b[1]))
+            };
+            let mut sampled = f64::INFINITY;
+            for step in 0..40_000 {
+                for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+                    sampled = distance_at(i, j, f64::from(step) * 0.002).unwrap_or(f64::INFINITY).min(sampled);
+                }
+            }
+            assert!(sampled >= nearest.lower_m - 1e-9, "round {round}: {sampled} below {nearest:?}");
+            let taken = distance_at(nearest.who[0], nearest.who[1], nearest.at_s).unwrap();
+            assert!((taken - nearest.upper_m).abs() < 1e-6, "round {round}: {taken}, {nearest:?}");
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Does the plan obey the equations of motion?
+//!
+//! The planned controls go through the simulator's nonlinear equations, never through the planner's model: once
+//! restarted at every node, once open loop over the whole horizon.
+
+use scenarios::{Plan, Scenario};
+
+use crate::verdict::Check;
+use crate::verdict::compare::is_larger;
+use crate::verdict::planned::Planned;
+use crate::verdict::question::{Evidence, Group, Measured, Question};
+
+/// Largest distance between the end of an interval and the next node: the larger of |Δp| and |Δv| times the interval's
+/// length, m.
+pub fn check_defects(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
+    let question = Question::new(Group::Plan, "dynamics", "m");
+    let planned = match planned {
+        Err(reason) => return question.fail(reason),
+        Ok(planned) => planned,
+    };
+    let defects = plan.trajectories.iter().zip(&planned.ends).flat_map(|(trajectory, ends)| {
+        ends.iter().enumerate().map(move |(interval, end)| {
+            let node = interval + 1;
+            let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
+            let dt_s = t_s - trajectory.times_s[interval];
+            let position_m = distance(end.position_m, state.position_m());
+            let velocity_m = distance(end.velocity_mps, state.velocity_mps()) * dt_s;
+            let defect_m = if is_larger(velocity_m, position_m) { velocity_m } else { position_m };
+            (defect_m, t_s, trajectory.vehicle.as_str())
+        })
+    });
+    largest(&question, defects, scenario.verdict.dynamics_m)
+}
+
+/// Largest distance between the last node and where the controls lead, open loop from the start, m.
+pub fn check_rollout(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
+    let question = Question::new(Group::Plan, "rollout", "m");
+    let planned = match planned {
+        Err(reason) => return question.fail(reason),
+        Ok(planned) => planned,
+    };
+    let errors = plan.trajectories.iter().zip(&planned.open_loop_ends).filter_map(|(trajectory, end)| {
+        let last = trajectory.states.last()?;
+        Some((distance(end.position_m, last.position_m()), end.t_s, trajectory.vehicle.as_str()))
+    });
+    largest(&question, errors, scenario.verdict.rollout_m)
+}
+
+fn largest<'a>(question: &Question, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> Check {
+    match errors.reduce(|worst, error| if is_larger(error.0, worst.0) { error } else { worst }) {
+        None => question.fail("the plan has no interval"),
+        Some((error_m, t_s, vehicle)) => question.at_most(Measured::value(error_m).at(t_s).with(vehicle), limit_m),
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,100 @@
+//! Is the flight log whole, is everything in it a number, and did nobody crash?
+
+use scenarios::{Plan, Scenario, Vehicle};
+use sim::{EventKind, Flight, Sample, VehicleLog};
+
+use crate::verdict::Check;
+use crate::verdict::compare::exceeds;
+use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
+use crate::verdict::question::{Group, Measured, Question};
+
+/// Longest distance between two samples, in steps of the simulator: what rounding leaves above 1.
+const LONGEST_GAP_STEPS: f64 = 1.001;
+
+/// Number of numbers in the log that are not finite.
+pub fn check_finite(flight: &Flight) -> Check {
+    let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
+    let mut count = times.filter(|value| !value.is_finite()).count();
+    let mut odd = Vec::new();
+    for log in &flight.vehicles {
+        let here: usize = log.samples.iter().map(count_not_finite).sum();
+        if here > 0 {
+            odd.push(log.vehicle.as_str());
+        }
+        count += here;
+    }
+    none_of(&Question::new(Group::Flight, "finite", "numbers"), count, &odd, None)
+}
+
+/// Number of vehicles whose log is missing, misnamed, empty, with gaps, out of order in time, not from the vehicle's
+/// start, or shorter than the plan; and of logs without a vehicle. A start may be off by as much as the tracking: a
+/// disturbed start is a matter for the tracker.
+///
+/// - `plan`: one that is flyable
+pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
+    let of_vehicle = |(index, vehicle): (usize, &Vehicle)| {
+        let planned_end_s = plan.trajectories.get(index).and_then(|trajectory| trajectory.times_s.last().copied());
+        let defect = match flight.vehicles.get(index) {
+            None => Some("there is no log".to_owned()),
+            Some(log) => log_defect(scenario, vehicle, planned_end_s.unwrap_or(f64::NAN), log),
+        };
+        defect.map(|defect| format!("{}: {defect}", vehicle.name))
+    };
+    let surplus = flight.vehicles.iter().skip(scenario.vehicles.len());
+    let no_vehicle = surplus.map(|log| format!("{}: no such vehicle, or twice", log.vehicle));
+    let defects: Vec<String> = scenario.vehicles.iter().enumerate().filter_map(of_vehicle).chain(no_vehicle).collect();
+    none_of(&Question::new(Group::Flight, "complete", "vehicles"), defects.len(), &[], defects.first())
+}
+
+/// Number of crashes.
+pub fn check_crash(flight: &Flight) -> Check {
+    let question = Question::new(Group::Flight, "crash", "crashes");
+    let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
+        EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
+        EventKind::SaturationBegan | EventKind::SaturationEnded => None,
+    });
+    let Some((t_s, concerned)) = crashes.next() else { return question.at_most(Measured::value(0.0), 0.0) };
+    let count = 1 + crashes.count();
+    let measured = concerned.fold(Measured::value(count as f64).at(t_s), |measured, name| measured.with(name));
+    question.at_most(measured, 0.0)
+}
+
+fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &VehicleLog) -> Option<String> {
+    if log.vehicle != vehicle.name {
+        return Some(format!("the log of {} stands in its place", log.vehicle));
+    }
+    let step_s = scenario.simulation.step_s;
+    let (Some(first), Some(last)) = (log.samples.first(), log.samples.last()) else {
+        return Some("the log is empty".to_owned());
+    };
+    if exceeds(first.t_s.abs(), TIME_TOLERANCE_S) {
+        return Some(format!("the log begins at {} s, which should be 0 s", first.t_s));
+    }
+    let is_step = |pair: &[Sample]| {
+        let gap_s = pair[1].t_s - pair[0].t_s;
+        gap_s > 0.0 && gap_s <= LONGEST_GAP_STEPS * step_s
+    };
+    if let Some(pair) = log.samples.windows(2).find(|pair| !is_step(pair)) {
+        return Some(format!("after the sample at {} s comes one at {} s", pair[0].t_s, pair[1].t_s));
+    }
+    if exceeds(planned_end_s, last.t_s + step_s) {
+        return Some(format!("the log ends at {:.3} s, before the plan, which ends at {planned_end_s:.3} s", last.t_s));
+    }
+    start_defect("m", first.position_m, vehicle.start.position_m(), scenario.verdict.tracking_max_m)
+}
+
+fn count_not_finite(sample: &Sample) -> usize {
+    let vectors = [
+        sample.position_m,
+        sample.velocity_mps,
+        sample.wind_mps,
+        sample.measured_position_m,
+        sample.measured_velocity_mps,
+        sample.reference_position_m,
+        sample.reference_velocity_mps,
+        sample.command.to_array(),
+        sample.control.to_array(),
+    ];
+    let numbers = vectors.as_flattened().iter().chain(&sample.world_from_body).chain([&sample.t_s]);
+    numbers.filter(|value| !value.is_finite()).count()
+}

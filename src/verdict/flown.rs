@@ -1,0 +1,97 @@
+//! The flight as the judge looks at it: which part of it counts, and when each vehicle arrived.
+
+use scenarios::{Plan, Scenario, Trajectory, Vehicle};
+use sim::{Flight, Sample, VehicleLog};
+
+use crate::verdict::closest::{self, Approach};
+use crate::verdict::motion::{Knot, Motion};
+
+/// An arrival is looked for from this long before the planned one to the end of the log, s.
+const ARRIVAL_WINDOW_S: f64 = 10.0;
+/// A closest approach within this of the log's end is no arrival: the vehicle was still on its way, s.
+const LOG_END_S: f64 = 1e-6;
+
+/// A flight whose logs can be matched with the vehicles.
+///
+/// A vehicle is judged until its planned end, or until it arrives if that is later; a vehicle that does not arrive,
+/// until its log ends. The coasting after that is no part of the mission.
+#[derive(Clone, Debug)]
+pub struct Flown<'a> {
+    /// The motion of every vehicle while it is judged.
+    pub motions: Vec<Motion>,
+    /// Every vehicle's log, in the same order.
+    pub vehicles: Vec<FlownVehicle<'a>>,
+}
+
+/// One vehicle's log.
+#[derive(Clone, Debug)]
+pub struct FlownVehicle<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The steps that are judged.
+    pub judged: &'a [Sample],
+    /// The steps during which it follows the plan.
+    pub tracked: &'a [Sample],
+    /// End of the log, s.
+    pub log_end_s: f64,
+    /// Closest approach to the goal, from 10 s before the planned arrival on; `None` if the log ends before.
+    pub approach: Option<Approach>,
+}
+
+impl<'a> Flown<'a> {
+    /// Matches the logs with the vehicles of a flyable plan. Refuses with the reason if they cannot be.
+    pub fn new(scenario: &'a Scenario, plan: &Plan, flight: &'a Flight) -> Result<Self, String> {
+        let (logs, vehicles) = (flight.vehicles.len(), scenario.vehicles.len());
+        if logs != vehicles {
+            return Err(format!("the flight has the logs of {logs} vehicles, the scenario has {vehicles} vehicles"));
+        }
+        let mut flown = Self { motions: Vec::new(), vehicles: Vec::new() };
+        for ((vehicle, trajectory), log) in scenario.vehicles.iter().zip(&plan.trajectories).zip(&flight.vehicles) {
+            let (motion, vehicle) = part_that_counts(vehicle, trajectory, log)?;
+            flown.motions.push(motion);
+            flown.vehicles.push(vehicle);
+        }
+        Ok(flown)
+    }
+}
+
+impl FlownVehicle<'_> {
+    /// When it arrived, s; `None` if it did not.
+    pub fn arrival_s(&self) -> Option<f64> {
+        self.approach.map(|approach| approach.at_s).filter(|&at_s| at_s < self.log_end_s - LOG_END_S)
+    }
+}
+
+fn part_that_counts<'a>(
+    vehicle: &'a Vehicle,
+    trajectory: &Trajectory,
+    log: &'a VehicleLog,
+) -> Result<(Motion, FlownVehicle<'a>), String> {
+    if log.vehicle != vehicle.name {
+        return Err(format!("the log of {} stands where that of {} belongs", log.vehicle, vehicle.name));
+    }
+    let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?;
+    let planned_end_s = trajectory.times_s.last().copied().unwrap_or(0.0);
+    let window_s = planned_end_s - ARRIVAL_WINDOW_S;
+    let mut flown = FlownVehicle {
+        name: &vehicle.name,
+        judged: &log.samples,
+        tracked: until(&log.samples, planned_end_s),
+        log_end_s: motion.end_s(),
+        approach: closest::to_point(&motion, window_s, vehicle.goal.position_m()),
+    };
+    let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(planned_end_s);
+    motion.end_at(judged_end_s);
+    flown.judged = until(&log.samples, judged_end_s);
+    Ok((motion, flown))
+}
+
+/// The samples up to the first one at or beyond `t_s`.
+fn until(samples: &[Sample], t_s: f64) -> &[Sample] {
+    let beyond = samples.partition_point(|sample| sample.t_s < t_s);
+    &samples[..(beyond + 1).min(samples.len())]
+}
+
+fn knot(sample: &Sample) -> Knot {
+    Knot { t_s: sample.t_s, position_m: sample.position_m, velocity_mps: sample.velocity_mps }
+}

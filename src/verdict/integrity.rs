@@ -1,0 +1,134 @@
+//! Is everything there, and is it a number?
+
+use std::cmp::Ordering;
+
+use scenarios::{Plan, Scenario, Trajectory, Vehicle};
+
+use crate::verdict::Check;
+use crate::verdict::compare::exceeds;
+use crate::verdict::question::{Group, Measured, Question};
+
+/// A first node may differ from the vehicle's start by this much, which is what a file's decimals leave, m and m/s.
+const START_TOLERANCE: f64 = 0.01;
+/// The first time may differ from 0 by this much, s.
+pub const TIME_TOLERANCE_S: f64 = 1e-9;
+
+/// Can the plan be flown at all: has every vehicle a trajectory, whole, finite, from its start, forward in time?
+///
+/// The reason if not, naming the vehicle.
+pub fn is_flyable(scenario: &Scenario, plan: &Plan) -> Result<(), String> {
+    if plan.trajectories.is_empty() {
+        return Err("there is no plan".to_owned());
+    }
+    if let Some(defect) = trajectory_defects(scenario, plan).into_iter().next() {
+        return Err(defect);
+    }
+    match plan.trajectories.iter().find(|trajectory| trajectory_numbers(trajectory).any(|value| !value.is_finite())) {
+        Some(trajectory) => Err(format!("{}: the trajectory holds a number that is not finite", trajectory.vehicle)),
+        None => Ok(()),
+    }
+}
+
+/// Number of numbers in the plan that are not finite, in its trajectories and in what it says of itself.
+pub fn check_plan_finite(plan: &Plan) -> Check {
+    let question = Question::new(Group::Plan, "finite", "numbers");
+    if plan.trajectories.is_empty() {
+        return question.fail("there is no plan");
+    }
+    let mut count = plan_numbers(plan).filter(|value| !value.is_finite()).count();
+    let mut odd = Vec::new();
+    for trajectory in &plan.trajectories {
+        let here = trajectory_numbers(trajectory).filter(|value| !value.is_finite()).count();
+        if here > 0 {
+            odd.push(trajectory.vehicle.as_str());
+        }
+        count += here;
+    }
+    none_of(&question, count, &odd, None)
+}
+
+/// Number of vehicles whose trajectory is missing, misnamed, too short, of unequal lengths, not forward in time, or not
+/// from the vehicle's start; and of trajectories without a vehicle.
+pub fn check_plan_complete(scenario: &Scenario, plan: &Plan) -> Check {
+    let defects = trajectory_defects(scenario, plan);
+    none_of(&Question::new(Group::Plan, "complete", "vehicles"), defects.len(), &[], defects.first())
+}
+
+/// Passes if `count` is 0.
+pub fn none_of(question: &Question, count: usize, between: &[&str], reason: Option<&String>) -> Check {
+    let mut measured = between.iter().fold(Measured::value(count as f64), |measured, name| measured.with(name));
+    if let Some(reason) = reason {
+        measured = measured.because(reason);
+    }
+    question.at_most(measured, 0.0)
+}
+
+/// What is wrong with each vehicle's trajectory, in words, one entry for each that is not in order.
+fn trajectory_defects(scenario: &Scenario, plan: &Plan) -> Vec<String> {
+    let of_vehicle = |(index, vehicle): (usize, &Vehicle)| match plan.trajectories.get(index) {
+        None => Some(format!("{}: there is no trajectory", vehicle.name)),
+        Some(trajectory) => trajectory_defect(vehicle, trajectory).map(|defect| format!("{}: {defect}", vehicle.name)),
+    };
+    let surplus = plan.trajectories.iter().skip(scenario.vehicles.len());
+    let no_vehicle = surplus.map(|trajectory| format!("{}: no such vehicle, or twice", trajectory.vehicle));
+    scenario.vehicles.iter().enumerate().filter_map(of_vehicle).chain(no_vehicle).collect()
+}
+
+fn trajectory_defect(vehicle: &Vehicle, trajectory: &Trajectory) -> Option<String> {
+    let Trajectory { vehicle: name, times_s, states, controls, .. } = trajectory;
+    if *name != vehicle.name {
+        return Some(format!("the trajectory of {name} stands in its place"));
+    }
+    if times_s.len() != states.len() || times_s.len() != controls.len() {
+        let (times, states, controls) = (times_s.len(), states.len(), controls.len());
+        return Some(format!("{times} times, {states} states and {controls} controls, which should be as many"));
+    }
+    if times_s.len() < 2 {
+        return Some(format!("{} nodes, at least 2 are needed", times_s.len()));
+    }
+    time_defect(times_s).or_else(|| {
+        let start = vehicle.start.fixed_wing_state();
+        let first = &states[0];
+        start_defect("m", first.position_m(), start.position_m(), START_TOLERANCE)
+            .or_else(|| start_defect("m/s", first.velocity_mps(), start.velocity_mps(), START_TOLERANCE))
+    })
+}
+
+/// Do the times start at 0 and increase?
+fn time_defect(times_s: &[f64]) -> Option<String> {
+    if exceeds(times_s[0].abs(), TIME_TOLERANCE_S) {
+        return Some(format!("the first time is {} s, which should be 0 s", times_s[0]));
+    }
+    let pair = times_s.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less))?;
+    Some(format!("after the time {} s comes {} s", pair[0], pair[1]))
+}
+
+/// Is `first` the vehicle's `start`, within `tolerance`? All in `unit`.
+pub fn start_defect(unit: &str, first: [f64; 3], start: [f64; 3], tolerance: f64) -> Option<String> {
+    let distance = (0..3).map(|axis| (first[axis] - start[axis]).powi(2)).sum::<f64>().sqrt();
+    exceeds(distance, tolerance).then(|| format!("it begins {distance:.3} {unit} away from the vehicle's start"))
+}
+
+fn trajectory_numbers(trajectory: &Trajectory) -> impl Iterator<Item = f64> + '_ {
+    let states = trajectory.states.iter().flat_map(|state| state.to_array());
+    let controls = trajectory.controls.iter().flat_map(|control| control.to_array());
+    trajectory.times_s.iter().copied().chain(states).chain(controls)
+}
+
+/// The numbers that a plan says of itself.
+fn plan_numbers(plan: &Plan) -> impl Iterator<Item = f64> + '_ {
+    let history = plan.history.iter().flat_map(|iteration| {
+        let always = [
+            iteration.objective,
+            iteration.dt_s,
+            iteration.defect_m,
+            iteration.slack,
+            iteration.change_m,
+            iteration.trust_region_m,
+            iteration.wall_s,
+            iteration.distributed_s,
+        ];
+        always.into_iter().chain(iteration.separation_m).chain(iteration.clearance_m)
+    });
+    history.chain(plan.objective).chain([plan.timings.wall_s, plan.timings.distributed_s])
+}

@@ -1,0 +1,141 @@
+use scenarios::{Plan, PlanStatus, Scenario};
+use sim::Flight;
+
+use crate::verdict::flown::Flown;
+use crate::verdict::planned::Planned;
+use crate::verdict::question::{Evidence, Group, Question};
+use crate::verdict::{
+    Check, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits, separation,
+    tracking,
+};
+
+/// Judges a plan and its flight.
+///
+/// - `flight`: `None` when the plan was not flown
+///
+/// Every check of [`scenarios::CHECK_NAMES`] is answered, in that order. What does not apply to the scenario is skipped
+/// with the reason; what applies and cannot be measured, because something is missing, empty or not a number, fails
+/// with the reason. Nothing that a plan or a flight may hold makes it panic.
+pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdict {
+    let flyable = integrity::is_flyable(scenario, plan);
+    let planned = flyable.clone().and_then(|()| Planned::new(scenario, plan));
+    let logged = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
+    let flown = logged.clone().and_then(|flight| Flown::new(scenario, plan, flight));
+
+    let mut checks = nodes_checks(scenario, flyable.as_ref().map(|()| plan).map_err(String::as_str));
+    checks.extend(plan_checks(scenario, plan, flyable.as_ref().map_err(String::as_str), planned.as_ref()));
+    checks.extend(log_checks(scenario, plan, logged.as_ref().map(|flight| *flight).map_err(String::as_str)));
+    checks.extend(flight_checks(scenario, flown.as_ref().map_err(String::as_str)));
+
+    let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
+    settle(scenario, &mut checks);
+    let outcome = if plan.status == PlanStatus::NoPlan || plan.trajectories.is_empty() {
+        Outcome::NoPlan
+    } else if checks.iter().any(|check| check.is_bad() && !check.advisory) {
+        Outcome::Fail
+    } else {
+        Outcome::Pass
+    };
+    Verdict { outcome, overclaimed, checks }
+}
+
+fn nodes_checks(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Vec<Check> {
+    vec![
+        separation::check_nodes(scenario, plan),
+        clearance::check_nodes(scenario, plan),
+        limits::check_node_states(scenario, plan),
+        limits::check_planned_controls(Group::Nodes, scenario, plan),
+        arrival::check_node_goals(scenario, plan),
+    ]
+}
+
+fn plan_checks(
+    scenario: &Scenario,
+    plan: &Plan,
+    flyable: Evidence<'_, ()>,
+    planned: Result<&Planned, &String>,
+) -> Vec<Check> {
+    let nodes = flyable.map(|()| plan);
+    let planned = planned.map_err(String::as_str);
+    let motions = planned.map(|planned| planned.motions.as_slice());
+    vec![
+        integrity::check_plan_finite(plan),
+        integrity::check_plan_complete(scenario, plan),
+        separation::check(Group::Plan, scenario, motions),
+        clearance::check(Group::Plan, scenario, motions),
+        limits::check_planned_states(scenario, motions),
+        limits::check_planned_controls(Group::Plan, scenario, nodes),
+        dynamics::check_defects(scenario, plan, planned),
+        dynamics::check_rollout(scenario, plan, planned),
+        arrival::check_planned_goals(scenario, motions),
+        arrival::check_planned_arrival(scenario, nodes),
+        arrival::check_planned_duration(scenario, nodes),
+    ]
+}
+
+fn log_checks(scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Vec<Check> {
+    match flight {
+        Ok(flight) => vec![
+            flight_integrity::check_finite(flight),
+            flight_integrity::check_complete(scenario, plan, flight),
+            flight_integrity::check_crash(flight),
+        ],
+        Err(reason) => [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes")]
+            .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
+            .into(),
+    }
+}
+
+fn flight_checks(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
+    let motions = flown.map(|flown| flown.motions.as_slice());
+    let no_load = |name, unit| Question::new(Group::Flight, name, unit).skip("no vehicle carries a load");
+    vec![
+        separation::check(Group::Flight, scenario, motions),
+        clearance::check(Group::Flight, scenario, motions),
+        limits::check_flown_states(scenario, flown),
+        limits::check_flown_controls(scenario, flown),
+        arrival::check_flown_goals(scenario, flown),
+        arrival::check_flown_arrival(scenario, flown),
+        arrival::check_flown_duration(scenario, flown),
+        tracking::check_root_mean_square(scenario, flown),
+        tracking::check_largest(scenario, flown),
+        tracking::check_saturation(scenario, flown),
+        no_load("tension", "N"),
+        no_load("slack", "s"),
+        no_load("swing", "deg"),
+    ]
+}
+
+/// Applies what the scenario says of single checks: advisory ones do not decide, required ones must have been made.
+fn settle(scenario: &Scenario, checks: &mut Vec<Check>) {
+    for name in &scenario.verdict.required {
+        match checks.iter_mut().find(|check| check.name == *name) {
+            Some(check) if check.status == Status::Skip => {
+                check.status = Status::Fail;
+                let why = check.reason.take().unwrap_or_default();
+                check.reason = Some(format!("required, but it could not be asked: {why}"));
+            }
+            Some(_) => {}
+            None => checks.push(Check::unknown(name)),
+        }
+    }
+    for check in checks {
+        check.advisory = scenario.verdict.advisory.contains(&check.name);
+    }
+}
+
+impl Check {
+    fn is_bad(&self) -> bool {
+        matches!(self.status, Status::Fail | Status::Undecided)
+    }
+
+    fn is_bad_in(&self, group: Group) -> bool {
+        self.is_bad() && self.name.starts_with(&format!("{group}."))
+    }
+
+    /// A required check that does not exist: nobody has made it, so it has failed.
+    fn unknown(name: &str) -> Self {
+        let reason = "required, but there is no check of this name".to_owned();
+        Self { name: name.to_owned(), ..Question::new(Group::Flight, "", "-").fail(reason) }
+    }
+}

@@ -1,0 +1,211 @@
+//! Do states and controls stay inside their limits?
+//!
+//! At the planner's nodes the vehicle's planning limits count: they are the planner's own promise. The plan between the
+//! nodes and the flight are judged by the physical limits, which lie farther out so that a tracker has authority left.
+//! The map's limits are state limits in all three.
+//!
+//! Positions are judged over continuous time; speed and flight-path angle at every knot (50 ms apart at most) of the
+//! plan and at every step of the flight, where they are those of the velocity through the air. Controls run linearly
+//! between nodes, so that they are extreme at the nodes; in flight the controls that acted are judged.
+
+use scenarios::fixed_wing::{Control, Limits, Model};
+use scenarios::{Plan, Range, Scenario};
+
+use crate::verdict::Check;
+use crate::verdict::bernstein;
+use crate::verdict::flown::Flown;
+use crate::verdict::motion::Motion;
+use crate::verdict::question::{Evidence, Group, Question};
+use crate::verdict::worst::{Quantity, Worst};
+
+/// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
+/// The limit that the check reports includes it. The physical limits know no such mercy.
+const SOLVER_TOLERANCE: f64 = 1e-6;
+/// Distance between the bounds of an extreme position that counts as close enough, m.
+const RESOLUTION_M: f64 = 1e-9;
+
+/// States at the nodes against the planning limits.
+pub fn check_node_states(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    state_answer(Group::Nodes, plan, |plan, worst| {
+        for (limited, trajectory) in limited_vehicles(scenario, promised).zip(&plan.trajectories) {
+            for (state, &t_s) in trajectory.states.iter().zip(&trajectory.times_s) {
+                limited.place(worst, state.position_m(), t_s);
+                limited.velocity(worst, state.speed_mps, state.flight_path_rad.to_degrees(), t_s);
+            }
+        }
+    })
+}
+
+/// States of the continuous plan against the physical limits.
+pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    state_answer(Group::Plan, motions, |motions, worst| {
+        for (limited, motion) in limited_vehicles(scenario, physical).zip(motions) {
+            limited.path(worst, motion);
+            for knot in motion.knots() {
+                limited.velocity_vector(worst, knot.velocity_mps, knot.t_s);
+            }
+        }
+    })
+}
+
+/// Flown states against the physical limits.
+pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    state_answer(Group::Flight, flown, |flown, worst| {
+        let logs = flown.motions.iter().zip(&flown.vehicles);
+        for (limited, (motion, vehicle)) in limited_vehicles(scenario, physical).zip(logs) {
+            limited.path(worst, motion);
+            for sample in vehicle.judged {
+                limited.velocity_vector(worst, sample.air_velocity_mps(), sample.t_s);
+            }
+        }
+    })
+}
+
+/// Controls at the nodes: the planning limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
+pub fn check_planned_controls(group: Group, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    let limits = if group == Group::Nodes { promised } else { physical };
+    control_answer(group, plan, |plan, worst| {
+        for (limited, trajectory) in limited_vehicles(scenario, limits).zip(&plan.trajectories) {
+            for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
+                limited.control(worst, control, t_s);
+            }
+        }
+    })
+}
+
+/// Controls that acted in flight against the physical limits.
+pub fn check_flown_controls(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    control_answer(Group::Flight, flown, |flown, worst| {
+        for (limited, vehicle) in limited_vehicles(scenario, physical).zip(&flown.vehicles) {
+            for sample in vehicle.judged {
+                limited.control(worst, &sample.control, sample.t_s);
+            }
+        }
+    })
+}
+
+fn state_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: impl Fn(&T, &mut Worst<'a>)) -> Check {
+    answer(group, "state_limits", evidence, look)
+}
+
+fn control_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: impl Fn(&T, &mut Worst<'a>)) -> Check {
+    answer(group, "control_limits", evidence, look)
+}
+
+fn answer<'a, T: ?Sized>(
+    group: Group,
+    name: &'static str,
+    evidence: Evidence<'_, T>,
+    look: impl Fn(&T, &mut Worst<'a>),
+) -> Check {
+    let mut worst = Worst::new();
+    match evidence {
+        Err(reason) => Question::new(group, name, "-").fail(reason),
+        Ok(evidence) => {
+            look(evidence, &mut worst);
+            match worst.found {
+                None => Question::new(group, name, "-").fail("there was nothing to hold against a limit"),
+                Some(found) => found.into_check(group, name),
+            }
+        }
+    }
+}
+
+/// The limits that a planner promised to keep, widened by what its solver may leave.
+fn promised(model: &Model) -> Limits {
+    let widened = |range: Range| {
+        let tolerance = SOLVER_TOLERANCE * range.width();
+        if tolerance.is_finite() { Range::new(range.min - tolerance, range.max + tolerance) } else { range }
+    };
+    let Limits { altitude_m, speed_mps, flight_path_deg, n_x, n_y, n_z } = model.planning_limits;
+    Limits {
+        altitude_m: widened(altitude_m),
+        speed_mps: widened(speed_mps),
+        flight_path_deg: widened(flight_path_deg),
+        n_x: widened(n_x),
+        n_y: widened(n_y),
+        n_z: widened(n_z),
+    }
+}
+
+fn physical(model: &Model) -> Limits {
+    model.limits.clone()
+}
+
+fn limited_vehicles<'a>(
+    scenario: &'a Scenario,
+    limits: impl Fn(&Model) -> Limits + 'a,
+) -> impl Iterator<Item = Limited<'a>> {
+    scenario.vehicles.iter().map(move |vehicle| Limited {
+        vehicle: &vehicle.name,
+        map: scenario.world.map.axes(),
+        limits: limits(scenario.fixed_wing_model(vehicle)),
+    })
+}
+
+/// A vehicle and what it has to stay inside.
+struct Limited<'a> {
+    vehicle: &'a str,
+    map: [Range; 3],
+    limits: Limits,
+}
+
+impl<'a> Limited<'a> {
+    fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
+        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
+            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+        }
+        self.altitude(worst, position_m[2], t_s);
+    }
+
+    fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
+        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
+            for (value, t_s) in extremes_m(motion, axis) {
+                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+                if axis == 2 {
+                    self.altitude(worst, value, t_s);
+                }
+            }
+        }
+    }
+
+    fn altitude(&self, worst: &mut Worst<'a>, value: f64, t_s: f64) {
+        let altitude = Quantity { name: "altitude", unit: "m", range: self.limits.altitude_m };
+        worst.consider(self.vehicle, altitude, value, t_s);
+    }
+
+    fn velocity(&self, worst: &mut Worst<'a>, speed_mps: f64, flight_path_deg: f64, t_s: f64) {
+        let speed = Quantity { name: "speed", unit: "m/s", range: self.limits.speed_mps };
+        let flight_path = Quantity { name: "flight-path angle", unit: "deg", range: self.limits.flight_path_deg };
+        worst.consider(self.vehicle, speed, speed_mps, t_s);
+        worst.consider(self.vehicle, flight_path, flight_path_deg, t_s);
+    }
+
+    fn velocity_vector(&self, worst: &mut Worst<'a>, [x, y, z]: [f64; 3], t_s: f64) {
+        let horizontal = (x * x + y * y).sqrt();
+        self.velocity(worst, (x * x + y * y + z * z).sqrt(), z.atan2(horizontal).to_degrees(), t_s);
+    }
+
+    fn control(&self, worst: &mut Worst<'a>, control: &Control, t_s: f64) {
+        let named = ["n_x", "n_y", "n_z"].into_iter().zip(self.limits.controls());
+        for ((name, range), value) in named.zip(control.to_array()) {
+            worst.consider(self.vehicle, Quantity { name, unit: "-", range }, value, t_s);
+        }
+    }
+}
+
+/// Lowest and highest value of one coordinate over continuous time, m, and when, s.
+fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
+    [1.0, -1.0].map(|sign| {
+        let (mut lowest, mut at_s) = (f64::INFINITY, motion.knots()[0].t_s);
+        for segment in motion.segments() {
+            let c = segment.points_m.map(|point| sign * point[axis]);
+            if c.iter().any(|&coefficient| coefficient < lowest) {
+                let minimum = bernstein::minimise(&c, lowest, |_| RESOLUTION_M);
+                lowest = minimum.lower;
+                at_s = minimum.at.map_or(at_s, |u| segment.instant_s(u));
+            }
+        }
+        (sign * lowest, at_s)
+    })
+}

@@ -1,0 +1,178 @@
+//! The motion of a vehicle as the judge sees it: a continuous curve, not samples.
+
+use crate::verdict::bernstein;
+
+/// Numbers beyond this are not positions of an aircraft, m and m/s. Up to here squares and products keep their digits.
+const LARGEST_M: f64 = 1e9;
+
+/// Position and velocity at one instant, world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// Time, s.
+    pub t_s: f64,
+    /// Position, m.
+    pub position_m: [f64; 3],
+    /// Velocity, m/s.
+    pub velocity_mps: [f64; 3],
+}
+
+/// A curve through knots: between two of them the cubic Hermite of their positions and velocities.
+///
+/// Knots are dense (50 ms apart at most in a plan, one simulator step apart in a flight), so that the cubic follows the
+/// true motion within micrometres. Two knots may share one time; what lies between them is a jump, not motion:
+/// it is not looked at here, but by `plan.dynamics`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    vehicle: String,
+    knots: Vec<Knot>,
+}
+
+impl Motion {
+    /// The motion of `vehicle` through `knots`, at least two, their times in order.
+    ///
+    /// Refuses knots that are too few, out of order, not finite, or too large to be judged, with the reason.
+    pub fn new(vehicle: &str, knots: Vec<Knot>) -> Result<Self, String> {
+        if knots.len() < 2 {
+            return Err(format!("the motion of {vehicle} has {} instants, at least 2 are needed", knots.len()));
+        }
+        if let Some(knot) = knots.iter().find(|knot| !is_judgeable(knot)) {
+            return Err(format!("the motion of {vehicle} leaves the numbers that can be judged at {} s", knot.t_s));
+        }
+        if let Some(pair) = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s) {
+            return Err(format!("the motion of {vehicle} goes back in time at {} s", pair[0].t_s));
+        }
+        Ok(Self { vehicle: vehicle.to_owned(), knots })
+    }
+
+    /// Name of the vehicle.
+    pub fn vehicle(&self) -> &str {
+        &self.vehicle
+    }
+
+    /// The knots, in the order of time.
+    pub fn knots(&self) -> &[Knot] {
+        &self.knots
+    }
+
+    /// Time of the last knot, s.
+    pub fn end_s(&self) -> f64 {
+        self.knots[self.knots.len() - 1].t_s
+    }
+
+    /// Position at `t_s`, m; `None` before the first knot and after the last.
+    pub fn position_m(&self, t_s: f64) -> Option<[f64; 3]> {
+        if !(self.knots[0].t_s <= t_s && t_s <= self.end_s()) {
+            return None;
+        }
+        let after = self.knots.partition_point(|knot| knot.t_s < t_s).max(1);
+        let segment = self.segment(after - 1);
+        Some(segment.during(segment.t_s[0], t_s).points_m[3])
+    }
+
+    /// Forgets what comes after the first knot at or beyond `t_s`.
+    pub fn end_at(&mut self, t_s: f64) {
+        let kept = self.knots.partition_point(|knot| knot.t_s < t_s) + 1;
+        self.knots.truncate(kept.max(2));
+    }
+
+    /// Number of segments: one between each two knots.
+    pub fn segment_count(&self) -> usize {
+        self.knots.len() - 1
+    }
+
+    /// The curve between the knots `index` and `index + 1`.
+    pub fn segment(&self, index: usize) -> Segment {
+        Segment::between(&self.knots[index], &self.knots[index + 1])
+    }
+
+    /// All segments, in the order of time.
+    pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
+        self.knots.windows(2).map(|pair| Segment::between(&pair[0], &pair[1]))
+    }
+}
+
+fn is_judgeable(knot: &Knot) -> bool {
+    knot.t_s.is_finite() && knot.position_m.iter().chain(&knot.velocity_mps).all(|value| value.abs() <= LARGEST_M)
+}
+
+/// A cubic in Bernstein form over a span of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Beginning and end, s.
+    pub t_s: [f64; 2],
+    /// Control points, m.
+    pub points_m: [[f64; 3]; 4],
+}
+
+impl Segment {
+    /// The cubic Hermite from `a` to `b`.
+    pub fn between(a: &Knot, b: &Knot) -> Self {
+        let third_s = (b.t_s - a.t_s) / 3.0;
+        let leaving = std::array::from_fn(|axis| a.position_m[axis] + third_s * a.velocity_mps[axis]);
+        let entering = std::array::from_fn(|axis| b.position_m[axis] - third_s * b.velocity_mps[axis]);
+        Self { t_s: [a.t_s, b.t_s], points_m: [a.position_m, leaving, entering, b.position_m] }
+    }
+
+    /// The part of the curve during [`from_s`, `to_s`], which lies inside the segment's span.
+    pub fn during(&self, from_s: f64, to_s: f64) -> Self {
+        let [begin_s, end_s] = self.t_s;
+        if from_s <= begin_s && to_s >= end_s {
+            return *self;
+        }
+        let mut points_m = self.points_m;
+        for axis in 0..3 {
+            let whole = self.points_m.map(|point| point[axis]);
+            let (until, _) = bernstein::split(&whole, (to_s - begin_s) / (end_s - begin_s));
+            let (_, part) = bernstein::split(&until, (from_s - begin_s) / (to_s - begin_s));
+            for (point, value) in points_m.iter_mut().zip(part) {
+                point[axis] = value;
+            }
+        }
+        Self { t_s: [from_s, to_s], points_m }
+    }
+
+    /// Is it motion, or a jump between two knots at the same time?
+    pub fn lasts(&self) -> bool {
+        self.t_s[0] < self.t_s[1]
+    }
+
+    /// The instant at the share `u` of the span, s.
+    pub fn instant_s(&self, u: f64) -> f64 {
+        if u == 1.0 { self.t_s[1] } else { self.t_s[0] + u * (self.t_s[1] - self.t_s[0]) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Knot, Motion, Segment};
+
+    fn knot(t_s: f64, x_m: f64, vx_mps: f64) -> Knot {
+        Knot { t_s, position_m: [x_m, 0.0, 0.0], velocity_mps: [vx_mps, 0.0, 0.0] }
+    }
+
+    #[test]
+    fn a_part_of_a_segment_is_the_same_curve() {
+        // x = t³ between 1 s and 3 s.
+        let segment = Segment::between(&knot(1.0, 1.0, 3.0), &knot(3.0, 27.0, 27.0));
+        let part = segment.during(1.5, 2.0);
+        let expected = Segment::between(&knot(1.5, 3.375, 6.75), &knot(2.0, 8.0, 12.0));
+        for (point, wanted) in part.points_m.iter().zip(expected.points_m) {
+            assert!((point[0] - wanted[0]).abs() < 1e-13, "{part:?}");
+        }
+        assert_eq!(part.t_s, [1.5, 2.0]);
+        assert_eq!(segment.during(1.0, 3.0), segment);
+    }
+
+    #[test]
+    fn motions_that_cannot_be_judged_are_refused() {
+        let refused = |knots: Vec<Knot>| Motion::new("uav-1", knots).is_err();
+        assert!(refused(vec![]));
+        assert!(refused(vec![knot(0.0, 0.0, 1.0)]));
+        assert!(refused(vec![knot(0.0, 0.0, 1.0), knot(1.0, f64::NAN, 1.0)]));
+        assert!(refused(vec![knot(0.0, 0.0, 1.0), knot(1.0, 0.0, f64::INFINITY)]));
+        assert!(refused(vec![knot(0.0, 0.0, 1.0), knot(1.0, 1e12, 1.0)]));
+        assert!(refused(vec![knot(0.0, 0.0, 1.0), knot(f64::NAN, 0.0, 1.0)]));
+        assert!(refused(vec![knot(1.0, 0.0, 1.0), knot(0.0, 0.0, 1.0)]));
+        assert!(!refused(vec![knot(0.0, 0.0, 1.0), knot(1.0, 1.0, 1.0)]));
+    }
+}

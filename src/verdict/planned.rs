@@ -1,0 +1,61 @@
+//! The plan as a continuous motion: its controls through the nonlinear equations, restarted at every node.
+
+use scenarios::{Plan, Scenario, Trajectory};
+use sim::fixed_wing::{self, flow, rollout};
+
+use crate::verdict::compare::exceeds;
+use crate::verdict::motion::{Knot, Motion};
+
+/// Longest step of the integration, and distance between knots, s.
+const MAX_STEP_S: f64 = 0.05;
+/// Longest step of the open-loop integration, of which only the end is looked at, s.
+const OPEN_LOOP_STEP_S: f64 = 0.25;
+
+/// The motions that a plan's controls cause.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// One per vehicle. At every node the motion jumps from where the interval before it ends to the node itself.
+    pub motions: Vec<Motion>,
+    /// Per vehicle, the end of every interval.
+    pub ends: Vec<Vec<Knot>>,
+    /// Per vehicle, the end of the whole when it is not restarted at the nodes.
+    pub open_loop_ends: Vec<Knot>,
+}
+
+impl Planned {
+    /// Integrates `plan`, which is flyable. Refuses one that lasts longer than the scenario allows, or whose controls
+    /// lead out of the numbers that can be judged.
+    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {
+        let longest_s = scenario.simulation.max_duration_s;
+        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, longest_s)) {
+            return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
+        }
+        let mut planned = Self { motions: Vec::new(), ends: Vec::new(), open_loop_ends: Vec::new() };
+        for trajectory in &plan.trajectories {
+            let intervals: Vec<Vec<Knot>> =
+                (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
+            planned.ends.push(intervals.iter().filter_map(|knots| knots.last().copied()).collect());
+            planned.motions.push(Motion::new(&trajectory.vehicle, intervals.concat())?);
+            planned.open_loop_ends.extend(rollout(trajectory, OPEN_LOOP_STEP_S).last().map(knot));
+        }
+        Ok(planned)
+    }
+}
+
+/// The motion from the node before `end` to the time of the node `end`.
+fn interval(trajectory: &Trajectory, end: usize) -> Vec<Knot> {
+    let begin = end - 1;
+    let (t0_s, t1_s) = (trajectory.times_s[begin], trajectory.times_s[end]);
+    let controls = [trajectory.controls[begin], trajectory.controls[end]];
+    let flown = flow(&trajectory.states[begin], controls, t0_s, t1_s - t0_s, MAX_STEP_S);
+    let mut knots: Vec<Knot> = flown.iter().map(knot).collect();
+    if let Some(last) = knots.last_mut() {
+        // t0 + (t1 - t0) may round to beyond t1.
+        last.t_s = t1_s;
+    }
+    knots
+}
+
+fn knot(knot: &fixed_wing::Knot) -> Knot {
+    Knot { t_s: knot.t_s, position_m: knot.position_m.into(), velocity_mps: knot.velocity_mps.into() }
+}

@@ -1,0 +1,206 @@
+//! From a measured value to a check: the comparisons, written so that NaN never passes.
+
+use std::fmt;
+
+use crate::verdict::closest::Approach;
+use crate::verdict::{Check, Status};
+
+/// What a check looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// The planner's own nodes.
+    Nodes,
+    /// The plan as a continuous motion.
+    Plan,
+    /// What the simulated vehicles did.
+    Flight,
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Nodes => "nodes",
+            Self::Plan => "plan",
+            Self::Flight => "flight",
+        })
+    }
+}
+
+/// What a check is made from, or why there is nothing to make it from.
+pub type Evidence<'a, T> = Result<&'a T, &'a str>;
+
+/// One question put to one group.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    group: Group,
+    name: &'static str,
+    unit: &'static str,
+}
+
+/// The worst value found: bounds (equal for a value known exactly), and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    lower: f64,
+    upper: f64,
+    at_s: Option<f64>,
+    between: Vec<String>,
+    reason: Option<String>,
+}
+
+impl Measured {
+    /// A value known exactly.
+    pub fn value(value: f64) -> Self {
+        Self { lower: value, upper: value, at_s: None, between: Vec::new(), reason: None }
+    }
+
+    /// A distance known within bounds, at its instant.
+    pub fn approach(approach: &Approach) -> Self {
+        Self { lower: approach.lower_m, upper: approach.upper_m, ..Self::value(approach.upper_m).at(approach.at_s) }
+    }
+
+    /// Adds the instant, s.
+    pub fn at(mut self, t_s: f64) -> Self {
+        self.at_s = t_s.is_finite().then_some(t_s);
+        self
+    }
+
+    /// Adds one more vehicle or obstacle concerned.
+    pub fn with(mut self, name: &str) -> Self {
+        self.between.push(name.to_owned());
+        self
+    }
+
+    /// Adds what a person should know.
+    pub fn because(mut self, reason: impl Into<String>) -> Self {
+        self.reason = Some(reason.into());
+        self
+    }
+}
+
+impl Question {
+    /// The question `name` of `group`, measured in `unit`.
+    pub fn new(group: Group, name: &'static str, unit: &'static str) -> Self {
+        Self { group, name, unit }
+    }
+
+    /// Passes if the value is certainly not below `limit`; undecided if the bounds lie on both sides of it.
+    /// The value reported is the lower bound, so that it never flatters.
+    pub fn at_least(&self, measured: Measured, limit: f64) -> Check {
+        let status = decide(measured.lower >= limit, measured.lower < limit && measured.upper >= limit);
+        let (value, margin) = (measured.lower, measured.lower - limit);
+        self.answer(status, value, limit, margin, measured)
+    }
+
+    /// Passes if the value is certainly not above `limit`; undecided if the bounds lie on both sides of it.
+    /// The value reported is the upper bound, so that it never flatters.
+    pub fn at_most(&self, measured: Measured, limit: f64) -> Check {
+        let status = decide(measured.upper <= limit, measured.upper > limit && measured.lower <= limit);
+        let (value, margin) = (measured.upper, limit - measured.upper);
+        self.answer(status, value, limit, margin, measured)
+    }
+
+    /// The answer for a value whose distance from its limit is known: `margin`, positive inside.
+    pub fn inside(&self, measured: Measured, limit: f64, margin: f64) -> Check {
+        let value = measured.lower;
+        self.answer(decide(margin >= 0.0, false), value, limit, margin, measured)
+    }
+
+    /// Does not apply, for the reason given.
+    pub fn skip(&self, reason: impl Into<String>) -> Check {
+        self.without_value(Status::Skip, reason)
+    }
+
+    /// Could not be measured, and so has failed.
+    pub fn fail(&self, reason: impl Into<String>) -> Check {
+        self.without_value(Status::Fail, reason)
+    }
+
+    fn without_value(&self, status: Status, reason: impl Into<String>) -> Check {
+        Check {
+            name: format!("{}.{}", self.group, self.name),
+            status,
+            value: None,
+            limit: None,
+            margin: None,
+            unit: self.unit.to_owned(),
+            at_s: None,
+            between: Vec::new(),
+            advisory: false,
+            reason: Some(reason.into()),
+        }
+    }
+
+    fn answer(&self, status: Status, value: f64, limit: f64, margin: f64, measured: Measured) -> Check {
+        let Measured { lower, upper, at_s, between, reason } = measured;
+        if !(value.is_finite() && limit.is_finite() && margin.is_finite()) {
+            let failed = self.fail(reason.unwrap_or_else(|| "the measured value is not a finite number".to_owned()));
+            return Check { at_s, between, ..failed };
+        }
+        let unsure =
+            || format!("between {lower} and {upper} {}: closer to the limit than rounding can tell", self.unit);
+        let reason = if status == Status::Undecided { Some(unsure()) } else { reason };
+        let (value, limit, margin) = (Some(value), Some(limit), Some(margin));
+        Check { status, value, limit, margin, at_s, between, reason, ..self.without_value(status, "") }
+    }
+}
+
+/// Neither comparison holds for NaN, which leaves a failure.
+fn decide(pass: bool, unsure: bool) -> Status {
+    if pass {
+        Status::Pass
+    } else if unsure {
+        Status::Undecided
+    } else {
+        Status::Fail
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Group, Measured, Question};
+    use crate::verdict::Status;
+    use crate::verdict::closest::Approach;
+
+    const QUESTION: Question = Question { group: Group::Plan, name: "separation", unit: "m" };
+
+    fn bounds(lower_m: f64, upper_m: f64) -> Measured {
+        Measured::approach(&Approach { lower_m, upper_m, at_s: 1.0, who: [0, 1] })
+    }
+
+    #[test]
+    fn a_bound_on_each_side_of_the_limit_is_undecided() {
+        let at_least = |lower, upper| QUESTION.at_least(bounds(lower, upper), 100.0).status;
+        assert_eq!(at_least(100.0, 101.0), Status::Pass);
+        assert_eq!(at_least(99.0, 100.0), Status::Undecided);
+        assert_eq!(at_least(98.0, 99.0), Status::Fail);
+        let at_most = |lower, upper| QUESTION.at_most(bounds(lower, upper), 100.0).status;
+        assert_eq!(at_most(99.0, 100.0), Status::Pass);
+        assert_eq!(at_most(99.0, 101.0), Status::Undecided);
+        assert_eq!(at_most(101.0, 102.0), Status::Fail);
+    }
+
+    #[test]
+    fn what_is_not_a_finite_number_fails_every_comparison() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for check in [
+                QUESTION.at_least(Measured::value(bad), 0.0),
+                QUESTION.at_most(Measured::value(bad), 0.0),
+                QUESTION.inside(Measured::value(bad), 0.0, 1.0),
+                QUESTION.at_least(Measured::value(0.0), bad),
+                QUESTION.at_most(Measured::value(0.0), bad),
+                QUESTION.inside(Measured::value(0.0), 0.0, bad),
+            ] {
+                assert_eq!((check.status, check.value), (Status::Fail, None), "{bad}");
+                assert!(check.reason.is_some());
+            }
+        }
+        assert_eq!(QUESTION.at_least(bounds(f64::NAN, 200.0), 100.0).status, Status::Fail);
+        assert_eq!(QUESTION.at_most(bounds(0.0, f64::NAN), 100.0).status, Status::Fail);
+    }
+
+    #[test]
+    fn margins_are_positive_on_the_good_side() {
+        assert_eq!(QUESTION.at_least(Measured::value(104.0), 100.0).margin, Some(4.0));
+        assert_eq!(QUESTION.at_most(Measured::value(104.0), 100.0).margin, Some(-4.0));
+    }
+}

@@ -1,0 +1,77 @@
+//! Do the vehicles keep their distance from each other?
+//!
+//! The smallest horizontal distance between any two vehicles, over continuous time, against the fleet's rule. A vehicle
+//! counts until it has arrived: beyond the end of its trajectory it no longer exists for the others.
+
+use scenarios::{Plan, Scenario};
+
+use crate::verdict::Check;
+use crate::verdict::closest::{self, Approach};
+use crate::verdict::compare::{exceeds, is_smaller};
+use crate::verdict::motion::Motion;
+use crate::verdict::question::{Evidence, Group, Measured, Question};
+
+/// Nodes of two vehicles are compared when their times agree within this, s.
+const SAME_TIME_S: f64 = 1e-9;
+
+/// Over continuous time.
+pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    let question = Question::new(group, "separation", "m");
+    answer(&question, scenario, motions, closest::between_vehicles)
+}
+
+/// At the planner's own nodes, which all vehicles must share: otherwise it is skipped.
+pub fn check_nodes(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    let question = Question::new(Group::Nodes, "separation", "m");
+    match plan.ok().and_then(odd_node_time) {
+        Some(reason) if scenario.fleet.separation_m.is_some() => question.skip(reason),
+        _ => answer(&question, scenario, plan, at_nodes),
+    }
+}
+
+fn answer<T: ?Sized>(
+    question: &Question,
+    scenario: &Scenario,
+    evidence: Evidence<'_, T>,
+    measure: impl Fn(&T) -> Option<Approach>,
+) -> Check {
+    let Some(limit_m) = scenario.fleet.separation_m else { return question.skip("the fleet has no rule for it") };
+    if scenario.vehicles.len() < 2 {
+        return question.skip("there is one vehicle only");
+    }
+    match evidence.map(measure) {
+        Err(reason) => question.fail(reason),
+        Ok(None) => question.fail("no two vehicles could be compared at any time"),
+        Ok(Some(nearest)) => {
+            let [i, j] = nearest.who.map(|index| scenario.vehicles[index].name.as_str());
+            question.at_least(Measured::approach(&nearest).with(i).with(j), limit_m)
+        }
+    }
+}
+
+/// Smallest horizontal distance between two vehicles at nodes that they share. `None` if they share none.
+pub fn at_nodes(plan: &Plan) -> Option<Approach> {
+    let mut nearest: Option<Approach> = None;
+    for (i, first) in plan.trajectories.iter().enumerate() {
+        for (j, second) in plan.trajectories.iter().enumerate().skip(i + 1) {
+            for (node, (a, b)) in first.states.iter().zip(&second.states).enumerate() {
+                let distance_m = (a.x_m - b.x_m).hypot(a.y_m - b.y_m);
+                if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
+                    let at_s = first.times_s[node];
+                    nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, j] });
+                }
+            }
+        }
+    }
+    nearest
+}
+
+/// Two vehicles whose nodes do not share their times, in words.
+pub fn odd_node_time(plan: &Plan) -> Option<String> {
+    let (first, others) = plan.trajectories.split_first()?;
+    others.iter().find_map(|other| {
+        let differs = |(a, b): (&f64, &f64)| exceeds((a - b).abs(), SAME_TIME_S);
+        let odd = first.times_s.iter().zip(&other.times_s).position(differs)?;
+        Some(format!("node {odd} of {} and of {} are at different times", first.vehicle, other.vehicle))
+    })
+}

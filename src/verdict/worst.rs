@@ -1,0 +1,64 @@
+//! Of all limited quantities, the one that uses most of its range.
+
+use scenarios::Range;
+
+use crate::verdict::Check;
+use crate::verdict::question::{Group, Measured, Question};
+
+/// Something limited to a range.
+#[derive(Clone, Copy)]
+pub struct Quantity {
+    /// What it is.
+    pub name: &'static str,
+    /// Unit of the range.
+    pub unit: &'static str,
+    /// What it has to stay inside.
+    pub range: Range,
+}
+
+/// The value that uses most of its range so far.
+pub struct Worst<'a> {
+    relative: f64,
+    /// `None` until something was considered.
+    pub found: Option<Found<'a>>,
+}
+
+/// A value, and where it was found.
+pub struct Found<'a> {
+    vehicle: &'a str,
+    quantity: Quantity,
+    value: f64,
+    t_s: f64,
+}
+
+impl<'a> Worst<'a> {
+    /// Nothing so far.
+    pub fn new() -> Self {
+        Self { relative: f64::INFINITY, found: None }
+    }
+
+    /// Margins of different units are compared as shares of their ranges. NaN is worse than anything.
+    pub fn consider(&mut self, vehicle: &'a str, quantity: Quantity, value: f64, t_s: f64) {
+        let Range { min, max } = quantity.range;
+        let margin = (value - min).min(max - value);
+        let width = max - min;
+        let relative = if width > 0.0 && width.is_finite() { margin / width } else { margin };
+        if relative >= self.relative {
+            return;
+        }
+        self.relative = if relative.is_nan() { f64::NEG_INFINITY } else { relative };
+        self.found = Some(Found { vehicle, quantity, value, t_s });
+    }
+}
+
+impl Found<'_> {
+    /// The check of the value found.
+    pub fn into_check(self, group: Group, name: &'static str) -> Check {
+        let Self { vehicle, quantity: Quantity { name: what, unit, range }, value, t_s } = self;
+        let limit = if value - range.min < range.max - value { range.min } else { range.max };
+        let margin = range.margin(value);
+        let place = if margin >= 0.0 { "inside" } else { "outside" };
+        let measured = Measured::value(value).at(t_s).with(vehicle).because(format!("{what} {place} {range} {unit}"));
+        Question::new(group, name, unit).inside(measured, limit, margin)
+    }
+}

@@ -1,0 +1,7 @@
+//! The command line from end to end: what a user types, sees and finds on disk.
+
+mod listing;
+mod results;
+mod running;
+mod schemas;
+mod workplace;

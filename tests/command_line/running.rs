@@ -1,0 +1,131 @@
+//! `harness run`: exit codes, bad input, what is printed.
+
+use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
+
+/// No tracker keeps a nanometre in this wind.
+const STRICT: &str = "[simulation]\nwind = { mean_mps = [0, 5, 0] }\n[verdict]\ntracking_max_m = 1e-9\n";
+
+fn strict_pair() -> String {
+    format!("{}\n{STRICT}", PAIR.replace("\"pair\"", "\"strict\""))
+}
+
+#[test]
+fn a_good_scenario_passes_with_code_0_and_says_so_in_one_line() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
+    let page = stdout(&output);
+    assert_eq!(code(&output), 0, "{page}{}", stderr(&output));
+    assert!(page.lines().any(|line| line.starts_with("PASS  pair · parallel-scp  smallest margins: ")), "{page}");
+    assert!(page.contains("skipped: flight.tension, flight.slack, flight.swing (no vehicle carries a load)"), "{page}");
+    assert!(page.contains("1 passed; results in out"), "{page}");
+}
+
+#[test]
+fn a_failed_check_is_named_and_ends_with_code_1() {
+    let workplace = Workplace::new(&[("strict.toml", &strict_pair())]);
+    let output = workplace.harness(&["run", "strict.toml", "--record", "none"]);
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    let page = stdout(&output);
+    let verdict = page.lines().find(|line| line.starts_with("FAIL  strict · parallel-scp")).expect("a verdict line");
+    assert!(verdict.contains("flight.tracking_max -"), "{verdict}");
+}
+
+#[test]
+fn an_advisory_check_that_fails_is_shown_but_does_not_decide() {
+    let advisory = strict_pair() + "advisory = [\"flight.tracking_max\"]\n";
+    let workplace = Workplace::new(&[("strict.toml", &advisory)]);
+    let output = workplace.harness(&["run", "strict.toml", "--record", "none"]);
+    let page = stdout(&output);
+    assert_eq!(code(&output), 0, "{page}");
+    assert!(page.contains("advisory checks failed: flight.tracking_max"), "{page}");
+}
+
+#[test]
+fn a_bad_file_is_named_with_line_and_column_and_the_good_ones_still_run() {
+    let bad = PAIR.replace("\"pair\"", "\"bad\"").replace("body_radius_m = 1.5", "body_radius_m = -1");
+    let workplace = Workplace::new(&[("all/pair.toml", PAIR), ("all/deep/bad.toml", &bad)]);
+    let output = workplace.harness(&["run", "all", "--record", "none"]);
+    assert_eq!(code(&output), 2);
+    let errors = stderr(&output);
+    for part in ["all/deep/bad.toml:14:17", "models.fixed-wing.scout.body_radius_m", "found -1", "a number greater"] {
+        assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
+    }
+    assert!(stdout(&output).contains("1 passed, 1 refused as bad input"));
+    assert_eq!(workplace.json("out/pair/parallel-scp/report.json")["verdict"], "pass");
+    let refused = &workplace.json("out/summary.json")["refused"][0];
+    assert_eq!(refused["file"], "all/deep/bad.toml");
+    assert!(refused["faults"][0].as_str().unwrap().starts_with("all/deep/bad.toml:14:17: "), "{refused}");
+}
+
+#[test]
+fn a_planner_that_a_scenario_names_but_that_is_not_there_is_pointed_to() {
+    let workplace = Workplace::new(&[("pair.toml", &PAIR.replace("parallel-scp", "paralel-scp"))]);
+    let output = workplace.harness(&["run", "pair.toml"]);
+    let errors = stderr(&output);
+    assert_eq!(code(&output), 2);
+    for part in ["pair.toml:49:8", "planner.name", "found \"paralel-scp\"", "did you mean `parallel-scp`?"] {
+        assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
+    }
+}
+
+#[test]
+fn bad_usage_ends_with_code_2_and_leaves_nothing_behind() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR), ("empty/notes.txt", "")]);
+    let cases: [(&[&str], &str); 6] = [
+        (&["run", "pair.toml", "--planner", "paralel-scp"], "did you mean `parallel-scp`?"),
+        (&["run", "missing.toml"], "missing.toml"),
+        (&["run", "empty"], "empty: found no scenario file"),
+        (&["run", "pair.toml", "--record", "mcap"], "possible values: rrd, none"),
+        (&["run", "pair.toml", "--jobs", "0"], "--jobs"),
+        (&["run", "pair.toml", "--seed", "x"], "--seed"),
+    ];
+    for (arguments, message) in cases {
+        let output = workplace.harness(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}");
+        assert!(stderr(&output).contains(message), "{arguments:?}: {}", stderr(&output));
+        assert!(!workplace.path("out").exists(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn two_scenarios_of_one_name_are_refused_before_anything_runs() {
+    let workplace = Workplace::new(&[("a/pair.toml", PAIR), ("b/pair.toml", PAIR)]);
+    let output = workplace.harness(&["run", "a", "b"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("two scenarios are named `pair`"), "{}", stderr(&output));
+}
+
+#[test]
+fn quiet_means_errors_only() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    let output = workplace.harness(&["run", "pair.toml", "--record", "none", "--quiet"]);
+    assert_eq!((code(&output), stdout(&output).as_str(), stderr(&output).as_str()), (0, "", ""));
+    assert_eq!(workplace.json("out/summary.json")["runs"][0]["verdict"], "pass");
+}
+
+#[test]
+fn progress_is_plain_lines_and_nothing_is_coloured_away_from_a_terminal() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
+    let progress = stderr(&output);
+    let stages: Vec<&str> =
+        progress.lines().filter_map(|line| line.strip_prefix("[1/1] pair · parallel-scp: ")).collect();
+    assert_eq!(stages.len(), 3, "{progress}");
+    assert!(stages[0] == "planning" && stages[1].starts_with("flying ") && stages[2] == "judging", "{progress}");
+    assert!(!progress.contains('\u{1b}') && !stdout(&output).contains('\u{1b}'));
+}
+
+#[test]
+fn a_result_folder_that_can_not_be_made_is_an_error_of_the_environment() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR), ("out", "a file, not a folder")]);
+    let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("cannot write out/pair/parallel-scp"), "{}", stderr(&output));
+}
+
+#[test]
+fn without_arguments_the_help_is_shown() {
+    let output = Workplace::new(&[]).harness(&[]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("Examples:") && stderr(&output).contains("Exit codes:"));
+}

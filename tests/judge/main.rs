@@ -1,0 +1,9 @@
+//! The judge against hand-made plans and flights: what must fail fails, near misses pass.
+
+mod between_samples;
+mod broken;
+mod edges;
+mod fleet;
+mod rules;
+mod simulated;
+mod speed;

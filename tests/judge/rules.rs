@@ -1,0 +1,192 @@
+//! Which checks decide: skipped, advisory, required ones; and what the verdict says of the planner.
+
+use harness::metrics::{Metrics, clearance_over_time, measure, separation_over_time};
+use harness::verdict::{Flown, Outcome, Status, Verdict};
+use scenarios::PlanStatus;
+
+use crate::fleet::{Case, check};
+
+#[test]
+fn what_does_not_apply_is_skipped_with_the_reason() {
+    let mut case = Case::straight(&[0.0], 0.01);
+    case.scenario.world.cylinders.clear();
+    case.scenario.fleet.simultaneous_arrival = false;
+    let verdict = case.judge();
+    assert_eq!(verdict.outcome, Outcome::Pass);
+    for name in ["nodes.separation", "plan.separation", "flight.clearance", "plan.arrival", "flight.arrival"] {
+        let check = check(&verdict, name);
+        assert_eq!(check.status, Status::Skip);
+        assert!(check.reason.is_some() && check.value.is_none());
+    }
+}
+
+#[test]
+fn a_required_check_that_is_skipped_fails() {
+    let mut case = Case::good();
+    case.scenario.world.cylinders.clear();
+    assert_eq!(case.judge().outcome, Outcome::Pass);
+    case.scenario.verdict.required = vec!["plan.clearance".to_owned()];
+    assert_eq!(case.status("plan.clearance"), Status::Fail);
+    assert_eq!(case.judge().outcome, Outcome::Fail);
+}
+
+#[test]
+fn a_required_check_that_does_not_exist_fails() {
+    let mut case = Case::good();
+    case.scenario.verdict.required = vec!["plan.charm".to_owned()];
+    assert_eq!(case.status("plan.charm"), Status::Fail);
+    assert_eq!(case.judge().outcome, Outcome::Fail);
+}
+
+#[test]
+fn an_advisory_check_is_shown_and_does_not_decide() {
+    let mut case = Case::good();
+    case.trajectory(2).states[6].x_m += 1.5;
+    assert_eq!(case.judge().outcome, Outcome::Fail);
+    case.scenario.verdict.advisory = vec!["plan.dynamics".to_owned()];
+    let verdict = case.judge();
+    let dynamics = check(&verdict, "plan.dynamics");
+    assert_eq!((dynamics.status, dynamics.advisory), (Status::Fail, true));
+    assert_eq!(verdict.outcome, Outcome::Pass);
+    assert!(verdict.overclaimed, "advisory or not, the planner said more than is true");
+}
+
+#[test]
+fn an_honest_planner_does_not_overclaim() {
+    let mut case = Case::good();
+    case.trajectory(2).states[6].x_m += 1.5;
+    case.plan.status = PlanStatus::NotConverged;
+    let verdict = case.judge();
+    assert_eq!((verdict.outcome, verdict.overclaimed), (Outcome::Fail, false));
+}
+
+#[test]
+fn nodes_at_different_times_are_not_compared() {
+    let mut case = Case::good();
+    case.trajectory(1).times_s[5] += 1e-6;
+    let separation = case.check("nodes.separation");
+    assert_eq!(separation.status, Status::Skip);
+    assert!(separation.reason.is_some_and(|reason| reason.contains("uav-1") && reason.contains("uav-2")));
+    case.trajectory(1).times_s[5] -= 1e-6 - 1e-12;
+    assert_eq!(case.status("nodes.separation"), Status::Pass);
+}
+
+#[test]
+fn a_distance_nearer_to_its_limit_than_rounding_is_undecided() {
+    let mut case = Case::good();
+    case.scenario.fleet.separation_m = Some(200.0);
+    let check = case.check("plan.separation");
+    assert_eq!(check.status, Status::Undecided, "{check:#?}");
+    assert_eq!(case.judge().outcome, Outcome::Fail);
+}
+
+#[test]
+fn the_planning_limits_bind_the_nodes_and_the_physical_ones_the_rest() {
+    let mut case = Case::good();
+    case.trajectory(1).controls[3].n_y = 0.3;
+    case.trajectory(1).states[3].speed_mps = 42.0;
+    for (name, status) in [
+        ("nodes.control_limits", Status::Fail),
+        ("plan.control_limits", Status::Pass),
+        ("nodes.state_limits", Status::Fail),
+        ("plan.state_limits", Status::Pass),
+    ] {
+        assert_eq!(case.status(name), status, "{name}");
+    }
+}
+
+#[test]
+fn the_map_is_a_state_limit_of_nodes_plan_and_flight() {
+    let mut case = Case::good();
+    case.scenario.world.map.y_m.max = 399.0;
+    for name in ["nodes.state_limits", "plan.state_limits", "flight.state_limits"] {
+        let check = case.check(name);
+        assert_eq!((check.status, check.value, check.limit), (Status::Fail, Some(400.0), Some(399.0)));
+        assert_eq!(check.between, ["uav-3"]);
+    }
+}
+
+#[test]
+fn what_happens_while_coasting_after_the_arrival_does_not_count() {
+    let mut case = Case::good();
+    case.scenario.world.map.x_m.max = 705.0;
+    assert_eq!(case.judge().outcome, Outcome::Pass);
+    // One that arrives late is judged until it arrives.
+    for sample in case.samples(1) {
+        sample.position_m[0] -= 10.0;
+    }
+    case.samples(1).iter_mut().filter(|sample| sample.t_s > 20.1).for_each(|sample| sample.control.n_y = 0.9);
+    assert_eq!(case.status("flight.control_limits"), Status::Fail);
+}
+
+#[test]
+fn a_verdict_survives_json() {
+    let mut case = Case::good();
+    case.samples(0)[3].wind_mps[0] = f64::NAN;
+    let verdict = case.judge();
+    let text = serde_json::to_string(&verdict).unwrap();
+    assert_eq!(serde_json::from_str::<Verdict>(&text).unwrap(), verdict);
+}
+
+#[test]
+fn the_figures_of_the_straight_fleet_are_known() {
+    let mut case = Case::good();
+    case.trajectory(0).controls[2] = scenarios::fixed_wing::Control { n_x: -0.1, n_y: 0.05, n_z: 0.98 };
+    case.trajectory(1).controls[2].n_y = -0.05;
+    let metrics = measure(&case.scenario, &case.plan, case.flight.as_ref());
+    let (plan, flight) = (metrics.plan.clone().unwrap(), metrics.flight.clone().unwrap());
+    let close = |measured: Option<f64>, wanted: f64| assert!((measured.unwrap() - wanted).abs() < 1e-6, "{measured:?}");
+    close(plan.flight_time_s, 20.0);
+    close(plan.mean_speed_mps, 35.0);
+    close(plan.speed_std_mps, 0.0);
+    close(plan.sum_abs_n_x, 0.1);
+    close(plan.sum_abs_n_y, 0.1);
+    close(plan.sum_abs_n_z_minus_1, 0.02);
+    close(plan.at_nodes.separation_m, 200.0);
+    close(plan.at_nodes.clearance_m, 100.0);
+    close(flight.flight_time_s, 20.0);
+    close(flight.mean_speed_mps, 35.0);
+    close(flight.altitude_std_m, 0.0);
+    close(flight.tracking_max_m, 0.0);
+    close(flight.saturation, 0.0);
+    close(flight.distances.separation_m, 200.0);
+    close(flight.distances.clearance_m, 100.0);
+    let text = serde_json::to_string(&metrics).unwrap();
+    assert_eq!(serde_json::from_str::<Metrics>(&text).unwrap(), metrics);
+}
+
+#[test]
+fn a_standard_deviation_is_that_of_the_population() {
+    let mut case = Case::straight(&[0.0], 0.01);
+    for (node, state) in case.trajectory(0).states.iter_mut().enumerate().skip(1) {
+        state.speed_mps += if node % 2 == 0 { 1.0 } else { -1.0 };
+    }
+    let plan = measure(&case.scenario, &case.plan, None).plan.unwrap();
+    assert!((plan.speed_std_mps.unwrap() - (10.0_f64 / 11.0).sqrt()).abs() < 1e-12);
+}
+
+#[test]
+fn a_broken_plan_has_no_figures() {
+    let mut case = Case::good();
+    case.trajectory(0).states[3].x_m = f64::NAN;
+    assert_eq!(measure(&case.scenario, &case.plan, case.flight.as_ref()), Metrics::default());
+}
+
+#[test]
+fn distances_over_time_agree_with_the_verdict() {
+    let mut case = Case::good();
+    for sample in case.samples(1) {
+        sample.position_m[1] -= 2.0 * sample.t_s;
+        sample.velocity_mps[1] = -2.0;
+    }
+    let flown = Flown::new(&case.scenario, &case.plan, case.flight.as_ref().unwrap()).unwrap();
+    let separation = separation_over_time(&flown.motions, 0.5);
+    assert_eq!(separation.len(), 41);
+    for nearest in &separation {
+        let apart_m = 200.0 - 2.0 * nearest.t_s;
+        assert!((nearest.distance_m - apart_m).abs() < 1e-9 && nearest.who == [0, 1], "{nearest:?}");
+    }
+    let clearance = clearance_over_time(&flown.motions, &case.scenario.world.cylinders, 0.5);
+    let smallest = clearance.iter().map(|nearest| nearest.distance_m).fold(f64::INFINITY, f64::min);
+    assert!((smallest - case.check("flight.clearance").value.unwrap()).abs() < 1e-6);
+}
