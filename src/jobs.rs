@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use planners::Entry;
+use planners::Planner;
 use scenarios::{Problem, Scenario, Source, nearest};
 
 use crate::error::Error;
@@ -13,7 +13,7 @@ pub struct Job {
     /// The question.
     pub scenario: Scenario,
     /// Who answers.
-    pub planner: &'static Entry,
+    pub planner: &'static Planner,
     /// Seed of everything random in planning and flight.
     pub seed: u64,
 }
@@ -37,14 +37,14 @@ pub struct Refusal {
 }
 
 /// The planners of these names. An unknown name is an error, since nothing that was asked for can be done then.
-pub fn planners_named(names: &[String]) -> Result<Vec<&'static Entry>, Error> {
+pub fn planners_named(names: &[String]) -> Result<Vec<&'static Planner>, Error> {
     names.iter().map(|name| planners::find(name).ok_or_else(|| unknown_planner(name))).collect()
 }
 
 /// Loads every file and pairs its scenario with `planners`, or with the planner that it names if there are none.
 ///
 /// - `seed`: replaces the scenarios' own
-pub fn load(files: &[PathBuf], planners: &[&'static Entry], seed: Option<u64>) -> Jobs {
+pub fn load(files: &[PathBuf], planners: &[&'static Planner], seed: Option<u64>) -> Jobs {
     let mut jobs = Jobs::default();
     for file in files {
         match load_file(file, planners, seed) {
@@ -58,7 +58,7 @@ pub fn load(files: &[PathBuf], planners: &[&'static Entry], seed: Option<u64>) -
     jobs
 }
 
-fn load_file(file: &Path, planners: &[&'static Entry], seed: Option<u64>) -> Result<Vec<Result<Job, Error>>, Error> {
+fn load_file(file: &Path, planners: &[&'static Planner], seed: Option<u64>) -> Result<Vec<Result<Job, Error>>, Error> {
     let source = Source::read(file)?;
     let mut scenario = source.scenario()?;
     scenario.simulation.seed = seed.unwrap_or(scenario.simulation.seed);
@@ -66,7 +66,7 @@ fn load_file(file: &Path, planners: &[&'static Entry], seed: Option<u64>) -> Res
         let planner = named_by_scenario(&source, &scenario)?;
         return Ok(vec![Ok(Job { seed: scenario.simulation.seed, scenario, planner })]);
     }
-    let pair = |planner: &&'static Entry| match (planner.refuses)(&scenario) {
+    let pair = |planner: &&'static Planner| match (planner.refuses)(&scenario) {
         Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
         None => Ok(Job { scenario: scenario.clone(), planner, seed: scenario.simulation.seed }),
     };
@@ -74,7 +74,7 @@ fn load_file(file: &Path, planners: &[&'static Entry], seed: Option<u64>) -> Res
 }
 
 /// The planner that the scenario names; if that cannot be, an error that points to the line.
-fn named_by_scenario(source: &Source, scenario: &Scenario) -> Result<&'static Entry, Error> {
+fn named_by_scenario(source: &Source, scenario: &Scenario) -> Result<&'static Planner, Error> {
     let name = &scenario.planner.name;
     let problem = |expected: String, remedy: String| {
         source.error(vec![Problem::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])

@@ -34,7 +34,9 @@ mod newton;
 mod point;
 mod program;
 mod progress;
+mod solution;
 
 pub use self::clarabel::solve as solve_with_clarabel;
-pub use interior_point::{InteriorPoint, Settings, Solution, Status};
+pub use interior_point::InteriorPoint;
 pub use program::{LINK, Link, Pin, Plane, Program, STAGE};
+pub use solution::{Settings, Solution, Status};

@@ -3,7 +3,9 @@
 #![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
 
 pub mod convex;
+mod planner;
 mod registry;
 pub mod scp;
 
-pub use registry::{Entry, find, registry};
+pub use planner::{Planner, Progress};
+pub use registry::{find, registry};

@@ -4,6 +4,7 @@
 mod avoidance;
 mod dynamics;
 mod initial_guess;
+mod interval;
 mod iterate;
 mod options;
 pub mod parallel;

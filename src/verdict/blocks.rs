@@ -90,3 +90,43 @@ impl Block {
         (x * x + y * y).sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Blocks, Frame};
+    use crate::verdict::motion::{Knot, Motion};
+
+    /// Along x at 10 m/s, for 64 s: with knots every `step_s`.
+    fn line(y_m: f64, step_s: f64) -> Motion {
+        let knot = |step: u32| {
+            let t_s = f64::from(step) * step_s;
+            Knot { t_s, position_m: [10.0 * t_s, y_m, 0.0], velocity_mps: [10.0, 0.0, 0.0] }
+        };
+        Motion::new("uav", (0..=(64.0 / step_s) as u32).map(knot).collect()).unwrap()
+    }
+
+    #[test]
+    fn a_segment_is_in_every_block_that_it_touches() {
+        // 64 segments make two blocks of 32 s; the coarse motion's second segment, 25.6 s to 51.2 s, touches both.
+        let (fine, coarse) = (line(0.0, 1.0), line(0.0, 25.6));
+        let frame = Frame::over(&[fine.clone(), coarse.clone()]);
+        let ranges = |motion: &Motion| -> Vec<_> {
+            Blocks::new(motion, &frame).iter().map(|block| block.segments.clone()).collect()
+        };
+        assert_eq!(ranges(&fine), [0..32, 31..64]);
+        assert_eq!(ranges(&coarse), [0..2, 1..2]);
+    }
+
+    #[test]
+    fn gaps_are_those_between_the_boxes() {
+        let (low, high) = (line(0.0, 1.0), line(30.0, 1.0));
+        let frame = Frame::over(&[low.clone(), high.clone()]);
+        let (low, high) = (Blocks::new(&low, &frame), Blocks::new(&high, &frame));
+        let (first, second) = (low.iter().next().unwrap(), high.iter().nth(1).unwrap());
+        // x from 0 m to 320 m against 310 m to 640 m: they overlap.
+        assert_eq!((first.gap_m(second), second.gap_m(first)), (30.0, 30.0));
+        assert_eq!(first.gap_to_point_m([-3.0, -4.0]), 5.0);
+        assert_eq!(second.gap_to_point_m([643.0, 34.0]), 5.0);
+        assert_eq!(first.gap_to_point_m([100.0, 0.0]), 0.0);
+    }
+}

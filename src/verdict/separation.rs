@@ -12,7 +12,7 @@ use crate::verdict::motion::Motion;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Nodes of two vehicles are compared when their times agree within this, s.
-const SAME_TIME_S: f64 = 1e-9;
+const SAME_TIME_S: f64 = 1e-6;
 
 /// Over continuous time.
 pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {

@@ -139,7 +139,7 @@ fn a_start_in_another_direction_or_speed_is_no_start() {
 
 #[test]
 fn a_flight_that_is_not_whole_fails() {
-    let breaks: [Break; 11] = [
+    let breaks: [Break; 12] = [
         ("missing vehicle", |case| {
             case.flight().vehicles.pop();
         }),
@@ -153,6 +153,10 @@ fn a_flight_that_is_not_whole_fails() {
         ("one sample", |case| case.samples(1).truncate(1)),
         ("short", |case| case.samples(1).truncate(1900)),
         ("time goes back", |case| case.samples(1)[50].t_s = 0.3),
+        ("a sample twice", |case| {
+            let twice = case.samples(1)[50];
+            case.samples(1).insert(50, twice);
+        }),
         ("a gap", |case| {
             case.samples(1).drain(700..703);
         }),
@@ -179,6 +183,15 @@ fn an_empty_log_leaves_no_flight_check_passed() {
 }
 
 #[test]
+fn logs_of_other_vehicles_are_not_judged_in_their_place() {
+    let mut case = Case::good();
+    case.flight().vehicles.swap(0, 1);
+    for check in ["flight.separation", "flight.goal", "flight.tracking_max", "flight.saturation"] {
+        assert_fails(&case, check, "wrong order");
+    }
+}
+
+#[test]
 fn a_frozen_vehicle_fails() {
     let mut case = Case::good();
     for sample in case.samples(1) {
@@ -202,6 +215,16 @@ fn a_vehicle_still_on_its_way_when_the_log_ends_has_not_arrived() {
     let check = case.check("flight.arrival");
     assert_eq!(check.status, Status::Fail);
     assert!(check.reason.is_some_and(|reason| reason.contains("uav-2 has not arrived")));
+}
+
+/// It comes past its goal after 5 s, when nobody expects it there, and flies on.
+#[test]
+fn passing_the_goal_on_the_way_is_no_arrival() {
+    let mut case = Case::good();
+    case.scenario.vehicles[1].goal.x_m = 175.0;
+    let check = case.check("flight.goal");
+    assert_eq!(check.status, Status::Fail);
+    assert!((check.value.unwrap() - 175.0).abs() < 1e-6, "350 m at 10 s, when the window opens: {check:?}");
 }
 
 #[test]

@@ -63,11 +63,11 @@ fn an_honest_planner_does_not_overclaim() {
 #[test]
 fn nodes_at_different_times_are_not_compared() {
     let mut case = Case::good();
-    case.trajectory(1).times_s[5] += 1e-6;
+    case.trajectory(1).times_s[5] += 2e-6;
     let separation = case.check("nodes.separation");
     assert_eq!(separation.status, Status::Skip);
     assert!(separation.reason.is_some_and(|reason| reason.contains("uav-1") && reason.contains("uav-2")));
-    case.trajectory(1).times_s[5] -= 1e-6 - 1e-12;
+    case.trajectory(1).times_s[5] -= 1.5e-6;
     assert_eq!(case.status("nodes.separation"), Status::Pass);
 }
 
@@ -104,6 +104,45 @@ fn the_map_is_a_state_limit_of_nodes_plan_and_flight() {
         assert_eq!((check.status, check.value, check.limit), (Status::Fail, Some(400.0), Some(399.0)));
         assert_eq!(check.between, ["uav-3"]);
     }
+}
+
+/// 3 m of 200 m are less than 2 m/s of 10 m/s.
+#[test]
+fn the_limit_named_is_the_one_of_which_most_is_used() {
+    let mut case = Case::good();
+    case.trajectory(0).states[4].z_m = 497.0;
+    case.trajectory(1).states[4].speed_mps = 38.0;
+    let check = case.check("nodes.state_limits");
+    assert_eq!((check.value, check.unit.as_str(), check.status), (Some(497.0), "m", Status::Pass));
+    assert_eq!(check.between, ["uav-1"]);
+}
+
+#[test]
+fn a_climb_too_steep_is_seen_in_plan_and_flight() {
+    for (climb_deg, status) in [(10.001_f64, Status::Fail), (9.999, Status::Pass)] {
+        let mut case = Case::good();
+        case.trajectory(0).states[3].flight_path_rad = climb_deg.to_radians();
+        // With n_z = 1 the climb would go on steepening after the node.
+        case.trajectory(0).controls[3].n_z = 0.9;
+        let (sin, cos) = climb_deg.to_radians().sin_cos();
+        case.samples(0)[600].velocity_mps = [35.0 * cos, 0.0, -35.0 * sin];
+        assert_eq!(case.status("plan.state_limits"), status);
+        assert_eq!(case.status("flight.state_limits"), status);
+    }
+}
+
+#[test]
+fn tracking_counts_while_the_plan_lasts() {
+    let mut case = Case::good();
+    for sample in case.samples(1) {
+        sample.position_m[0] -= 10.0;
+        sample.reference_position_m = sample.position_m;
+    }
+    // It arrives 0.29 s late; until then it is judged, but there is no plan to follow any more.
+    case.samples(1)[2010].reference_position_m[0] += 6.0;
+    assert_eq!(case.status("flight.tracking_max"), Status::Pass);
+    case.samples(1)[1990].reference_position_m[0] += 6.0;
+    assert_eq!(case.status("flight.tracking_max"), Status::Fail);
 }
 
 #[test]

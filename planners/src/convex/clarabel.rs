@@ -5,8 +5,8 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 
-use super::interior_point::{Solution, Status};
 use super::program::{LINK, Program, STAGE};
+use super::solution::{Solution, Status};
 
 /// With Clarabel's own default of 1e-8 one in ten of our subproblems ends short of a tolerance of 1e-8; with this, all of
 /// them reach it.

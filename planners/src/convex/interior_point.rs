@@ -4,61 +4,13 @@ use super::newton::Newton;
 use super::point::{Pairs, Point};
 use super::program::Program;
 use super::progress::{Progress, Watch};
+use super::solution::{Settings, Solution, Status};
 
 /// Share of the tolerated gap at which the path's parameter stops falling: going on would only wear out the digits.
 const CENTRE_FLOOR: f64 = 0.4;
 
 /// Relative gap below which the weights are so far apart that directions want iterative refinement.
 const REFINE_BELOW: f64 = 1e-4;
-
-/// When to stop, and how boldly to step.
-#[derive(Clone, Debug)]
-pub struct Settings {
-    /// Relative duality gap and residuals at the end, -.
-    pub tolerance: f64,
-    /// Most iterations.
-    pub max_iterations: usize,
-    /// Share of the distance to the boundary that a step may use, in (0, 1).
-    pub boundary_share: f64,
-    /// Parameter τ of the central path at the start, relative to penalty times the largest initial violation.
-    pub start: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { tolerance: 1e-8, max_iterations: 60, boundary_share: 0.995, start: 1.0 }
-    }
-}
-
-/// How a solve ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// Gap and residuals are below the tolerance.
-    Solved,
-    /// The iteration limit came first; the best iterate is returned.
-    IterationLimit,
-    /// Rounding stopped the progress short of the tolerance; the best iterate is returned.
-    Stalled,
-    /// The programme holds a number that is not finite, or an empty box: nothing was solved.
-    Refused,
-}
-
-/// Result of a solve.
-#[derive(Clone, Debug)]
-pub struct Solution {
-    /// How it ended.
-    pub status: Status,
-    /// Variables z.
-    pub z: Vec<f64>,
-    /// `q θ + μ (violations)` at z.
-    pub objective: f64,
-    /// Relative duality gap, -.
-    pub gap: f64,
-    /// Largest residual of the linear equations relative to their data, -.
-    pub residual: f64,
-    /// Iterations taken.
-    pub iterations: usize,
-}
 
 /// The customised interior-point method; holds every work vector, sized once for programmes of one shape.
 #[derive(Clone, Debug)]
@@ -176,19 +128,6 @@ impl InteriorPoint {
             gap: best.gap,
             residual: best.residual,
             iterations,
-        }
-    }
-}
-
-impl Solution {
-    fn refused(program: &Program) -> Self {
-        Self {
-            status: Status::Refused,
-            z: vec![0.0; program.len()],
-            objective: f64::NAN,
-            gap: f64::NAN,
-            residual: f64::NAN,
-            iterations: 0,
         }
     }
 }

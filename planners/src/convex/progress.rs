@@ -1,6 +1,6 @@
 //! How far an iterate is from optimal, and whether to go on.
 
-use super::interior_point::{Settings, Status};
+use super::solution::{Settings, Status};
 
 /// Iterations without a tenth of progress after which a solve counts as stalled.
 const STALL_LIMIT: usize = 5;

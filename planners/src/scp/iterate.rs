@@ -3,7 +3,8 @@
 use scenarios::Transcription;
 
 use super::dynamics::{Control, State};
-use super::transcription::{self, Interval};
+use super::interval::Interval;
+use super::transcription;
 
 /// States and controls at K + 1 nodes, dt seconds apart.
 #[derive(Clone, Debug)]

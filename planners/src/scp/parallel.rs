@@ -16,6 +16,7 @@ use super::plan;
 use super::subproblem::{self, Context};
 use super::time_bound::TimeBound;
 use crate::convex::{self, InteriorPoint, Plane, Program, Settings, Solution, Status};
+use crate::planner::{Planner, Progress};
 
 /// Relative gap and residuals to which the subproblems are solved.
 const TOLERANCE: f64 = 1e-8;
@@ -23,8 +24,19 @@ const TOLERANCE: f64 = 1e-8;
 /// Half-width of the trust region, m, below which the time bound is no longer released.
 const FREEZE_BELOW_M: f64 = 100.0;
 
+/// The planner, for the registry.
+pub const PLANNER: Planner = Planner {
+    name: NAME,
+    summary: "Decoupled sequential convex programming, everybody avoids everybody (Wang, Xu, Long 2020)",
+    handles: "fixed-wing fleets among cylinders",
+    refuses: super::refuses,
+    answer: plan,
+};
+
+const NAME: &str = "parallel-scp";
+
 /// Plans for the whole fleet. `progress` sees every iteration as it ends, `inspect` every subproblem and its solution.
-pub fn plan(scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> Plan {
+pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     plan_and_inspect(scenario, seed, progress, &|_, _| {})
 }
 
@@ -32,7 +44,7 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)
 pub fn plan_and_inspect(
     scenario: &Scenario,
     seed: u64,
-    progress: &mut dyn FnMut(&Iteration),
+    progress: Progress<'_>,
     inspect: &(dyn Fn(&Program, &Solution) + Sync),
 ) -> Plan {
     let begin = Instant::now();
@@ -59,7 +71,7 @@ pub fn plan_and_inspect(
         history.push(iteration);
     }
     let status = plan::status(scenario, &history, converged, fleet.options.max_iterations);
-    plan::assemble(scenario, "parallel-scp", seed, &trajectories, history, status, begin.elapsed())
+    plan::assemble(scenario, NAME, seed, &trajectories, history, status, begin.elapsed())
 }
 
 /// What stays the same over the iterations.

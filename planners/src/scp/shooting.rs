@@ -10,7 +10,7 @@
 use nalgebra::SMatrix;
 
 use super::dynamics::{self, Control, State, StateJacobian};
-use super::transcription::{Defect, Interval};
+use super::interval::{Defect, Interval};
 
 /// Runge-Kutta steps per interval. Four keep the error of a 6 s interval far below a centimetre.
 const SUBSTEPS: usize = 8;

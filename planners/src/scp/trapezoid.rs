@@ -7,7 +7,7 @@
 //! A_{k+1} = I - (dt/2) F_{k+1},  A_k = -I - (dt/2) F_k,  B = -(dt/2) G,  C_k + C_{k+1} = -(f_k + f_{k+1})/2
 
 use super::dynamics::{self, State, StateJacobian};
-use super::transcription::{Defect, Interval};
+use super::interval::{Defect, Interval};
 
 /// The defect of one interval, in the units of the state.
 pub fn defect(interval: &Interval) -> State {

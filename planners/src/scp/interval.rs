@@ -1,0 +1,40 @@
+//! One interval between two nodes, and by how much it misses the equations of motion.
+
+use nalgebra::SMatrix;
+
+use super::dynamics::{Control, ControlJacobian, State, StateJacobian};
+
+/// One interval of a trajectory: its end nodes and its length.
+#[derive(Clone, Copy, Debug)]
+pub struct Interval {
+    /// States at the beginning and at the end.
+    pub states: [State; 2],
+    /// Controls at the beginning and at the end.
+    pub controls: [Control; 2],
+    /// Length dt, s.
+    pub dt_s: f64,
+}
+
+/// Defect of an interval and its derivatives. The defect is what is missing at the end: zero when the trajectory obeys
+/// the transcribed equations of motion.
+#[derive(Clone, Debug)]
+pub struct Defect {
+    /// The defect, in the units of the state.
+    pub value: State,
+    /// With respect to the two states.
+    pub by_states: [StateJacobian; 2],
+    /// With respect to the two controls.
+    pub by_controls: [ControlJacobian; 2],
+    /// With respect to dt, per second.
+    pub by_dt: State,
+}
+
+impl Defect {
+    /// ∂(defect)/∂(s, u) at one end, 6 x 9.
+    pub fn by_node(&self, end: usize) -> SMatrix<f64, 6, 9> {
+        let mut jacobian = SMatrix::<f64, 6, 9>::zeros();
+        jacobian.fixed_columns_mut::<6>(0).copy_from(&self.by_states[end]);
+        jacobian.fixed_columns_mut::<3>(6).copy_from(&self.by_controls[end]);
+        jacobian
+    }
+}

@@ -1,0 +1,50 @@
+//! What every planner owes to every scenario that it claims to handle, whether or not its plan passes.
+
+use harness::verdict;
+use scenarios::{Plan, PlanStatus, Scenario};
+
+#[test]
+fn plans_are_whole_and_their_status_is_honest() {
+    for_every_claim(|scenario, plan| {
+        let what = format!("{} on {}", plan.planner, scenario.name);
+        assert_eq!(plan.scenario, scenario.name);
+        if plan.status == PlanStatus::NoPlan {
+            assert!(plan.trajectories.is_empty() && plan.reason.is_some(), "{what}");
+            return;
+        }
+        // finite, one trajectory per vehicle, starts at the start, time increases
+        assert_eq!(verdict::is_flyable(scenario, plan), Ok(()), "{what}");
+        assert_eq!(plan.reason.is_none(), plan.status == PlanStatus::Solved, "{what}");
+    });
+}
+
+#[test]
+fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
+    let scenario = super::named("rendezvous-7");
+    for entry in planners::registry() {
+        let plan_on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+            let mut plan = pool.install(|| entry.plan(&scenario, 3, &mut |_| {}));
+            forget_wall_times(&mut plan);
+            plan
+        };
+        let alone = plan_on(1);
+        assert_eq!(alone, plan_on(1), "{} twice on one thread", entry.name);
+        assert_eq!(alone, plan_on(2), "{} on two threads", entry.name);
+    }
+}
+
+fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
+    for (_, scenario) in super::shipped() {
+        for entry in planners::registry().iter().filter(|entry| (entry.refuses)(&scenario).is_none()) {
+            check(&scenario, &entry.plan(&scenario, 0, &mut |_| {}));
+        }
+    }
+}
+
+fn forget_wall_times(plan: &mut Plan) {
+    plan.timings = Default::default();
+    for iteration in &mut plan.history {
+        (iteration.wall_s, iteration.distributed_s) = (0.0, 0.0);
+    }
+}

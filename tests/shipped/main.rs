@@ -1,0 +1,26 @@
+//! The shipped scenarios and planners, from file to verdict.
+
+mod conformance;
+mod geometry;
+mod trapezoid;
+mod verdicts;
+
+use std::path::{Path, PathBuf};
+
+use scenarios::Scenario;
+
+/// Every shipped scenario, with its file.
+fn shipped() -> Vec<(PathBuf, Scenario)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fixed-wing");
+    let paths = scenarios::find(&[folder]).expect("the shipped scenarios are there");
+    let load = |path: PathBuf| {
+        let scenario = scenarios::load(&path).expect("a shipped scenario is valid");
+        (path, scenario)
+    };
+    paths.into_iter().map(load).collect()
+}
+
+/// One shipped scenario by its name.
+fn named(name: &str) -> Scenario {
+    shipped().into_iter().find(|(_, scenario)| scenario.name == name).expect("a shipped scenario").1
+}
