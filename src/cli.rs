@@ -1,5 +1,6 @@
 //! The command line.
 
+mod bench;
 mod list;
 mod run;
 mod schema;
@@ -35,6 +36,7 @@ enum Command {
     Run(run::Run),
     List(list::List),
     Schema(schema::Schema),
+    Bench(bench::Bench),
 }
 
 impl Cli {
@@ -44,6 +46,7 @@ impl Cli {
             Command::Run(run) => run.execute(),
             Command::List(list) => list.execute(),
             Command::Schema(schema) => schema.execute(),
+            Command::Bench(bench) => bench.execute(),
         }
     }
 }

@@ -10,8 +10,6 @@ use miette::Diagnostic;
 use scenarios::{FindError, LoadError};
 use thiserror::Error;
 
-use crate::record::RecordError;
-
 /// How a command ended that did what it was asked to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -85,18 +83,14 @@ pub enum Error {
         /// What stood in the way.
         reason: String,
     },
-    /// A recording could not be written.
-    #[error(transparent)]
-    #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]
-    Record(#[from] RecordError),
     /// A result could not be written.
     #[error("cannot write {}: {reason}", path.display())]
     #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
-        reason: std::io::Error,
+        /// What the operating system says, or the library that writes the file.
+        reason: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Standard output is gone.
     #[error("cannot write to standard output")]

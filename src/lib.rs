@@ -4,10 +4,12 @@
 //! scenario file -> Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
 //! ```
 
+pub mod bench;
 pub mod cli;
 pub mod error;
 mod jobs;
 pub mod metrics;
+pub mod notation;
 mod output;
 mod pipeline;
 mod progress;

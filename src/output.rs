@@ -3,7 +3,8 @@
 //! A file appears under its name only when it is complete: it is written beside it under a temporary name and renamed, so
 //! that a killed run leaves no half file behind.
 
-use std::fs;
+use std::error;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
@@ -12,9 +13,21 @@ use tempfile::NamedTempFile;
 
 use crate::error::Error;
 
+/// What may go wrong while a file is written by somebody else's library.
+type Failure = Box<dyn error::Error + Send + Sync>;
+
+/// Lets `write` write a file of its own, which becomes `path` once it is complete.
+pub fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Error> {
+    complete(path, write).map_err(|reason| Error::Write { path: path.to_owned(), reason })
+}
+
 /// Writes a file by `content`, all or nothing.
 pub fn write_file(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
-    complete(path, content).map_err(|reason| Error::Write { path: path.to_owned(), reason })
+    replace_file(path, |partial| {
+        let mut writer = BufWriter::new(File::create(partial)?);
+        content(&mut writer)?;
+        Ok(writer.flush()?)
+    })
 }
 
 /// Writes `value` as indented JSON, all or nothing.
@@ -27,13 +40,15 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Error> {
 
 /// Makes a folder and those above it.
 pub fn create_folder(path: &Path) -> Result<(), Error> {
-    fs::create_dir_all(path).map_err(|reason| Error::Write { path: path.to_owned(), reason })
+    fs::create_dir_all(path).map_err(|reason| Error::Write { path: path.to_owned(), reason: reason.into() })
 }
 
 /// Removes a result of an earlier run, if there is one.
 pub fn remove_stale(path: &Path) -> Result<(), Error> {
     match fs::remove_file(path) {
-        Err(reason) if reason.kind() != io::ErrorKind::NotFound => Err(Error::Write { path: path.to_owned(), reason }),
+        Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
+            Err(Error::Write { path: path.to_owned(), reason: reason.into() })
+        }
         _ => Ok(()),
     }
 }
@@ -47,14 +62,11 @@ pub fn print(text: &str) -> Result<(), Error> {
     }
 }
 
-fn complete(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn complete(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = new_file(folder)?;
-    let mut writer = BufWriter::new(file.as_file_mut());
-    content(&mut writer)?;
-    writer.flush()?;
-    drop(writer);
-    file.persist(path).map(drop).map_err(|failed| failed.error)
+    let partial = new_file(folder)?.into_temp_path(); // removed when it is dropped
+    write(&partial)?;
+    Ok(partial.persist(path)?)
 }
 
 /// A file for everybody to read, as far as the user's umask lets them (temporary files are private by default).

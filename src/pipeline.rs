@@ -1,6 +1,8 @@
 //! One job from the scenario to the files on disk.
 //!
-//!     Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
+//! ```text
+//! Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
+//! ```
 
 use std::path::Path;
 use std::time::Instant;

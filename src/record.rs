@@ -4,13 +4,13 @@
 //! everything from the scenario to the verdict. It must cope with whatever a run can bring, a plan without
 //! trajectories and a flight full of NaN included, because a failed run is the one that people want to look at.
 
-use std::error::Error;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
+use crate::error::Error;
+use crate::output;
 use crate::verdict::Verdict;
 
 #[cfg(feature = "rrd")]
@@ -35,34 +35,14 @@ pub trait Recorder {
     fn file_name(&self) -> &'static str;
 
     /// Writes the whole recording to `path`, which nobody else looks at yet, and closes it.
-    fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn Error + Send + Sync>>;
+    fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>>;
 }
 
-/// A recording could not be written: an error of the environment (folder, disk), never of the run.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write the recording {}: {reason}", path.display())]
-pub struct RecordError {
-    /// Where it should have gone.
-    pub path: PathBuf,
-    /// What stood in the way.
-    pub reason: String,
-}
-
-/// Records `run` into the existing folder `folder` and returns the path of the file.
-///
-/// The file appears under its name only when it is complete: it is written beside it and renamed.
-pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<PathBuf, RecordError> {
+/// Records `run` into the existing folder `folder`, all or nothing, and returns the path of the file.
+pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<PathBuf, Error> {
     let path = folder.join(recorder.file_name());
-    let partial = folder.join(format!(".{}.{}.partial", recorder.file_name(), std::process::id()));
-    let written = recorder.write(run, &partial).and_then(|()| Ok(fs::rename(&partial, &path)?));
-    match written {
-        Ok(()) => Ok(path),
-        Err(reason) => {
-            // Nothing to add if even that fails: the reason is already on its way to the user.
-            let _ = fs::remove_file(&partial);
-            Err(RecordError { path, reason: reason.to_string() })
-        }
-    }
+    output::replace_file(&path, |partial| recorder.write(run, partial))?;
+    Ok(path)
 }
 
 #[cfg(test)]

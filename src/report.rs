@@ -2,7 +2,6 @@
 
 mod headline;
 mod markdown;
-mod quantity;
 mod summary;
 pub mod table;
 pub mod terminal;

@@ -23,6 +23,8 @@ mod separation;
 mod tracking;
 mod worst;
 
+use std::fmt;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +40,9 @@ pub use separation::at_nodes as separation_at_nodes;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
 };
+
+/// Checks whose margins say most about how close it was, by their names without the group.
+pub const TELLING: [&str; 3] = ["separation", "clearance", "tracking_max"];
 
 /// What the judge found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +66,16 @@ pub enum Outcome {
     Fail,
     /// The planner returned no trajectory.
     NoPlan,
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Pass => "PASS",
+            Self::Fail => "FAIL",
+            Self::NoPlan => "NO PLAN",
+        })
+    }
 }
 
 /// One question put to a plan or a flight, and its answer.
@@ -93,6 +108,31 @@ pub struct Check {
     /// Why it was skipped or is undecided, or what exactly is wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+impl Check {
+    /// Has it failed, or is it too close to tell?
+    pub fn is_bad(&self) -> bool {
+        matches!(self.status, Status::Fail | Status::Undecided)
+    }
+
+    /// Its name without the group: `separation` of `flight.separation`.
+    pub fn question(&self) -> &str {
+        self.name.split_once('.').map_or(self.name.as_str(), |(_, question)| question)
+    }
+
+    /// Does its margin say how close it was, to one who asks for a single line?
+    pub fn is_telling(&self) -> bool {
+        TELLING.contains(&self.question())
+    }
+
+    /// When and between whom, for people: `83.10 s, uav-3 and uav-5`; nothing if neither is known.
+    pub fn place(&self) -> Option<String> {
+        let when = self.at_s.map(|at_s| format!("{at_s:.2} s"));
+        let who = (!self.between.is_empty()).then(|| self.between.join(" and "));
+        let parts: Vec<String> = when.into_iter().chain(who).collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
+    }
 }
 
 /// Status of a check.

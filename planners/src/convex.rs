@@ -26,16 +26,20 @@
 //!
 //! No vehicle is named here.
 
+mod backend;
 mod block;
 mod clarabel;
 mod interior_point;
 mod kernels;
 mod newton;
+mod paper;
 mod point;
 mod program;
 mod progress;
+mod reductions;
 mod solution;
 
+pub use self::backend::Backend;
 pub use self::clarabel::solve as solve_with_clarabel;
 pub use interior_point::InteriorPoint;
 pub use program::{LINK, Link, Pin, Plane, Program, STAGE};

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use planners::convex::{self, Program, Solution, Status};
 use planners::scp::parallel::plan_and_inspect;
 
-/// Largest relative difference of the objectives (relative to 1 s below 1 s).
+/// Largest difference of the objectives (step length plus penalties, s) relative to themselves.
 const AGREEMENT: f64 = 1e-6;
 
 #[test]

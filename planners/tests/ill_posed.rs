@@ -32,6 +32,7 @@ fn program(rng: &mut impl Rng) -> Program {
         (0..=INTERVALS).map(|stage| Plane { stage, normal: [uniform(), uniform()], bound: 0.3 * uniform() }).collect();
     Program {
         theta_cost: 1.0,
+        offset: 0.0,
         penalty: 100.0,
         links,
         pins,

@@ -17,7 +17,8 @@ pub enum Pilot {
     OpenLoop,
 }
 
-/// How a flight differs from an ordinary one.
+/// How a flight differs from an ordinary one, to look at plant and tracker apart: the tests hold open-loop flights
+/// against an independent integrator, and let the tracker catch up from a wrong start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Setup {
     /// Who decides on the load factors.

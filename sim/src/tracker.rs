@@ -1,13 +1,15 @@
 use scenarios::fixed_wing::{Control, Limits};
 
-use crate::fixed_wing::{AirPath, ReferencePoint, gravity_mps2};
+use crate::fixed_wing::{AirPath, ReferencePoint, acceleration_mps2, gravity_mps2};
 use crate::sensors::Measurement;
 
-/// Follows a reference from measurements: feed-forward of the planned acceleration, feedback on position and velocity.
+/// Follows a reference from measurements: feed-forward of the planned load factors, feedback on position and velocity.
 ///
 ///     a_cmd = a_ref + ω² (p_ref - p) + 2 ζ ω (v_ref - v)
 ///
-/// so that without disturbance and inside the limits the error obeys e'' + 2 ζ ω e' + ω² e = 0. The tracker knows
+/// with a_ref what the planned load factors give along the reference. Where they do give the reference, without
+/// disturbance and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; where the plan contradicts itself, the
+/// contradiction is a disturbance, and shows. The tracker knows
 /// neither the wind nor the true mass: it takes the velocity over ground for that through the air.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracker {
@@ -33,7 +35,7 @@ impl Tracker {
     /// The acceleration is split into load factors along the axes that the vehicle will have half a step ahead, so that
     /// holding the command costs no first-order lag.
     pub fn command(&self, measured: &Measurement, reference: &ReferencePoint, ahead: &ReferencePoint) -> Control {
-        let acceleration_mps2 = ahead.acceleration_mps2
+        let acceleration_mps2 = acceleration_mps2(&ahead.velocity_mps, ahead.control)
             + (reference.position_m - measured.position_m) * self.position_gain
             + (reference.velocity_mps - measured.velocity_mps) * self.velocity_gain;
         let velocity_mps = measured.velocity_mps + acceleration_mps2 * (self.step_s / 2.0);
@@ -54,10 +56,11 @@ mod tests {
     use scenarios::Range;
 
     use super::*;
-    use crate::fixed_wing::acceleration_mps2;
 
-    fn point(position_m: Vector3<f64>, velocity_mps: Vector3<f64>, acceleration_mps2: Vector3<f64>) -> ReferencePoint {
-        ReferencePoint { position_m, velocity_mps, acceleration_mps2, control: Control::CRUISE }
+    /// A reference whose load factors give it the acceleration `wanted_mps2`, whatever its own second derivative is.
+    fn point(position_m: Vector3<f64>, velocity_mps: Vector3<f64>, wanted_mps2: Vector3<f64>) -> ReferencePoint {
+        let control = AirPath::of(&velocity_mps).load_factors(&(wanted_mps2 - gravity_mps2()));
+        ReferencePoint { position_m, velocity_mps, acceleration_mps2: Vector3::repeat(9.0), control }
     }
 
     #[test]

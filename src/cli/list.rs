@@ -35,7 +35,7 @@ impl List {
 }
 
 fn scenario_table(scenarios: &[Scenario]) -> Table {
-    let mut table = table::with_header(&["name", "vehicles", "planner", "tags", "description"]);
+    let mut table = table::with_header(&["name", "vehicles", "planner", "tags", "description"], &[1]);
     for scenario in scenarios {
         table.add_row([
             scenario.name.clone(),
@@ -49,7 +49,7 @@ fn scenario_table(scenarios: &[Scenario]) -> Table {
 }
 
 fn planner_table() -> Table {
-    let mut table = table::with_header(&["name", "handles", "summary"]);
+    let mut table = table::with_header(&["name", "handles", "summary"], &[]);
     for planner in planners::registry() {
         table.add_row([planner.name, planner.handles, planner.summary]);
     }

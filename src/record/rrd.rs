@@ -38,7 +38,6 @@ use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStr
 
 use self::distances::Distances;
 use super::{Recorder, Run};
-use crate::verdict::Outcome;
 
 /// What logging functions return: rerun's own errors, which concern serialisation and the file.
 type Logged = Result<(), Box<dyn Error + Send + Sync>>;
@@ -79,7 +78,7 @@ impl Recorder for Rrd {
 
 /// Opens the file and says whose recording it is.
 fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + Send + Sync>> {
-    let name = format!("{} · {} · {}", run.scenario.name, run.plan.planner, outcome_word(run.verdict.outcome));
+    let name = format!("{} · {} · {}", run.scenario.name, run.plan.planner, run.verdict.outcome);
     let stream = RecordingStreamBuilder::new(APPLICATION)
         .enabled(true) // also when the variable RERUN says otherwise: the user has asked for this file
         .recording_id(recording_id(run))
@@ -93,7 +92,7 @@ fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + S
         .with_component::<Text>("scenario", text(&run.scenario.name))
         .with_component::<Text>("planner", text(&run.plan.planner))
         .with_component::<Text>("seed", text(&run.plan.seed.to_string()))
-        .with_component::<Text>("verdict", text(outcome_word(run.verdict.outcome)));
+        .with_component::<Text>("verdict", text(&run.verdict.outcome.to_string()));
     stream.send_property("harness", &properties)?;
     Ok(stream)
 }
@@ -108,15 +107,6 @@ fn recording_id(run: &Run<'_>) -> String {
     let flown = logs.flat_map(|log| &log.samples).map(|sample| sample.position_m);
     planned.chain(flown).flatten().for_each(|coordinate| coordinate.to_bits().hash(&mut hasher));
     format!("{}/{}/seed-{}/{:016x}", run.scenario.name, run.plan.planner, run.plan.seed, hasher.finish())
-}
-
-/// `PASS`, `FAIL` or `NO PLAN`.
-fn outcome_word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "PASS",
-        Outcome::Fail => "FAIL",
-        Outcome::NoPlan => "NO PLAN",
-    }
 }
 
 /// The entity `name` in `group`, whatever characters the name has.

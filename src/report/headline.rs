@@ -3,23 +3,11 @@
 use scenarios::PlanStatus;
 
 use super::Report;
-use super::quantity::{margin, place};
-use crate::verdict::{Check, Outcome, Status};
-
-/// Checks whose margins say most about how close it was, by their names without the group.
-const TELLING: [&str; 3] = ["separation", "clearance", "tracking_max"];
+use crate::notation::signed_quantity;
+use crate::verdict::{Check, Outcome, Status, TELLING};
 
 /// Failed checks that the line names; the others are counted.
 const FAILURES_NAMED: usize = 3;
-
-/// The outcome in capitals.
-pub(super) fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "PASS",
-        Outcome::Fail => "FAIL",
-        Outcome::NoPlan => "NO PLAN",
-    }
-}
 
 /// What stands behind the word: the smallest margins of a pass, the checks that failed, or why there is no plan.
 pub(super) fn reason(report: &Report) -> String {
@@ -38,17 +26,12 @@ pub(super) fn overclaim(report: &Report) -> Option<String> {
 
 /// The checks that decided against the plan.
 pub(super) fn failed(report: &Report) -> impl Iterator<Item = &Check> {
-    report.checks.iter().filter(|check| is_bad(check) && !check.advisory)
+    report.checks.iter().filter(|check| check.is_bad() && !check.advisory)
 }
 
 /// Advisory checks that failed: shown, not deciding.
 pub(super) fn warnings(report: &Report) -> impl Iterator<Item = &Check> {
-    report.checks.iter().filter(|check| is_bad(check) && check.advisory)
-}
-
-/// Failed, or too close to tell.
-pub(super) fn is_bad(check: &Check) -> bool {
-    matches!(check.status, Status::Fail | Status::Undecided)
+    report.checks.iter().filter(|check| check.is_bad() && check.advisory)
 }
 
 /// For each telling name the check with the smallest margin over all groups.
@@ -61,8 +44,7 @@ fn smallest_margins(report: &Report) -> String {
 }
 
 fn smallest_margin(checks: &[Check], name: &str) -> Option<String> {
-    let asked = checks.iter().filter(|check| check.name.split_once('.').is_some_and(|(_, after)| after == name));
-    let with_margin = asked.filter(|check| check.margin.is_some());
+    let with_margin = checks.iter().filter(|check| check.question() == name && check.margin.is_some());
     let check = with_margin.min_by(|a, b| a.margin.partial_cmp(&b.margin).unwrap_or(std::cmp::Ordering::Equal))?;
     Some(line(check))
 }
@@ -78,7 +60,7 @@ fn failures(report: &Report) -> String {
 
 /// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`.
 fn line(check: &Check) -> String {
-    let margin = margin(check).map_or_else(String::new, |margin| format!(" {margin}"));
-    let place = place(check).map_or_else(String::new, |place| format!(" ({place})"));
-    format!("{}{margin}{place}", check.name)
+    let margin = check.margin.map(|margin| format!(" {}", signed_quantity(margin, &check.unit)));
+    let place = check.place().map(|place| format!(" ({place})"));
+    format!("{}{}{}", check.name, margin.unwrap_or_default(), place.unwrap_or_default())
 }

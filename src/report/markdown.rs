@@ -1,7 +1,7 @@
 //! `summary.md`: the run as a page, for a pull request or a build log.
 
-use super::quantity::{number, with_unit};
-use super::{Summary, SummaryRun, headline};
+use super::{Summary, SummaryRun};
+use crate::notation::quantity;
 
 /// The whole page.
 pub(super) fn page(summary: &Summary) -> String {
@@ -23,10 +23,9 @@ pub(super) fn page(summary: &Summary) -> String {
 }
 
 fn row(run: &SummaryRun) -> String {
-    let verdict = headline::word(run.verdict);
-    let flight_time = run.flight_time_s.map_or_else(String::new, |time_s| with_unit(&number(time_s), "s"));
+    let flight_time = run.flight_time_s.map_or_else(String::new, |time_s| quantity(time_s, "s"));
     let claim = if run.overclaimed { " (the planner calls this plan solved)" } else { "" };
-    let SummaryRun { scenario, planner, seed, folder, .. } = run;
+    let SummaryRun { verdict, scenario, planner, seed, folder, .. } = run;
     let why = cell(&format!("{}{claim}", run.reason));
     format!("| {verdict} | [{scenario}]({folder}/report.json) | {planner} | {seed} | {flight_time} | {why} |")
 }

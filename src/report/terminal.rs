@@ -5,10 +5,10 @@
 use std::path::Path;
 
 use anstyle::{AnsiColor, Style};
-use comfy_table::{Cell, CellAlignment, Color, Table};
+use comfy_table::{Cell, Color, Table};
 
-use super::quantity::{number, signed};
-use super::{Report, Summary, headline, table};
+use super::{Report, Summary, SummaryRun, headline, table};
+use crate::notation::{number, quantity, signed};
 use crate::verdict::{Check, Outcome, Status};
 
 /// Everything about one job.
@@ -30,33 +30,30 @@ pub fn report(report: &Report) -> String {
     format!("{}\n", lines.join("\n"))
 }
 
-/// The whole run: how many passed, and where the files are.
+/// The whole run: of several jobs those that did not pass once more, how many passed, and where the files are.
 pub fn summary(summary: &Summary, out: &Path) -> String {
-    let color = if summary.runs.iter().all(|run| run.verdict == Outcome::Pass) && summary.refused.is_empty() {
-        AnsiColor::Green
-    } else {
-        AnsiColor::Red
-    };
-    format!("{}; results in {}", painted(&summary.counts_line(), color), out.display())
+    let bad: Vec<&SummaryRun> = summary.runs.iter().filter(|run| run.verdict != Outcome::Pass).collect();
+    let repeated = if summary.runs.len() > 1 { bad.as_slice() } else { &[] };
+    let repeated: String =
+        repeated.iter().map(|run| verdict_line(run.verdict, &run.scenario, &run.planner) + "\n").collect();
+    let color = if bad.is_empty() && summary.refused.is_empty() { AnsiColor::Green } else { AnsiColor::Red };
+    format!("{repeated}{}; results in {}", painted(&summary.counts_line(), color), out.display())
 }
 
 fn checks_table(report: &Report) -> Table {
-    let mut table =
-        table::with_header(&["check", "status", "value", "limit", "margin", "unit", "at s", "between, remarks"]);
+    let header = ["check", "status", "value", "limit", "margin", "unit", "at s", "between, remarks"];
+    let mut table = table::with_header(&header, &[2, 3, 4, 6]);
     table.enforce_styling();
     for check in report.checks.iter().filter(|check| check.status != Status::Skip) {
         table.add_row(row(check));
-    }
-    for column in [2, 3, 4, 6] {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
     }
     table
 }
 
 fn row(check: &Check) -> Vec<Cell> {
-    let shown = |value: Option<f64>, form: fn(f64) -> String| Cell::new(value.map_or_else(String::new, form));
+    let shown = |value: Option<f64>, form: fn(f64, &str) -> String| {
+        Cell::new(value.map_or_else(String::new, |value| form(value, &check.unit)))
+    };
     let remarks = [Some(check.between.join(", ")), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
     let remarks: Vec<String> = remarks.into_iter().flatten().filter(|remark| !remark.is_empty()).collect();
     let (status, color) = status(check);
@@ -67,7 +64,7 @@ fn row(check: &Check) -> Vec<Cell> {
         shown(check.limit, number),
         shown(check.margin, signed),
         Cell::new(&check.unit),
-        shown(check.at_s, |at_s| format!("{at_s:.2}")),
+        shown(check.at_s, |at_s, _| format!("{at_s:.2}")),
         Cell::new(remarks.join("; ")),
     ]
 }
@@ -99,7 +96,7 @@ fn plan_line(report: &Report) -> String {
     let plan = &report.plan;
     let mut parts = vec![format!("plan: {}, {} iterations in {:.3} s", plan.status, plan.iterations, plan.wall_s)];
     parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
-    parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {} s", number(flight_time_s))));
+    parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
     parts.join("; ")
 }
 
@@ -110,14 +107,15 @@ fn flight_line(report: &Report) -> Option<String> {
         ("standard deviation of speed", flight.speed_std_mps, "m/s"),
         ("of altitude", flight.altitude_std_m, "m"),
     ];
-    let known = figures.into_iter().filter_map(|(name, value, unit)| Some(format!("{name} {} {unit}", number(value?))));
+    let known =
+        figures.into_iter().filter_map(|(name, value, unit)| Some(format!("{name} {}", quantity(value?, unit))));
     let simulated = format!("simulated in {:.3} s", report.timings.flying_s);
     Some(format!("flight: {}", std::iter::once(simulated).chain(known).collect::<Vec<_>>().join("; ")))
 }
 
 fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {
     let color = if outcome == Outcome::Pass { AnsiColor::Green } else { AnsiColor::Red };
-    format!("{}  {scenario} · {planner}", painted(headline::word(outcome), color))
+    format!("{}  {scenario} · {planner}", painted(&outcome.to_string(), color))
 }
 
 fn painted(text: &str, color: AnsiColor) -> String {

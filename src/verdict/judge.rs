@@ -125,10 +125,6 @@ fn settle(scenario: &Scenario, checks: &mut Vec<Check>) {
 }
 
 impl Check {
-    fn is_bad(&self) -> bool {
-        matches!(self.status, Status::Fail | Status::Undecided)
-    }
-
     fn is_bad_in(&self, group: Group) -> bool {
         self.is_bad() && self.name.starts_with(&format!("{group}."))
     }

@@ -2,6 +2,7 @@
 
 use scenarios::Range;
 
+use crate::notation::given_range;
 use crate::verdict::Check;
 use crate::verdict::question::{Group, Measured, Question};
 
@@ -58,7 +59,8 @@ impl Found<'_> {
         let limit = if value - range.min < range.max - value { range.min } else { range.max };
         let margin = range.margin(value);
         let place = if margin >= 0.0 { "inside" } else { "outside" };
-        let measured = Measured::value(value).at(t_s).with(vehicle).because(format!("{what} {place} {range} {unit}"));
+        let remark = format!("{what} {place} {}", given_range(range, unit));
+        let measured = Measured::value(value).at(t_s).with(vehicle).because(remark);
         Question::new(group, name, unit).inside(measured, limit, margin)
     }
 }

@@ -13,10 +13,24 @@ fn scenarios_and_planners_are_listed() {
         pair.contains(" 2 ") && pair.contains("parallel-scp") && pair.contains("fly 1 km straight ahead"),
         "{pair}"
     );
+    let planners = page.split_once("Planners\n").expect("a second table").1;
     for entry in planners::registry() {
-        let line = page.lines().find(|line| line.contains(entry.summary)).expect("every planner is listed");
-        assert!(line.contains(entry.name) && line.contains(entry.handles), "{line}");
+        let first_word = entry.summary.split(' ').next().expect("a summary");
+        let is_listed = |line: &str| [entry.name, entry.handles, first_word].iter().all(|part| line.contains(part));
+        assert!(planners.lines().any(is_listed), "{} is not listed in\n{planners}", entry.name);
     }
+}
+
+#[test]
+fn long_descriptions_are_wrapped_and_lose_no_word() {
+    let description = "word ".repeat(60);
+    let long = PAIR
+        .replace("Two aircraft fly 1 km straight ahead, side by side, and arrive together.", description.trim_end());
+    assert_ne!(long, PAIR);
+    let workplace = Workplace::new(&[("scenarios/pair.toml", &long)]);
+    let page = stdout(&workplace.harness(&["list"]));
+    assert!(page.lines().all(|line| line.chars().count() <= 120), "{page}");
+    assert_eq!(page.matches("word").count(), 60, "{page}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The command line from end to end: what a user types, sees and finds on disk.
 
+mod benchmarks;
 mod listing;
 mod results;
 mod running;

@@ -4,6 +4,6 @@ mod between_samples;
 mod broken;
 mod edges;
 mod fleet;
+mod roundabout;
 mod rules;
 mod simulated;
-mod speed;

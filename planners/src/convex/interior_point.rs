@@ -1,6 +1,6 @@
 //! Mehrotra's predictor-corrector loop.
 
-use super::newton::Newton;
+use super::backend::{Backend, NewtonSystem};
 use super::point::{Pairs, Point};
 use super::program::Program;
 use super::progress::{Progress, Watch};
@@ -16,7 +16,7 @@ const REFINE_BELOW: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub struct InteriorPoint {
     settings: Settings,
-    newton: Newton,
+    newton: NewtonSystem,
     point: Point,
     affine: Point,
     step: Point,
@@ -26,9 +26,14 @@ pub struct InteriorPoint {
 impl InteriorPoint {
     /// Room for programmes with as many intervals, pins and planes as `program`.
     pub fn new(program: &Program, settings: Settings) -> Self {
+        Self::with_backend(program, settings, Backend::Block)
+    }
+
+    /// The same with another way to the Newton direction.
+    pub fn with_backend(program: &Program, settings: Settings, backend: Backend) -> Self {
         Self {
             settings,
-            newton: Newton::new(program),
+            newton: NewtonSystem::new(program, backend),
             point: Point::zero(program),
             affine: Point::zero(program),
             step: Point::zero(program),
@@ -41,6 +46,12 @@ impl InteriorPoint {
         if !program.is_well_posed() {
             return Solution::refused(program);
         }
+        let solution = self.iterate(program);
+        Solution { objective: solution.objective + program.offset, ..solution }
+    }
+
+    fn iterate(&mut self, program: &Program) -> Solution {
+        self.newton.begin(program);
         let τ = self.start_parameter(program);
         self.point.start(program, τ);
         let mut watch = Watch::new(&self.settings);
@@ -59,7 +70,7 @@ impl InteriorPoint {
             if self.wants_refinement(now) {
                 self.newton.refine(program, &self.point, &mut self.step, &mut self.affine);
             }
-            let (α_p, α_d) = self.point.step_lengths(&self.step, self.settings.boundary_share);
+            let (α_p, α_d) = Point::step_lengths(&self.newton.inverse, &self.step, self.settings.boundary_share);
             self.point.advance(program, &self.step, α_p, α_d);
         }
         self.finish(Status::IterationLimit, watch.best(), self.settings.max_iterations)
@@ -85,10 +96,10 @@ impl InteriorPoint {
             }
         }
         self.newton.direction(program, &self.point, &mut self.affine);
-        let (α_p, α_d) = self.point.step_lengths(&self.affine, 1.0);
+        let (α_p, α_d) = Point::step_lengths(&self.newton.inverse, &self.affine, 1.0);
         let before = self.point.complementarity();
         let after = self.point.complementarity_after(&self.affine, α_p, α_d);
-        let σμ = (after / before).powi(3) * before;
+        let σμ = (after.max(0.0) / before).powi(3) * before;
         let floor = CENTRE_FLOOR * self.settings.tolerance * self.objective(program).abs().max(1.0);
         σμ.max(floor) / self.point.len() as f64
     }

@@ -15,6 +15,10 @@ use super::program::{LINK, Program};
 /// for it.
 const REGULARISATION: f64 = 1e-12;
 
+/// Index among the families of [`Point::pairs`] from which on they belong to the box, where the slack of a step is known
+/// first and the dual follows.
+const BOXES: usize = 4;
+
 /// Newton system of one iterate, its factorisation and its work vectors.
 #[derive(Clone, Debug)]
 pub struct Newton {
@@ -22,9 +26,11 @@ pub struct Newton {
     weights: Weights,
     /// Targets r of the products, in the slacks of a point (the duals are unused).
     pub target: Point,
-    /// Ω_E of all equalities; Ω_F of all inequalities.
-    ω_equality: Vec<f64>,
-    ω_inequality: Vec<f64>,
+    /// Reciprocals of the slacks and duals of the iterate that was factored last.
+    pub inverse: Point,
+    /// Ω_E^-1 of the pins; Ω_F^-1 of all inequalities.
+    pin_weights: Vec<f64>,
+    inequality_weights: Vec<f64>,
     /// Residuals of E z - d = p - n, F z - g = β - t, and of the dual equation.
     pub residual_equality: Vec<f64>,
     pub residual_inequality: Vec<f64>,
@@ -48,8 +54,9 @@ impl Newton {
                 links: vec![0.0; LINK * program.intervals()],
             },
             target: Point::zero(program),
-            ω_equality: vec![0.0; n_eq],
-            ω_inequality: vec![0.0; n_in],
+            inverse: Point::zero(program),
+            pin_weights: vec![0.0; program.pins.len()],
+            inequality_weights: vec![0.0; n_in],
             residual_equality: vec![0.0; n_eq],
             residual_inequality: vec![0.0; n_in],
             residual_dual: vec![0.0; n_z],
@@ -81,26 +88,32 @@ impl Newton {
 
     /// Forms the matrix at `point` and factors it.
     pub fn factor(&mut self, program: &Program, point: &Point) {
-        for (i, ω) in self.ω_equality.iter_mut().enumerate() {
-            *ω = point.over.slack[i] / point.over.dual[i] + point.under.slack[i] / point.under.dual[i] + REGULARISATION;
+        self.inverse.set_inverse(point);
+        let inverse = &self.inverse;
+        let gaps = point.gap.slack.iter().zip(&inverse.gap.dual);
+        let excesses = point.excess.slack.iter().zip(&inverse.excess.dual);
+        for (weight, ((t, λ_inverse), (β, κ_inverse))) in self.inequality_weights.iter_mut().zip(gaps.zip(excesses))
+        {
+            *weight = 1.0 / (t * λ_inverse + β * κ_inverse + REGULARISATION);
         }
-        for (i, ω) in self.ω_inequality.iter_mut().enumerate() {
-            *ω = point.gap.slack[i] / point.gap.dual[i] + point.excess.slack[i] / point.excess.dual[i] + REGULARISATION;
-        }
-        let n_z = program.len();
-        let (ω_upper, rest) = self.ω_inequality.split_at(n_z);
-        let (ω_lower, ω_planes) = rest.split_at(n_z);
+        let (upper, rest) = self.inequality_weights.split_at(program.len());
+        let (lower, planes) = rest.split_at(program.len());
         for (i, diagonal) in self.weights.diagonal.iter_mut().enumerate() {
-            let boxes = point.upper.dual[i] / point.upper.slack[i] + point.lower.dual[i] / point.lower.slack[i];
-            *diagonal = boxes + 1.0 / ω_upper[i] + 1.0 / ω_lower[i];
+            let boxes = point.upper.dual[i] * inverse.upper.slack[i] + point.lower.dual[i] * inverse.lower.slack[i];
+            *diagonal = boxes + upper[i] + lower[i];
         }
-        for (weight, ω) in self.weights.planes.iter_mut().zip(ω_planes) {
-            *weight = 1.0 / ω;
+        self.weights.planes.copy_from_slice(planes);
+        let ω_equality = |i: usize| {
+            let over = point.over.slack[i] * inverse.over.dual[i];
+            over + point.under.slack[i] * inverse.under.dual[i] + REGULARISATION
+        };
+        for (i, ω) in self.weights.links.iter_mut().enumerate() {
+            *ω = ω_equality(i);
         }
-        let (ω_links, ω_pins) = self.ω_equality.split_at(LINK * program.intervals());
-        self.weights.links.copy_from_slice(ω_links);
-        for (pin, ω) in program.pins.iter().zip(ω_pins) {
-            self.weights.diagonal[pin.index] += 1.0 / ω;
+        let links = self.weights.links.len();
+        for (i, (pin, weight)) in program.pins.iter().zip(&mut self.pin_weights).enumerate() {
+            *weight = 1.0 / ω_equality(links + i);
+            self.weights.diagonal[pin.index] += *weight;
         }
         self.system.factor(program, &self.weights);
     }
@@ -142,71 +155,104 @@ impl Newton {
 
     /// Direction for the present targets, with the factors at hand.
     pub fn direction(&mut self, program: &Program, point: &Point, step: &mut Point) {
-        self.reduce(point);
-        self.right_hand_side(program, point, &mut step.z);
+        self.reduce();
+        self.right_hand_side(program, &mut step.z);
         let links = LINK * program.intervals();
         self.dy[..links].copy_from_slice(&self.rhs_equality[..links]);
         self.system.solve(program, &mut step.z, &mut self.dy[..links]);
         for (i, pin) in program.pins.iter().enumerate() {
             let row = links + i;
-            self.dy[row] = (step.z[pin.index] - self.rhs_equality[row]) / self.ω_equality[row];
+            self.dy[row] = (step.z[pin.index] - self.rhs_equality[row]) * self.pin_weights[i];
         }
         self.recover(program, point, step);
     }
 
     /// Right-hand sides of the rows: `E dz - Ω_E dy = rhs`, `F dz - Ω_F dλ = rhs`.
-    fn reduce(&mut self, point: &Point) {
-        let target = &self.target;
-        for (i, rhs) in self.rhs_equality.iter_mut().enumerate() {
-            *rhs = target.over.slack[i] / point.over.dual[i] - target.under.slack[i] / point.under.dual[i]
-                + self.residual_equality[i];
-        }
-        for (i, rhs) in self.rhs_inequality.iter_mut().enumerate() {
-            *rhs = target.excess.slack[i] / point.excess.dual[i] - target.gap.slack[i] / point.gap.dual[i]
-                + self.residual_inequality[i];
-        }
+    fn reduce(&mut self) {
+        let (r, inverse) = (&self.target, &self.inverse);
+        set_difference(
+            &mut self.rhs_equality,
+            [&r.over.slack, &inverse.over.dual],
+            [&r.under.slack, &inverse.under.dual],
+            &self.residual_equality,
+        );
+        set_difference(
+            &mut self.rhs_inequality,
+            [&r.excess.slack, &inverse.excess.dual],
+            [&r.gap.slack, &inverse.gap.dual],
+            &self.residual_inequality,
+        );
     }
 
     /// r_z, with the pins eliminated like the inequalities.
-    fn right_hand_side(&mut self, program: &Program, point: &Point, r_z: &mut [f64]) {
-        for (i, r) in r_z.iter_mut().enumerate() {
-            *r = self.target.lower.slack[i] / point.lower.slack[i]
-                - self.target.upper.slack[i] / point.upper.slack[i]
-                - self.residual_dual[i];
+    fn right_hand_side(&mut self, program: &Program, r_z: &mut [f64]) {
+        let (r, inverse) = (&self.target, &self.inverse);
+        for (r_z, residual) in r_z.iter_mut().zip(&self.residual_dual) {
+            *r_z = -residual;
         }
-        for ((dλ, rhs), ω) in self.dλ.iter_mut().zip(&self.rhs_inequality).zip(&self.ω_inequality) {
-            *dλ = rhs / ω;
+        add_difference(r_z, [&r.lower.slack, &inverse.lower.slack], [&r.upper.slack, &inverse.upper.slack]);
+        for ((dλ, rhs), weight) in self.dλ.iter_mut().zip(&self.rhs_inequality).zip(&self.inequality_weights) {
+            *dλ = rhs * weight;
         }
         program.add_inequality_duals(&self.dλ, r_z);
         let links = LINK * program.intervals();
         for (i, pin) in program.pins.iter().enumerate() {
-            r_z[pin.index] += self.rhs_equality[links + i] / self.ω_equality[links + i];
+            r_z[pin.index] += self.rhs_equality[links + i] * self.pin_weights[i];
         }
     }
 
     /// Slacks and duals of the direction from dz and dy.
     fn recover(&mut self, program: &Program, point: &Point, step: &mut Point) {
-        let target = &self.target;
-        for (i, dy) in self.dy.iter().enumerate() {
-            step.over.dual[i] = -dy;
-            step.under.dual[i] = *dy;
-            step.over.slack[i] = (target.over.slack[i] + point.over.slack[i] * dy) / point.over.dual[i];
-            step.under.slack[i] = (target.under.slack[i] - point.under.slack[i] * dy) / point.under.dual[i];
-        }
+        let (target, inverse) = (&self.target, &self.inverse);
+        set_signed(&mut step.under.dual, &mut step.over.dual, &self.dy);
         program.inequality_values(&step.z, &mut self.dλ);
-        for (i, dλ) in self.dλ.iter_mut().enumerate() {
-            *dλ = (*dλ - self.rhs_inequality[i]) / self.ω_inequality[i];
-            step.gap.dual[i] = *dλ;
-            step.excess.dual[i] = -*dλ;
-            step.gap.slack[i] = (target.gap.slack[i] - point.gap.slack[i] * *dλ) / point.gap.dual[i];
-            step.excess.slack[i] = (target.excess.slack[i] + point.excess.slack[i] * *dλ) / point.excess.dual[i];
+        let rows = self.rhs_inequality.iter().zip(&self.inequality_weights);
+        for (dλ, (rhs, weight)) in self.dλ.iter_mut().zip(rows) {
+            *dλ = (*dλ - rhs) * weight;
         }
-        for (i, &dz) in step.z.iter().enumerate() {
-            step.upper.slack[i] = -dz;
-            step.lower.slack[i] = dz;
-            step.upper.dual[i] = (target.upper.slack[i] + point.upper.dual[i] * dz) / point.upper.slack[i];
-            step.lower.dual[i] = (target.lower.slack[i] - point.lower.dual[i] * dz) / point.lower.slack[i];
+        set_signed(&mut step.gap.dual, &mut step.excess.dual, &self.dλ);
+        set_signed(&mut step.lower.slack, &mut step.upper.slack, &step.z);
+        let [targets, points, inverses] = [target.pairs(), point.pairs(), inverse.pairs()];
+        for (i, step) in step.pairs_mut().into_iter().enumerate() {
+            let (target, point, inverse) = (targets[i], points[i], inverses[i]);
+            if i < BOXES {
+                complement(&mut step.slack, &target.slack, &point.slack, &step.dual, &inverse.dual);
+            } else {
+                complement(&mut step.dual, &target.slack, &point.dual, &step.slack, &inverse.slack);
+            }
         }
+    }
+}
+
+/// `plus <- values`, `minus <- -values`.
+fn set_signed(plus: &mut [f64], minus: &mut [f64], values: &[f64]) {
+    for ((plus, minus), value) in plus.iter_mut().zip(minus).zip(values) {
+        *plus = *value;
+        *minus = -*value;
+    }
+}
+
+/// The unknown half of a step of pairs: `s dv + v ds = r` gives `ds = (r - s dv) / v`, and dv likewise.
+fn complement(out: &mut [f64], r: &[f64], at: &[f64], by: &[f64], inverse: &[f64]) {
+    let known = r.iter().zip(at).zip(by.iter().zip(inverse));
+    for (out, ((r, at), (by, inverse))) in out.iter_mut().zip(known) {
+        *out = (r - at * by) * inverse;
+    }
+}
+
+/// `out <- a b - c d + e`.
+fn set_difference(out: &mut [f64], [a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2], e: &[f64]) {
+    let terms = a.iter().zip(b).zip(c.iter().zip(d)).zip(e);
+    for (out, (((a, b), (c, d)), e)) in out.iter_mut().zip(terms) {
+        *out = a * b - c * d + e;
+    }
+}
+
+/// `out += a b - c d`.
+fn add_difference(out: &mut [f64], [a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2]) {
+    let terms = a.iter().zip(b).zip(c.iter().zip(d));
+    for (out, ((a, b), (c, d))) in out.iter_mut().zip(terms) {
+        *out += a * b - c * d;
     }
 }
 

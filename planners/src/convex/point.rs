@@ -1,6 +1,7 @@
 //! The primal-dual iterate.
 
 use super::program::Program;
+use super::reductions::{largest, sum};
 
 /// A family of complementary pairs: slacks and duals, all > 0 at an iterate (of any sign in a direction).
 #[derive(Clone, Debug, Default)]
@@ -14,6 +15,16 @@ pub struct Pairs {
 impl Pairs {
     fn zero(length: usize) -> Self {
         Self { slack: vec![0.0; length], dual: vec![0.0; length] }
+    }
+
+    /// Becomes the reciprocals of `pairs`.
+    fn set_inverse(&mut self, pairs: &Pairs) {
+        for (inverse, value) in self.slack.iter_mut().zip(&pairs.slack) {
+            *inverse = 1.0 / value;
+        }
+        for (inverse, value) in self.dual.iter_mut().zip(&pairs.dual) {
+            *inverse = 1.0 / value;
+        }
     }
 }
 
@@ -61,9 +72,16 @@ impl Point {
         [&mut self.over, &mut self.under, &mut self.gap, &mut self.excess, &mut self.upper, &mut self.lower]
     }
 
+    /// Becomes the reciprocals of every slack and dual of `point`; z stays.
+    pub fn set_inverse(&mut self, point: &Point) {
+        for (inverse, pairs) in self.pairs_mut().into_iter().zip(point.pairs()) {
+            inverse.set_inverse(pairs);
+        }
+    }
+
     /// Sum of all complementarity products: the duality gap of a feasible point.
     pub fn complementarity(&self) -> f64 {
-        self.pairs().into_iter().map(|pairs| dot(&pairs.slack, &pairs.dual)).sum()
+        self.pairs().into_iter().map(|pairs| sum(&pairs.slack, &pairs.dual, |s, v| s * v)).sum()
     }
 
     /// Number of complementary pairs n_A.
@@ -71,24 +89,26 @@ impl Point {
         self.pairs().into_iter().map(|pairs| pairs.slack.len()).sum()
     }
 
-    /// Sum of products after steps `α_p`, `α_d` along `step`.
+    /// Sum of products after steps `α_p`, `α_d` along `step`:
+    /// s^T v + α_p ds^T v + α_d s^T dv + α_p α_d ds^T dv.
     pub fn complementarity_after(&self, step: &Point, α_p: f64, α_d: f64) -> f64 {
+        let product = |a: &[f64], b: &[f64]| sum(a, b, |a, b| a * b);
         let families = self.pairs().into_iter().zip(step.pairs());
-        families
-            .map(|(at, by)| {
-                let slacks = at.slack.iter().zip(&by.slack).map(|(s, ds)| s + α_p * ds);
-                let duals = at.dual.iter().zip(&by.dual).map(|(v, dv)| v + α_d * dv);
-                slacks.zip(duals).map(|(s, v)| s * v).sum::<f64>()
-            })
-            .sum()
+        let changes = families.map(|(at, by)| {
+            α_p * product(&by.slack, &at.dual)
+                + α_d * product(&at.slack, &by.dual)
+                + α_p * α_d * product(&by.slack, &by.dual)
+        });
+        self.complementarity() + changes.sum::<f64>()
     }
 
-    /// Largest steps (α_p, α_d) in (0, 1] that leave every slack and every dual at least `1 - τ` of its value.
-    pub fn step_lengths(&self, step: &Point, τ: f64) -> (f64, f64) {
+    /// Largest steps (α_p, α_d) in (0, 1] along `step` that leave every slack and every dual at least `1 - τ` of its
+    /// value, `inverse` being the reciprocals of this point.
+    pub fn step_lengths(inverse: &Point, step: &Point, τ: f64) -> (f64, f64) {
         let (mut slack, mut dual) = (0.0_f64, 0.0_f64);
-        for (at, by) in self.pairs().into_iter().zip(step.pairs()) {
-            slack = slack.max(steepest_fall(&at.slack, &by.slack));
-            dual = dual.max(steepest_fall(&at.dual, &by.dual));
+        for (inverse, by) in inverse.pairs().into_iter().zip(step.pairs()) {
+            slack = slack.max(largest(&inverse.slack, &by.slack, |inverse, ds| -ds * inverse));
+            dual = dual.max(largest(&inverse.dual, &by.dual, |inverse, dv| -dv * inverse));
         }
         ((τ / slack).min(1.0), (τ / dual).min(1.0))
     }
@@ -185,21 +205,12 @@ fn central_inequality(f: f64, μ: f64, τ: f64) -> (f64, f64) {
     (t, β)
 }
 
-/// Largest of -ds/s.
-fn steepest_fall(value: &[f64], step: &[f64]) -> f64 {
-    value.iter().zip(step).map(|(value, step)| -step / value).fold(0.0, f64::max)
-}
-
 fn keep_sum(a: &mut f64, b: &mut f64, sum: f64) {
     if *a < *b {
         *b = sum - *a;
     } else {
         *a = sum - *b;
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn add_scaled(value: &mut [f64], factor: f64, step: &[f64]) {

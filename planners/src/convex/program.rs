@@ -15,6 +15,8 @@ pub const LINK: usize = 6;
 pub struct Program {
     /// Cost q of θ, > 0.
     pub theta_cost: f64,
+    /// Constant part of the objective: added to what a solver reports, without influence on what it does.
+    pub offset: f64,
     /// Weight μ of every violated elastic row, > q.
     pub penalty: f64,
     /// One link for each pair of neighbouring stages, K of them.
@@ -106,7 +108,7 @@ impl Program {
             && self.planes.iter().all(|plane| finite(&plane.normal) && plane.bound.is_finite())
             && [&self.box_lower, &self.box_upper, &self.soft_lower, &self.soft_upper].into_iter().all(|v| finite(v))
             && self.box_lower.iter().zip(&self.box_upper).all(|(lower, upper)| lower < upper)
-            && finite(&[self.theta_cost, self.penalty])
+            && finite(&[self.theta_cost, self.offset, self.penalty])
     }
 
     /// Largest violation of an elastic row at `z`, in the row's units.

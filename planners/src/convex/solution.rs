@@ -41,7 +41,7 @@ pub struct Solution {
     pub status: Status,
     /// Variables z.
     pub z: Vec<f64>,
-    /// `q θ + μ (violations)` at z.
+    /// `q θ + μ (violations)` at z, plus the programme's offset.
     pub objective: f64,
     /// Relative duality gap, -.
     pub gap: f64,

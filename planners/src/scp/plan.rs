@@ -13,6 +13,10 @@ const SLACK_TOLERANCE: f64 = 1e-6;
 /// Defect of the planner's own equations above which a plan is not called solved, m.
 const DEFECT_TOLERANCE_M: f64 = 0.1;
 
+/// Relative difference of two step lengths below which they are one: vehicles that arrive together then share their
+/// nodes, which the solver's tolerance would otherwise set apart by microseconds.
+const SAME_STEP: f64 = 1e-7;
+
 /// The plan that the last iterates make.
 pub fn assemble(
     scenario: &Scenario,
@@ -25,6 +29,9 @@ pub fn assemble(
 ) -> Plan {
     let named = scenario.vehicles.iter().zip(trajectories);
     let objective = trajectories.iter().map(Iterate::flight_time_s).fold(0.0, f64::max);
+    let longest_dt_s = trajectories.iter().map(|iterate| iterate.dt_s).fold(0.0, f64::max);
+    let is_longest = |iterate: &Iterate| longest_dt_s - iterate.dt_s <= SAME_STEP * longest_dt_s;
+    let dt_s = |iterate: &Iterate| if is_longest(iterate) { longest_dt_s } else { iterate.dt_s };
     let distributed_s = history.iter().map(|iteration| iteration.distributed_s).sum();
     Plan {
         schema: 1,
@@ -34,17 +41,17 @@ pub fn assemble(
         status,
         reason,
         objective: Some(objective),
-        trajectories: named.map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate)).collect(),
+        trajectories: named.map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate))).collect(),
         history,
         timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
     }
 }
 
-fn trajectory(vehicle: &str, iterate: &Iterate) -> Trajectory {
+fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
     Trajectory {
         vehicle: vehicle.to_string(),
         interpolation: Interpolation::FirstOrderHold,
-        times_s: (0..=iterate.intervals()).map(|k| k as f64 * iterate.dt_s).collect(),
+        times_s: (0..=iterate.intervals()).map(|k| k as f64 * dt_s).collect(),
         states: iterate.states.iter().map(|&state| State::from_array(state.into())).collect(),
         controls: iterate.controls.iter().map(|&control| Control::from_array(control.into())).collect(),
     }

@@ -39,6 +39,7 @@ pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<Plane>) -> Pr
     planes.sort_by_key(|plane| plane.stage);
     let mut program = Program {
         theta_cost: 1.0,
+        offset: last.dt_s,
         penalty: context.options.penalty,
         links: links(context, last),
         pins: pins(context, last),

@@ -182,4 +182,62 @@ mod tests {
             }
         }
     }
+
+    /// Power spectral density of `next`, by averaged periodograms (Welch, Hann window), over eight neighbouring
+    /// frequencies from each of `ω` (radians per scale length) on, the samples being `s` scale lengths apart.
+    fn spectrum(mut next: impl FnMut() -> f64, s: f64, frequencies: &[f64]) -> Vec<f64> {
+        let (length, segments, bins) = (4096, 200, 8);
+        let spacing = std::f64::consts::TAU / (length as f64 * s);
+        let hann = |i: usize| (std::f64::consts::PI * i as f64 / length as f64).sin().powi(2);
+        let window_power: f64 = (0..length).map(|i| hann(i).powi(2)).sum();
+        let mut density = vec![0.0; frequencies.len()];
+        for _ in 0..segments {
+            let samples: Vec<f64> = (0..length).map(|i| next() * hann(i)).collect();
+            for (density, ω) in density.iter_mut().zip(frequencies) {
+                for bin in 0..bins {
+                    let step = ((ω / spacing).round() + f64::from(bin)) * spacing * s;
+                    let (mut cosine, mut sine) = (0.0, 0.0);
+                    for (i, sample) in samples.iter().enumerate() {
+                        let (sin, cos) = (step * i as f64).sin_cos();
+                        (cosine, sine) = (cosine + sample * cos, sine + sample * sin);
+                    }
+                    *density += (cosine * cosine + sine * sine) * s / window_power / f64::from(segments * bins);
+                }
+            }
+        }
+        density
+    }
+
+    #[test]
+    fn spectrum_is_drydens() {
+        let (s, frequencies) = (0.05, [0.25, 0.5, 1.0, 2.0, 4.0]);
+        let mut rng = scenarios::stream(12, "dryden");
+        let mut u = Longitudinal::stationary(&mut rng);
+        let found_u = spectrum(
+            || {
+                u.advance(s, &mut rng);
+                u.output()
+            },
+            s,
+            &frequencies,
+        );
+        let mut v = Transverse::stationary(&mut rng);
+        let found_v = spectrum(
+            || {
+                v.advance(s, &mut rng);
+                v.output()
+            },
+            s,
+            &frequencies,
+        );
+        // |H|² at the middle of the eight frequencies; 1600 periodograms leave a standard deviation of about 3 %
+        let middle = 3.5 * std::f64::consts::TAU / (4096.0 * s);
+        for (ω, (found_u, found_v)) in frequencies.iter().zip(found_u.into_iter().zip(found_v)) {
+            let square = (ω + middle).powi(2);
+            let expected_u = 2.0 / (1.0 + square);
+            let expected_v = (1.0 + 3.0 * square) / (1.0 + square).powi(2);
+            assert!((found_u / expected_u - 1.0).abs() < 0.15, "u at {ω}: {found_u} against {expected_u}");
+            assert!((found_v / expected_v - 1.0).abs() < 0.15, "v at {ω}: {found_v} against {expected_v}");
+        }
+    }
 }

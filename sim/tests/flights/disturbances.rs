@@ -53,10 +53,11 @@ fn an_overweight_aircraft_sags_until_the_tracker_holds_it_by_its_spring() {
     let open = fly_with(&scenario, &plan, 0, &OPEN_LOOP, &mut arena::silent);
     let fallen = 400.0 - open.vehicles[0].samples[20].position_m[2];
     assert!((fallen / (G * (1.0 - 1.0 / ratio) * 0.2_f64.powi(2) / 2.0) - 1.0).abs() < 1e-3);
-    // Closed loop at rest: g + ω² e = r g, so the sag is e = (r - 1) g / ω², ω = 0.5 rad/s.
+    // Closed loop at rest: g + ω² e = r g, so the sag is e = (r - 1) g / ω².
     let closed = fly(&scenario, &plan, 0, &mut arena::silent);
     let sag = 400.0 - closed.vehicles[0].samples[5900].position_m[2];
-    assert!((sag - (ratio - 1.0) * G / 0.25).abs() < 1e-3, "{sag}");
+    let ω = scenario.simulation.tracker.natural_frequency_radps;
+    assert!((sag - (ratio - 1.0) * G / (ω * ω)).abs() < 1e-3, "{sag}");
 }
 
 fn gusty(seed: u64) -> Flight {

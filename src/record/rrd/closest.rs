@@ -4,9 +4,9 @@ use rerun::{LineStrips3D, Points3D, RecordingStream};
 use scenarios::Cylinder;
 use sim::{EventKind, Flight, Sample};
 
-use super::document::quantity;
 use super::world::pixels;
 use super::{Logged, Run, entity, is_drawable, palette, to_f32};
+use crate::notation::quantity;
 use crate::verdict::{Check, Status};
 
 /// The checks that have a place, and what to call them there.
@@ -16,9 +16,13 @@ const MARKED: [(&str, &str); 2] = [("flight.separation", "separation"), ("flight
 pub fn log(stream: &RecordingStream, run: &Run<'_>, flight: &Flight) -> Logged {
     for (name, title) in MARKED {
         let Some(check) = run.verdict.checks.iter().find(|check| check.name == name) else { continue };
+        if ended_in_crash(flight, check) {
+            continue;
+        }
         let Some(ends_m) = ends(run, flight, check) else { continue };
         let colour = if check.status == Status::Pass { palette::KEPT } else { palette::LIMIT };
-        let label = format!("{title} {}", quantity(check.value, &check.unit));
+        let value = check.value.map(|value| quantity(value, &check.unit)).unwrap_or_default();
+        let label = format!("{title} {value}");
         let mark = LineStrips3D::new([ends_m.map(to_f32)])
             .with_colors([palette::opaque(colour)])
             .with_radii([pixels(2.5)])
@@ -27,6 +31,16 @@ pub fn log(stream: &RecordingStream, run: &Run<'_>, flight: &Flight) -> Logged {
         stream.log_static(entity("world/closest", name), &mark)?;
     }
     log_crashes(stream, flight)
+}
+
+/// Is it the crash itself that was closest? Then the crash's own mark says more, and says it in the same place.
+fn ended_in_crash(flight: &Flight, check: &Check) -> bool {
+    let Some(at_s) = check.at_s else { return false };
+    let mut crashes = flight.events.iter().filter(|event| matches!(event.kind, EventKind::Crash { .. }));
+    crashes.any(|crash| {
+        (crash.t_s - at_s).abs() <= 2.0 * flight.step_s
+            && crash.vehicles.iter().any(|vehicle| check.between.contains(vehicle))
+    })
 }
 
 /// A dot where each vehicle that crashed was seen last.

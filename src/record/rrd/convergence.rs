@@ -5,8 +5,8 @@ use std::fmt::Write;
 use rerun::{RecordingStream, Scalars, SeriesLines, TextDocument, TimeColumn};
 use scenarios::{Iteration, Plan};
 
-use super::document::{number, quantity};
 use super::{Logged, entity, palette};
+use crate::notation::number;
 
 /// Timeline of the planner's iterations.
 pub const PLANNER_ITER: &str = "planner_iter";
@@ -54,20 +54,20 @@ pub fn log(stream: &RecordingStream, plan: &Plan) -> Logged {
 
 fn table(plan: &Plan) -> String {
     let mut text = format!(
-        "**{}: {} after {} iterations.** To see the curves below, choose the timeline `{PLANNER_ITER}` in the time \
-         panel.\n\n| # | objective s | defect m | slack | separation m | change m | trust region m | solver it. |\n\
+        "**{}: {} after {} iterations.** The same as curves: next tab, with the timeline `{PLANNER_ITER}` chosen at \
+         the left of the time bar.\n\n| # | objective s | defect m | slack | separation m | change m | trust region m | solver it. |\n\
          |--:|--:|--:|--:|--:|--:|--:|--:|\n",
         plan.planner,
         plan.status,
         plan.history.len()
     );
     for (k, it) in plan.history.iter().enumerate() {
-        let (before, after) = ([it.objective, it.defect_m, it.slack], [it.change_m, it.trust_region_m]);
-        let [before, after] =
-            [&before[..], &after[..]].map(|cells| cells.iter().copied().map(number).collect::<Vec<_>>().join(" | "));
-        let cells = format!("{before} | {} | {after}", quantity(it.separation_m, ""));
+        let values = [Some(it.objective), Some(it.defect_m), Some(it.slack), it.separation_m];
+        let values = values.into_iter().chain([Some(it.change_m), Some(it.trust_region_m)]);
+        let cells: Vec<String> =
+            values.map(|value| value.map_or_else(|| "–".to_owned(), |value| number(value, ""))).collect();
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "| {} | {cells} | {} |", k + 1, it.solver_iterations);
+        let _ = writeln!(text, "| {} | {} | {} |", k + 1, cells.join(" | "), it.solver_iterations);
     }
     text
 }

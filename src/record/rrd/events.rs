@@ -3,8 +3,9 @@
 use rerun::{RecordingStream, TextLog, TextLogLevel};
 use sim::{Event, EventKind, Flight};
 
-use super::document::{TELLING, quantity};
+use super::document::is_telling;
 use super::{Logged, Run, palette, sim_times};
+use crate::notation::{given_quantity, quantity};
 use crate::verdict::{Check, Status};
 
 struct Line {
@@ -58,7 +59,7 @@ fn about_event(event: &Event) -> Line {
 fn about_check(check: &Check, end_s: f64) -> Option<Line> {
     let is_shown = match check.status {
         Status::Fail | Status::Undecided => true,
-        Status::Pass => TELLING.contains(&check.name.as_str()),
+        Status::Pass => is_telling(check),
         Status::Skip => false,
     };
     if !is_shown {
@@ -75,18 +76,8 @@ fn sentence(check: &Check) -> String {
         Status::Fail => "VIOLATED",
         Status::Skip => "skipped",
     };
-    let mut text = format!("{} {what}: {}", check.name, quantity(check.value, &check.unit));
-    if check.limit.is_some() {
-        text += &format!(", limit {}", quantity(check.limit, &check.unit));
-    }
-    if !check.between.is_empty() {
-        text += &format!(", {}", check.between.join(" and "));
-    }
-    if let Some(at_s) = check.at_s {
-        text += &format!(", at {at_s:.2} s");
-    }
-    if let Some(reason) = &check.reason {
-        text += &format!(" ({reason})");
-    }
-    text
+    let value = check.value.map(|value| quantity(value, &check.unit));
+    let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));
+    let parts: Vec<String> = [value, limit, check.place(), check.reason.clone()].into_iter().flatten().collect();
+    format!("{} {what}: {}", check.name, parts.join("; "))
 }

@@ -37,7 +37,9 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
         tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
     }
     if !run.plan.history.is_empty() {
-        tabs.push(planner(&layout)?);
+        let content = ["/convergence".to_owned()];
+        tabs.push(layout.view(ViewClass::TextDocument, "Planner", "/convergence", &content)?);
+        tabs.push(planner_curves(&layout)?);
     }
     let right = layout.tabs("", &tabs)?;
     let root = layout.columns("", &[(left, 1.45), (right, 1.0)])?;
@@ -158,14 +160,14 @@ fn plot(layout: &Blueprint, group: &str, title: &str, end_s: f64, legend: bool) 
     Ok(view)
 }
 
-fn planner(layout: &Blueprint) -> Result<Part, Error> {
-    let document = layout.view(ViewClass::TextDocument, "Iterations", "/convergence", &["/convergence".to_owned()])?;
-    let mut rows = vec![(document, 2.0)];
+/// Behind everything else: empty until the viewer is switched to the planner's own timeline.
+fn planner_curves(layout: &Blueprint) -> Result<Part, Error> {
+    let mut rows = Vec::new();
     for (group, title) in convergence::GROUPS {
         let contents = [format!("/planner/{group}/**")];
         let view = layout.view(ViewClass::TimeSeries, title, "/", &contents)?;
         layout.property(&view, "PlotLegend", &PlotLegend::new().with_corner(Corner2D::RightTop))?;
         rows.push((view, 1.0));
     }
-    layout.rows("Planner", &rows)
+    layout.rows("Planner's curves", &rows)
 }

@@ -89,7 +89,9 @@ fn planned_points(trajectory: &Trajectory) -> Vec<[f32; 3]> {
 
 /// Position at share `s` in [0, 1] of an interval of `dt_s`, by the cubic with the nodes' positions and velocities:
 ///
-///     p(s) = (2s³ - 3s² + 1) p0 + (s³ - 2s² + s) dt v0 + (3s² - 2s³) p1 + (s³ - s²) dt v1
+/// ```text
+/// p(s) = (2s³ - 3s² + 1) p0 + (s³ - 2s² + s) dt v0 + (3s² - 2s³) p1 + (s³ - s²) dt v1
+/// ```
 fn hermite(from: &State, to: &State, dt_s: f64, s: f64) -> [f64; 3] {
     let (s2, s3) = (s * s, s * s * s);
     let (p0, v0, p1, v1) = (from.position_m(), from.velocity_mps(), to.position_m(), to.velocity_mps());

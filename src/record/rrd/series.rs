@@ -5,10 +5,10 @@ use scenarios::Scenario;
 use sim::Flight;
 
 use super::distances::Distances;
-use super::document::quantity;
 use super::quantity::Quantity;
 use super::thinning::Curve;
 use super::{Logged, entity, palette, sim_times};
+use crate::notation::given_quantity;
 
 /// Most points of one series.
 const MOST_POINTS: usize = 2000;
@@ -69,7 +69,7 @@ fn log_fleet(stream: &RecordingStream, group: &str, name: &str, curve: Curve) ->
 
 /// A horizontal line from the beginning to `end_s`, named with its value.
 fn log_limit(stream: &RecordingStream, group: &str, name: &str, value: f64, unit: &str, end_s: f64) -> Logged {
-    let title = format!("{name} {}", quantity(Some(value), unit));
+    let title = format!("{name} {}", given_quantity(value, unit));
     let line: Curve = [(0.0, value), (end_s, value)].into_iter().collect();
     log_curve(stream, entity(&format!("limits/{group}"), name), &title, palette::opaque(palette::LIMIT), 1.5, line)
 }

@@ -12,7 +12,7 @@ use scenarios::PlanStatus;
 
 use super::*;
 use crate::record::record;
-use crate::verdict::Verdict;
+use crate::verdict::{Outcome, Verdict};
 use synthetic::Synthetic;
 
 /// Records into a fresh folder, in which nothing else may be left; the folder, and the size of the file in bytes.

@@ -1,0 +1,72 @@
+//! Time per subproblem: our backends and Clarabel, on subproblems of a real run. `cargo bench --bench ipm`
+
+use std::fmt;
+use std::path::Path;
+use std::sync::LazyLock;
+
+use divan::Bencher;
+use harness::bench::ipm::TOLERANCE;
+use harness::bench::subproblems::{self, Subproblem};
+use planners::convex::{self, Backend, InteriorPoint, Settings};
+
+fn main() {
+    divan::main();
+}
+
+/// A subproblem under its name.
+#[derive(Clone, Copy)]
+struct Named(&'static Subproblem);
+
+impl fmt::Display for Named {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}", self.0.name)
+    }
+}
+
+static FULL_SIZE: LazyLock<Vec<Subproblem>> = LazyLock::new(|| of_rendezvous(40));
+static SMALL: LazyLock<Vec<Subproblem>> = LazyLock::new(|| of_rendezvous(4));
+
+fn of_rendezvous(intervals: usize) -> Vec<Subproblem> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fixed-wing/rendezvous-7.toml");
+    subproblems::of_a_run(&scenarios::load(&path).expect("shipped scenario"), intervals)
+}
+
+fn full_size() -> impl Iterator<Item = Named> {
+    FULL_SIZE.iter().map(Named)
+}
+
+fn small() -> impl Iterator<Item = Named> {
+    SMALL.iter().map(Named)
+}
+
+fn solve(bencher: Bencher, Named(subproblem): Named, backend: Backend) {
+    let program = &subproblem.program;
+    let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+    let mut solver = InteriorPoint::with_backend(program, settings, backend);
+    bencher.bench_local(|| solver.solve(program));
+}
+
+#[divan::bench(args = full_size())]
+fn clarabel(bencher: Bencher, Named(subproblem): Named) {
+    bencher.bench_local(|| convex::solve_with_clarabel(&subproblem.program, TOLERANCE));
+}
+
+#[divan::bench(args = full_size())]
+fn block(bencher: Bencher, subproblem: Named) {
+    solve(bencher, subproblem, Backend::Block);
+}
+
+#[divan::bench(args = full_size())]
+fn sparse_ldl(bencher: Bencher, subproblem: Named) {
+    solve(bencher, subproblem, Backend::SparseLdl);
+}
+
+#[divan::bench(args = small())]
+fn dense_reduced(bencher: Bencher, subproblem: Named) {
+    solve(bencher, subproblem, Backend::DenseReduced);
+}
+
+#[divan::bench(args = small(), sample_count = 5)]
+fn dense_kkt(bencher: Bencher, subproblem: Named) {
+    solve(bencher, subproblem, Backend::DenseKkt);
+}

@@ -1,0 +1,167 @@
+//! The paper's P4: `min g^T X  s.t.  A X <= b` with X = (z, α, β), eq. 21 and 22 (with the μ that eq. 21 as printed omits).
+//!
+//! ```text
+//!         [  I    0   0 ]        [  hi ]     box = trust region, from above
+//!         [ -I    0   0 ]        [ -lo ]     and from below
+//!     A = [  E   -I   0 ]    b = [  d  ]     α >= |E z - d|
+//!         [ -E   -I   0 ]        [ -d  ]
+//!         [  F    0  -I ]        [  g  ]     β >= max(F z - g, 0)
+//!         [  0    0  -I ]        [  0  ]
+//! ```
+
+use std::ops::Range;
+
+use super::super::program::{LINK, Program, STAGE};
+
+/// Costs, rows and right-hand sides of P4, the rows stored one after the other.
+#[derive(Clone, Debug)]
+pub struct PaperForm {
+    /// g, length n_X.
+    pub cost: Vec<f64>,
+    /// b, length n_A.
+    pub rhs: Vec<f64>,
+    /// First entry of every row, and the end of the last.
+    starts: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// Which entries of a link may differ from zero, in the order of its row: left, right, θ. All links share it, so that
+/// an accidental zero does not change the pattern of A.
+type LinkPattern = [[bool; 2 * STAGE + 1]; LINK];
+
+impl PaperForm {
+    /// P4 of `program`; n_X = n_z + n_eq + n_in, n_A = 2 n_z + 2 n_eq + 2 n_in.
+    pub fn new(program: &Program) -> Self {
+        let (n_z, n_eq, n_in) = (program.len(), program.equalities(), program.inequalities());
+        let mut cost = vec![program.penalty; n_z + n_eq + n_in];
+        cost[..n_z].fill(0.0);
+        cost[n_z - 1] = program.theta_cost;
+        let mut form = Self { cost, rhs: Vec::new(), starts: vec![0], columns: Vec::new(), values: Vec::new() };
+        for (sign, bounds) in [(1.0, &program.box_upper), (-1.0, &program.box_lower)] {
+            for (j, bound) in bounds.iter().enumerate() {
+                form.push([(j, sign)], sign * bound);
+            }
+        }
+        let equalities = equality_rows(program);
+        for sign in [1.0, -1.0] {
+            for (i, (entries, d)) in equalities.iter().zip(program.equality_rhs()).enumerate() {
+                let signed = entries.iter().map(|&(j, value)| (j, sign * value));
+                form.push(signed.chain([(n_z + i, -1.0)]), sign * d);
+            }
+        }
+        let first_β = n_z + n_eq;
+        for (i, (entries, g)) in inequality_rows(program).into_iter().zip(program.inequality_rhs()).enumerate() {
+            form.push(entries.into_iter().chain([(first_β + i, -1.0)]), g);
+        }
+        for i in 0..n_in {
+            form.push([(first_β + i, -1.0)], 0.0);
+        }
+        form
+    }
+
+    /// n_X, the number of variables.
+    pub fn n_x(&self) -> usize {
+        self.cost.len()
+    }
+
+    /// n_A, the number of rows.
+    pub fn n_a(&self) -> usize {
+        self.rhs.len()
+    }
+
+    /// Entries (column, value) of a row, columns ascending.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+        let entries = self.entries(row);
+        self.columns[entries.clone()].iter().copied().zip(self.values[entries].iter().copied())
+    }
+
+    /// Columns of a row, ascending.
+    pub fn columns(&self, row: usize) -> &[usize] {
+        &self.columns[self.entries(row)]
+    }
+
+    /// Values of a row.
+    pub fn values(&self, row: usize) -> &[f64] {
+        &self.values[self.entries(row)]
+    }
+
+    /// Has `other` its entries at the same places?
+    pub fn has_pattern_of(&self, other: &Self) -> bool {
+        self.starts == other.starts && self.columns == other.columns
+    }
+
+    /// `out += A x`.
+    pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
+        for (row, out) in out.iter_mut().enumerate() {
+            *out += self.row(row).map(|(column, value)| value * x[column]).sum::<f64>();
+        }
+    }
+
+    /// `out += A^T v`.
+    pub fn add_transposed_product(&self, v: &[f64], out: &mut [f64]) {
+        for (row, v) in v.iter().enumerate() {
+            for (column, value) in self.row(row) {
+                out[column] += value * v;
+            }
+        }
+    }
+
+    fn entries(&self, row: usize) -> Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>, rhs: f64) {
+        for (column, value) in entries {
+            self.columns.push(column);
+            self.values.push(value);
+        }
+        self.starts.push(self.columns.len());
+        self.rhs.push(rhs);
+    }
+}
+
+/// Rows of E.
+fn equality_rows(program: &Program) -> Vec<Vec<(usize, f64)>> {
+    let pattern = link_pattern(program);
+    let mut rows = Vec::with_capacity(program.equalities());
+    for k in 0..program.intervals() {
+        for (i, pattern) in pattern.iter().enumerate() {
+            let all = link_row(program, k, i);
+            rows.push(all.zip(pattern).filter_map(|(entry, present)| present.then_some(entry)).collect());
+        }
+    }
+    rows.extend(program.pins.iter().map(|pin| vec![(pin.index, 1.0)]));
+    rows
+}
+
+/// All entries of row i of link k, zero or not.
+fn link_row(program: &Program, k: usize, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let link = &program.links[k];
+    let left = (0..STAGE).map(move |j| (STAGE * k + j, link.left[(i, j)]));
+    let right = (0..STAGE).map(move |j| (STAGE * (k + 1) + j, link.right[(i, j)]));
+    left.chain(right).chain([(program.len() - 1, link.theta[i])])
+}
+
+fn link_pattern(program: &Program) -> LinkPattern {
+    let mut pattern = LinkPattern::default();
+    for k in 0..program.intervals() {
+        for (i, pattern) in pattern.iter_mut().enumerate() {
+            for (present, (_, value)) in pattern.iter_mut().zip(link_row(program, k, i)) {
+                *present |= value != 0.0;
+            }
+        }
+    }
+    pattern
+}
+
+/// Rows of F.
+fn inequality_rows(program: &Program) -> Vec<Vec<(usize, f64)>> {
+    let upper = (0..program.len()).map(|j| vec![(j, 1.0)]);
+    let lower = (0..program.len()).map(|j| vec![(j, -1.0)]);
+    let planes = program.planes.iter().map(|plane| {
+        let first = STAGE * plane.stage;
+        vec![(first, plane.normal[0]), (first + 1, plane.normal[1])]
+    });
+    upper.chain(lower).chain(planes).collect()
+}

@@ -1,0 +1,78 @@
+//! The paper's ways to the Newton direction lead to the same optimum as ours, on subproblems of real runs.
+
+use std::path::Path;
+use std::sync::Mutex;
+
+use planners::convex::{Backend, InteriorPoint, Program, Settings, Status};
+use planners::scp::parallel::plan_and_inspect;
+
+/// Largest relative difference of the objectives (relative to 1 s below 1 s): both are this near to the optimum.
+const AGREEMENT: f64 = 1e-8;
+
+/// Relative gap and residuals from which a solve counts as having reached the solution.
+const NEAR: f64 = 1e-7;
+
+/// Every subproblem of a run with `intervals`, in an order that does not depend on the threads.
+fn subproblems(scenario: &str, intervals: usize) -> Vec<Program> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(scenario);
+    let mut scenario = scenarios::load(&path).expect("shipped scenario");
+    scenario.planner.intervals = Some(intervals);
+    let programs = Mutex::new(Vec::new());
+    plan_and_inspect(&scenario, 0, &mut |_| {}, &|program, solution| {
+        programs.lock().unwrap().push((solution.objective, program.clone()));
+    });
+    let mut programs = programs.into_inner().unwrap();
+    programs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    programs.into_iter().map(|(_, program)| program).collect()
+}
+
+fn assert_same_optimum(programs: &[Program], backend: Backend) {
+    assert!(programs.len() > 1);
+    for (i, program) in programs.iter().enumerate() {
+        let ours = InteriorPoint::new(program, Settings::default()).solve(program);
+        let theirs = InteriorPoint::with_backend(program, Settings::default(), backend).solve(program);
+        assert_eq!(ours.status, Status::Solved, "{i}");
+        assert!(theirs.gap.max(theirs.residual) < NEAR, "{backend:?} {i}: {theirs:?}");
+        if theirs.status == Status::Solved {
+            let difference = (ours.objective - theirs.objective).abs() / ours.objective.abs().max(1.0);
+            assert!(difference < AGREEMENT, "{backend:?} {i}: {} against {}", ours.objective, theirs.objective);
+        }
+    }
+}
+
+#[test]
+fn sparse_ldl_solves_every_subproblem_at_full_size() {
+    let programs = subproblems("scenarios/fixed-wing/rendezvous-7.toml", 40);
+    assert_same_optimum(&programs, Backend::SparseLdl);
+}
+
+#[test]
+fn sparse_and_dense_reduced_agree_on_small_subproblems() {
+    for (scenario, intervals) in [("scenarios/fixed-wing/rendezvous-7.toml", 4), ("tests/scenarios/pair.toml", 8)] {
+        let programs = subproblems(scenario, intervals);
+        assert_same_optimum(&programs, Backend::SparseLdl);
+        let stride = programs.len().div_ceil(20);
+        let some: Vec<Program> = programs.into_iter().step_by(stride).collect();
+        assert_same_optimum(&some, Backend::DenseReduced);
+    }
+}
+
+#[test]
+fn the_whole_kkt_matrix_agrees_on_small_subproblems() {
+    let programs = subproblems("tests/scenarios/pair.toml", 4);
+    let stride = programs.len().div_ceil(4);
+    let some: Vec<Program> = programs.into_iter().step_by(stride).collect();
+    assert_same_optimum(&some, Backend::DenseKkt);
+}
+
+#[test]
+fn one_solver_serves_programmes_one_after_the_other() {
+    let programs = subproblems("tests/scenarios/pair.toml", 8);
+    let mut solver = InteriorPoint::with_backend(&programs[0], Settings::default(), Backend::SparseLdl);
+    let same_shape = programs.iter().filter(|program| program.planes.len() == programs[0].planes.len());
+    for program in same_shape {
+        let fresh = InteriorPoint::with_backend(program, Settings::default(), Backend::SparseLdl).solve(program);
+        let reused = solver.solve(program);
+        assert_eq!(fresh.objective.to_bits(), reused.objective.to_bits(), "the past leaves no trace");
+    }
+}

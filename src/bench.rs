@@ -1,0 +1,4 @@
+//! What `harness bench` measures: the papers' tables, side by side with the baselines.
+
+pub mod ipm;
+pub mod subproblems;

@@ -1,0 +1,49 @@
+//! Subproblems to measure with, taken from a real run of the planner.
+
+use std::sync::{Mutex, PoisonError};
+
+use planners::convex::Program;
+use planners::scp::parallel::plan_and_inspect;
+use scenarios::Scenario;
+
+/// One subproblem of a run.
+#[derive(Clone, Debug)]
+pub struct Subproblem {
+    /// `K=40 early`.
+    pub name: String,
+    /// The planner's iteration that it comes from, from 1.
+    pub iteration: usize,
+    /// The subproblem.
+    pub program: Program,
+}
+
+/// An early, a middle and a late subproblem of a run of `scenario` with `intervals` intervals: of the first iteration
+/// and of one a third of the way the vehicle with the most avoidance rows, of the last (rows out of reach are dropped, and by then
+/// most are) the one with the fewest.
+pub fn of_a_run(scenario: &Scenario, intervals: usize) -> Vec<Subproblem> {
+    let iterations = iterations(scenario, intervals);
+    let (middle, last) = (iterations.len() / 3, iterations.len() - 1);
+    let pick = |what: &str, iteration: usize, rank: fn(usize) -> usize| Subproblem {
+        name: format!("K={intervals} {what}"),
+        iteration: iteration + 1,
+        program: iterations[iteration][rank(iterations[iteration].len())].clone(),
+    };
+    vec![pick("early", 0, |n| n - 1), pick("middle", middle, |n| n - 1), pick("late", last, |_| 0)]
+}
+
+/// The subproblems of every iteration, the one with the fewest avoidance rows first, whatever thread was faster.
+fn iterations(scenario: &Scenario, intervals: usize) -> Vec<Vec<Program>> {
+    let mut scenario = scenario.clone();
+    scenario.planner.intervals = Some(intervals);
+    let all = Mutex::new(Vec::new());
+    plan_and_inspect(&scenario, scenario.simulation.seed, &mut |_| {}, &|program, solution| {
+        all.lock().unwrap_or_else(PoisonError::into_inner).push((solution.objective, program.clone()));
+    });
+    let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let by_iteration = all.chunks(scenario.vehicles.len()).map(|iteration| {
+        let mut iteration = iteration.to_vec();
+        iteration.sort_by(|a, b| a.1.planes.len().cmp(&b.1.planes.len()).then(a.0.total_cmp(&b.0)));
+        iteration.into_iter().map(|(_, program)| program).collect()
+    });
+    by_iteration.collect()
+}
