@@ -1,6 +1,8 @@
 //! Flies plans: plants on rapier bodies, tracking control, wind, sensors, the flight log.
 //!
-//!     Plan -> reference -> tracker -> load factors -> force -> rapier -> truth -> sensors -> tracker
+//! ```text
+//! Plan -> reference -> tracker -> load factors -> force -> rapier -> truth -> sensors -> tracker
+//! ```
 //!
 //! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier.
 

@@ -20,7 +20,9 @@ const PILLAR_OVERHANG_M: f64 = 10_000.0;
 /// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse given before its step
 /// and half after it, gravity's included, the position moves with the mean velocity of the step:
 ///
-///     v_m = v + h/2 (F/m + g),   p' = p + h v_m,   v' = v_m + h/2 (F/m + g)
+/// ```text
+/// v_m = v + h/2 (F/m + g),   p' = p + h v_m,   v' = v_m + h/2 (F/m + g)
+/// ```
 ///
 /// which is the implicit midpoint rule, of second order, if F is the force at v_m in the middle of the step.
 ///

@@ -2,7 +2,9 @@ use nalgebra::Vector3;
 
 /// When two round things first touch that move along straight lines at constant velocity.
 ///
-///     |r + (r' - r) share| = R,   share in [0, 1]
+/// ```text
+/// |r + (r' - r) share| = R,   share in [0, 1]
+/// ```
 ///
 /// - `start_m`, `end_m`: position of the one relative to the other at the beginning and at the end, r and r'
 /// - `reach_m`: sum of their radii R

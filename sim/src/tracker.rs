@@ -5,7 +5,9 @@ use crate::sensors::Measurement;
 
 /// Follows a reference from measurements: feed-forward of the planned load factors, feedback on position and velocity.
 ///
-///     a_cmd = a_ref + ω² (p_ref - p) + 2 ζ ω (v_ref - v)
+/// ```text
+/// a_cmd = a_ref + ω² (p_ref - p) + 2 ζ ω (v_ref - v)
+/// ```
 ///
 /// with a_ref what the planned load factors give along the reference. Where they do give the reference, without
 /// disturbance and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; where the plan contradicts itself, the

@@ -2,14 +2,14 @@
 //!
 //! | entities | what | where it is written |
 //! |---|---|---|
-//! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | [`world`] |
-//! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | [`paths`] |
-//! | `/world/fleet/NAME` | the moving aircraft and its safety volume | [`fleet`] |
-//! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | [`closest`] |
-//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | [`series`] |
-//! | `/planner/NAME` | convergence, on the timeline `planner_iter` | [`convergence`] |
-//! | `/events` | text log | [`events`] |
-//! | `/verdict`, `/convergence` | documents | [`document`], [`convergence`] |
+//! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | `world` |
+//! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | `paths` |
+//! | `/world/fleet/NAME` | the moving aircraft and its safety volume | `fleet` |
+//! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | `closest` |
+//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | `series` |
+//! | `/planner/NAME` | convergence, on the timeline `planner_iter` | `convergence` |
+//! | `/events` | text log | `events` |
+//! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
 //!
 //! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
 

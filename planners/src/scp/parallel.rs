@@ -40,7 +40,7 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     plan_and_inspect(scenario, seed, progress, &|_, _| {})
 }
 
-/// [`plan`], with `inspect` called for every subproblem and its solution, from several threads.
+/// [`plan()`], with `inspect` called for every subproblem and its solution, from several threads.
 pub fn plan_and_inspect(
     scenario: &Scenario,
     seed: u64,

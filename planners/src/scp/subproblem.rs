@@ -78,7 +78,7 @@ fn links(context: &Context, last: &Iterate) -> Vec<Link> {
         .collect()
 }
 
-/// s[0] = s_0 and s[K] = s_f, eq. 6 and 7.
+/// `s[0] = s_0` and `s[K] = s_f`, eq. 6 and 7.
 fn pins(context: &Context, last: &Iterate) -> Vec<Pin> {
     let ends = [(0, context.boundary[0]), (last.intervals(), context.boundary[1])];
     let pins = ends.into_iter().flat_map(|(k, state)| {

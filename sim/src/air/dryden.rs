@@ -3,8 +3,10 @@
 //! Time is counted in s = t V / L (the air that has passed, in scale lengths) and the output has unit variance, so that
 //! intensity, scale length and airspeed may change on the way without a transient. MIL-F-8785C, 3.7.1.2:
 //!
-//!     H_u(p) = sqrt(2) / (1 + p)                    autocorrelation e^-s             (longitudinal)
-//!     H_v(p) = (1 + sqrt(3) p) / (1 + p)²           autocorrelation e^-s (1 - s/2)   (transverse: v, w)
+//! ```text
+//! H_u(p) = sqrt(2) / (1 + p)                    autocorrelation e^-s             (longitudinal)
+//! H_v(p) = (1 + sqrt(3) p) / (1 + p)²           autocorrelation e^-s (1 - s/2)   (transverse: v, w)
+//! ```
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -33,7 +35,9 @@ impl Longitudinal {
 
 /// Second-order filter of a component across the wind.
 ///
-///     z' = [0 1; -1 -2] z + [0; 2] noise,   output (z_1 + sqrt(3) z_2) / 2
+/// ```text
+/// z' = [0 1; -1 -2] z + [0; 2] noise,   output (z_1 + sqrt(3) z_2) / 2
+/// ```
 ///
 /// in which the stationary covariance of z is the identity.
 #[derive(Clone, Debug)]
@@ -68,7 +72,9 @@ fn transition(s: f64) -> [[f64; 2]; 2] {
 
 /// Lower Cholesky factor (l11, l21, l22) of the joint covariance of the noise that enters both states, Q = I - Φ Φᵀ:
 ///
-///     Q_11 = 1 - e^-2s (1 + 2s + 2s²),   Q_12 = 2 s² e^-2s,   Q_22 = 1 - e^-2s (1 - 2s + 2s²)
+/// ```text
+/// Q_11 = 1 - e^-2s (1 + 2s + 2s²),   Q_12 = 2 s² e^-2s,   Q_22 = 1 - e^-2s (1 - 2s + 2s²)
+/// ```
 fn noise_factor(s: f64) -> [f64; 3] {
     if s <= 0.0 {
         return [0.0; 3];

@@ -11,7 +11,9 @@ pub fn gravity_mps2() -> Vector3<f64> {
 
 /// The axes in which load factors act: unit vectors in the world frame, right-handed.
 ///
-///     e_V along the velocity relative to the air,   e_h horizontal to the left,   e_n = e_V x e_h
+/// ```text
+/// e_V along the velocity relative to the air,   e_h horizontal to the left,   e_n = e_V x e_h
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirPath {
     /// e_V, along the velocity relative to the air.

@@ -11,7 +11,9 @@ const TOLERANCE_MPS: f64 = 1e-6;
 
 /// Force of the load factors in the middle of a step, N, world frame: the implicit midpoint rule, of second order.
 ///
-///     v_m = v + h/2 (F(v_m) / m + g),   F(v) = m_0 g (n_x e_V + n_y e_h + n_z e_n),   axes of v - wind
+/// ```text
+/// v_m = v + h/2 (F(v_m) / m + g),   F(v) = m_0 g (n_x e_V + n_y e_h + n_z e_n),   axes of v - wind
+/// ```
 ///
 /// - `velocity_mps`: over ground, at the step's beginning
 /// - `wind_mps`: velocity of the air in the middle of the step
