@@ -100,6 +100,6 @@ pub enum Error {
 impl Error {
     /// Tells the user, on standard error.
     pub fn print(self) {
-        eprintln!("{:?}", miette::Report::new(self));
+        crate::output::tell(&format!("{:?}", miette::Report::new(self)));
     }
 }

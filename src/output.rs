@@ -62,6 +62,12 @@ pub fn print(text: &str) -> Result<(), Error> {
     }
 }
 
+/// Tells the user something on standard error. If nobody listens any more (`harness run 2>&1 | head`), that is no reason
+/// to stop, and there is nobody to tell.
+pub fn tell(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
 fn complete(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let partial = new_file(folder)?.into_temp_path(); // removed when it is dropped

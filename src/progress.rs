@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use scenarios::Iteration;
 
 use crate::jobs::Job;
+use crate::output;
 
 /// Tells how far a job has come.
 pub struct Progress {
@@ -78,7 +79,7 @@ impl Progress {
     fn begin(&self, message: String) {
         match &self.display {
             Display::Nothing => {}
-            Display::Lines { prefix } => eprintln!("{prefix}: {message}"),
+            Display::Lines { prefix } => output::tell(&format!("{prefix}: {message}")),
             Display::Bar(bar) => bar.set_message(message),
         }
     }

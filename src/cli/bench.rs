@@ -59,7 +59,7 @@ impl Bench {
         let plan = if self.quick { ipm::Plan::quick() } else { ipm::Plan::full() };
         let results = ipm::run(scenario, &plan, &mut |stage| {
             if !self.quiet {
-                eprintln!("{}: {stage}", scenario.name);
+                output::tell(&format!("{}: {stage}", scenario.name));
             }
         });
         let folder = self.out.join("bench");

@@ -129,3 +129,16 @@ fn without_arguments_the_help_is_shown() {
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("Examples:") && stderr(&output).contains("Exit codes:"));
 }
+
+/// Whoever reads standard error may leave early (`harness run 2>&1 | head`): the faults still end in exit code 2.
+#[test]
+fn bad_input_is_exit_code_2_even_if_nobody_reads_the_errors() {
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_harness"))
+        .args(["run", "no-such-scenario.toml"])
+        .stderr(writer)
+        .status()
+        .expect("the harness starts");
+    assert_eq!(status.code(), Some(2));
+}
