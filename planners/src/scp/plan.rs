@@ -70,7 +70,10 @@ pub fn status(
     };
     let separation_m = scenario.fleet.separation_m.unwrap_or(0.0);
     let too_close = last.separation_m.is_some_and(|distance| distance < separation_m);
-    let complaint = if !converged {
+    let complaint = if last.unsolved > 0 {
+        // a trajectory whose subproblem was not solved may stand still without having converged
+        Some(format!("{} subproblems of the last iteration were not solved", last.unsolved))
+    } else if !converged {
         Some(format!("the trajectories still moved by {:.3} m after {limit} iterations", last.change_m))
     } else if last.slack > SLACK_TOLERANCE {
         Some(format!("constraints are violated by up to {:.2e} scaled units", last.slack))
@@ -102,4 +105,36 @@ pub fn node_clearance_m(trajectories: &[&Iterate], cylinders: &[Cylinder]) -> Op
 
 fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn iteration(unsolved: usize) -> Iteration {
+        Iteration {
+            objective: 200.0,
+            dt_s: 5.0,
+            defect_m: 0.0,
+            slack: 0.0,
+            separation_m: None,
+            clearance_m: Some(20.0),
+            change_m: 0.0,
+            trust_region_m: 1.0,
+            solver_iterations: 70,
+            unsolved,
+            wall_s: 0.0,
+            distributed_s: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_plan_that_rests_on_an_unsolved_subproblem_is_not_called_solved() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-1.toml");
+        let scenario = scenarios::load(&path).expect("a shipped scenario");
+        assert_eq!(status(&scenario, &[iteration(0)], true, 60), (PlanStatus::Solved, None));
+        let (unsolved, reason) = status(&scenario, &[iteration(1)], true, 60);
+        assert_eq!(unsolved, PlanStatus::NotConverged);
+        assert!(reason.is_some_and(|reason| reason.contains("not solved")));
+    }
 }

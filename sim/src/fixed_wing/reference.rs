@@ -31,7 +31,7 @@ pub struct ReferencePoint {
     pub position_m: Vector3<f64>,
     /// Velocity, m/s.
     pub velocity_mps: Vector3<f64>,
-    /// Second derivative of the position, m/s².
+    /// Second derivative of the position, m/s²: with the correction, unlike what `control` gives.
     pub acceleration_mps2: Vector3<f64>,
     /// Planned load factors; after the plan's end those of straight flight.
     pub control: Control,
