@@ -28,8 +28,14 @@ fn program(rng: &mut impl Rng) -> Program {
     let links: Vec<Link> = links.collect();
     let n = STAGE * (INTERVALS + 1) + 1;
     let pins = (0..LINK).map(|index| Pin { index, value: 0.1 * uniform() }).collect();
-    let planes =
-        (0..=INTERVALS).map(|stage| Plane { stage, normal: [uniform(), uniform()], bound: 0.3 * uniform() }).collect();
+    let mut planes = Vec::new();
+    for stage in 0..=INTERVALS {
+        planes.push(Plane { stage, here: [uniform(), uniform()], next: [0.0; 2], bound: 0.3 * uniform() });
+        if stage < INTERVALS {
+            let (here, next) = ([uniform(), uniform()], [uniform(), uniform()]);
+            planes.push(Plane { stage, here, next, bound: 0.3 * uniform() });
+        }
+    }
     Program {
         theta_cost: 1.0,
         offset: 0.0,
@@ -67,8 +73,8 @@ fn contradicting_rows_are_absorbed_by_the_slacks() {
     let mut program = program(&mut scenarios::stream(1, "contradiction"));
     let first = program.pins[0];
     program.pins.push(Pin { value: first.value + 0.5, ..first });
-    program.planes.push(Plane { stage: INTERVALS, normal: [1.0, 0.0], bound: -0.8 });
-    program.planes.push(Plane { stage: INTERVALS, normal: [-1.0, 0.0], bound: -0.8 });
+    program.planes.push(Plane { stage: INTERVALS, here: [1.0, 0.0], next: [0.0; 2], bound: -0.8 });
+    program.planes.push(Plane { stage: INTERVALS, here: [-1.0, 0.0], next: [0.0; 2], bound: -0.8 });
     assert_agrees_with_clarabel(&program, "contradiction");
     assert!(solve(&program).objective > 0.5 * program.penalty);
 }

@@ -11,9 +11,12 @@
 //! ```text
 //! P_0     = H_0
 //! P_k     = G_k^T G_k,          V_k = G_k^-T L_k^T
-//! S_k     = Ω_k + V_k^T V_k  =  M_k^T M_k,    U_k = M_k^-T R_k
+//! S_k     = Ω_k + V_k^T V_k  =  M_k^T M_k,    U_k = M_k^-T (R_k - V_k^T T_k)
 //! P_{k+1} = H_{k+1} + U_k^T U_k
 //! ```
+//!
+//! T_k couples w_k to the first two variables of w_{k+1}, through planes that span both stages: with them the rows of
+//! stage k are [G_k, T_k], and what the reflections leave below joins H_{k+1}.
 //!
 //! The triangles G and M are made from the square roots of the terms by orthogonal transformations, not from their
 //! sums: near the solution weights spread over more than twenty orders of magnitude, and a soft direction (a load
@@ -24,10 +27,11 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::kernels::SquareRoot;
-use super::program::{LINK, Program, STAGE};
+use super::program::{LINK, Link, Program, STAGE};
 
 type StageVector = SVector<f64, STAGE>;
 type LinkVector = SVector<f64, LINK>;
+type Coupling = SMatrix<f64, STAGE, 2>;
 
 /// The matrix of the Newton system, apart from E.
 #[derive(Clone, Debug)]
@@ -45,6 +49,8 @@ pub struct Weights {
 pub struct BlockSystem {
     /// G_k.
     stages: Vec<SquareRoot<STAGE>>,
+    /// T_k.
+    couplings: Vec<Coupling>,
     links: Vec<LinkFactor>,
     /// Solution for the border column, over z and over the link rows.
     border_z: Vec<f64>,
@@ -68,6 +74,7 @@ impl BlockSystem {
         let link = LinkFactor { v: SMatrix::zeros(), m: SquareRoot::zero(), u: SMatrix::zeros() };
         Self {
             stages: vec![SquareRoot::zero(); intervals + 1],
+            couplings: vec![Coupling::zeros(); intervals + 1],
             links: vec![link; intervals],
             border_z: vec![0.0; STAGE * (intervals + 1) + 1],
             border_y: vec![0.0; LINK * intervals],
@@ -80,21 +87,27 @@ impl BlockSystem {
         let mut planes = program.planes.iter().zip(&weights.planes).peekable();
         let (diagonals, _) = weights.diagonal.as_chunks::<STAGE>();
         let (ω, _) = weights.links.as_chunks::<LINK>();
+        let mut carried = SquareRoot::<2>::zero();
         for (k, &diagonal) in diagonals.iter().enumerate() {
-            let g = &mut self.stages[k];
+            let (g, t) = (&mut self.stages[k], &mut self.couplings[k]);
             g.set_diagonal(&StageVector::from(diagonal));
-            while let Some((plane, &weight)) = planes.next_if(|(plane, _)| plane.stage == k) {
-                let root = weight.sqrt();
-                let mut row = SMatrix::<f64, 1, STAGE>::zeros();
-                (row[0], row[1]) = (root * plane.normal[0], root * plane.normal[1]);
-                g.append(&mut row);
-            }
+            t.fill(0.0);
             if k > 0 {
                 g.append(&mut self.links[k - 1].u.clone());
+                for row in carried.upper().row_iter() {
+                    g.append(&mut stage_row(row[0], row[1]));
+                }
+            }
+            carried = SquareRoot::zero();
+            while let Some((plane, &weight)) = planes.next_if(|(plane, _)| plane.stage == k) {
+                let root = weight.sqrt();
+                let mut tail = SMatrix::from([[root * plane.next[0]], [root * plane.next[1]]]);
+                g.append_with_tail(&mut stage_row(root * plane.here[0], root * plane.here[1]), t, &mut tail);
+                carried.append(&mut tail);
             }
             g.finish();
             if let Some(link) = program.links.get(k) {
-                self.links[k].factor(g, &link.left, &link.right, &LinkVector::from(ω[k]));
+                self.links[k].factor(g, t, link, &LinkVector::from(ω[k]));
             }
         }
         self.factor_border(program, weights);
@@ -141,7 +154,10 @@ impl BlockSystem {
             link.m.solve_transposed(&mut row);
             stages[k] = w.into();
             rows[k] = row.into();
-            stages[k + 1] = (StageVector::from(stages[k + 1]) + link.u.tr_mul(&row)).into();
+            let mut next = StageVector::from(stages[k + 1]) + link.u.tr_mul(&row);
+            let coupled = self.couplings[k].tr_mul(&w);
+            (next[0], next[1]) = (next[0] - coupled[0], next[1] - coupled[1]);
+            stages[k + 1] = next.into();
         }
         let last = self.links.len();
         let mut next = StageVector::from(stages[last]);
@@ -151,7 +167,7 @@ impl BlockSystem {
         for (k, link) in self.links.iter().enumerate().rev() {
             let mut row = link.u * next - LinkVector::from(rows[k]);
             link.m.solve(&mut row);
-            let mut w = StageVector::from(stages[k]) - link.v * row;
+            let mut w = StageVector::from(stages[k]) - link.v * row - self.couplings[k] * next.fixed_rows::<2>(0);
             self.stages[k].solve(&mut w);
             rows[k] = row.into();
             stages[k] = w.into();
@@ -161,21 +177,23 @@ impl BlockSystem {
 }
 
 impl LinkFactor {
-    fn factor(
-        &mut self,
-        g: &SquareRoot<STAGE>,
-        left: &SMatrix<f64, LINK, STAGE>,
-        right: &SMatrix<f64, LINK, STAGE>,
-        ω: &LinkVector,
-    ) {
-        self.v = left.transpose();
+    fn factor(&mut self, g: &SquareRoot<STAGE>, t: &Coupling, link: &Link, ω: &LinkVector) {
+        self.v = link.left.transpose();
         g.solve_transposed(&mut self.v);
         self.m.set_diagonal(ω);
         self.m.append(&mut self.v.clone());
         self.m.finish();
-        self.u = *right;
+        self.u = link.right;
+        let mut coupled = self.u.fixed_columns_mut::<2>(0);
+        coupled -= self.v.tr_mul(t);
         self.m.solve_transposed(&mut self.u);
     }
+}
+
+fn stage_row(x: f64, y: f64) -> SMatrix<f64, 1, STAGE> {
+    let mut row = SMatrix::zeros();
+    (row[0], row[1]) = (x, y);
+    row
 }
 
 fn border_product(program: &Program, y: &[f64]) -> f64 {

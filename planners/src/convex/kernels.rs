@@ -28,6 +28,17 @@ impl<const N: usize> SquareRoot<N> {
 
     /// `A += rows^T rows` by Householder reflections of R with the rows below it; `rows` is used up.
     pub fn append<const M: usize>(&mut self, rows: &mut SMatrix<f64, M, N>) {
+        self.append_with_tail::<M, 0>(rows, &mut SMatrix::zeros(), &mut SMatrix::zeros());
+    }
+
+    /// The same for the wider matrix [R, T] with [`rows`, `tail`] below it: what is left of `tail` belongs to the
+    /// variables of T alone.
+    pub fn append_with_tail<const M: usize, const W: usize>(
+        &mut self,
+        rows: &mut SMatrix<f64, M, N>,
+        t: &mut SMatrix<f64, N, W>,
+        tail: &mut SMatrix<f64, M, W>,
+    ) {
         for j in 0..N {
             let x: SVector<f64, M> = rows.column(j).into_owned();
             let below = x.norm_squared();
@@ -45,7 +56,18 @@ impl<const N: usize> SquareRoot<N> {
                 self.upper[(j, k)] = (a * above + product) * inverse_norm;
                 other.axpy((above - product * inverse_w) * inverse_norm, &x, 1.0);
             }
+            for k in 0..W {
+                let mut other = tail.column_mut(k);
+                let (above, product) = (t[(j, k)], x.dot(&other));
+                t[(j, k)] = (a * above + product) * inverse_norm;
+                other.axpy((above - product * inverse_w) * inverse_norm, &x, 1.0);
+            }
         }
+    }
+
+    /// R as far as it has got.
+    pub fn upper(&self) -> &SMatrix<f64, N, N> {
+        &self.upper
     }
 
     /// To be called when every term of A has been added.

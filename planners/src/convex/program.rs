@@ -57,15 +57,33 @@ pub struct Pin {
     pub value: f64,
 }
 
-/// The elastic inequality `normal · (w_k[0], w_k[1]) <= bound` in the first two variables of a stage.
+/// The elastic inequality `here · (w_k[0], w_k[1]) + next · (w_{k+1}[0], w_{k+1}[1]) <= bound` in the first two variables
+/// of a stage and, where it speaks of an instant between two stages, of the one after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// The stage k.
     pub stage: usize,
     /// Coefficients of its first two variables.
-    pub normal: [f64; 2],
+    pub here: [f64; 2],
+    /// Coefficients of the first two variables of stage k + 1; zero for k = K.
+    pub next: [f64; 2],
     /// Right-hand side.
     pub bound: f64,
+}
+
+impl Plane {
+    /// Indices into z with their coefficients, ascending; those of the next stage only where there are any.
+    pub(super) fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
+        let (here, next) = (STAGE * self.stage, STAGE * (self.stage + 1));
+        let own = [(here, self.here[0]), (here + 1, self.here[1])];
+        let following = [(next, self.next[0]), (next + 1, self.next[1])];
+        own.into_iter().chain(following.into_iter().filter(|_| self.spans_two_stages()))
+    }
+
+    /// Does it touch the stage after its own?
+    pub(super) fn spans_two_stages(&self) -> bool {
+        self.next != [0.0; 2]
+    }
 }
 
 impl Program {
@@ -105,7 +123,8 @@ impl Program {
         });
         links
             && self.pins.iter().all(|pin| pin.value.is_finite())
-            && self.planes.iter().all(|plane| finite(&plane.normal) && plane.bound.is_finite())
+            && self.planes.iter().all(|plane| finite(&plane.here) && finite(&plane.next) && plane.bound.is_finite())
+            && self.planes.iter().all(|plane| plane.stage < self.intervals() || plane.next == [0.0; 2])
             && [&self.box_lower, &self.box_upper, &self.soft_lower, &self.soft_upper].into_iter().all(|v| finite(v))
             && self.box_lower.iter().zip(&self.box_upper).all(|(lower, upper)| lower < upper)
             && finite(&[self.theta_cost, self.offset, self.penalty])
@@ -113,13 +132,23 @@ impl Program {
 
     /// Largest violation of an elastic row at `z`, in the row's units.
     pub fn largest_violation(&self, z: &[f64]) -> f64 {
+        self.violations(z).into_iter().fold(0.0, f64::max)
+    }
+
+    /// `q θ + μ (violations)` at `z`, plus the offset.
+    pub fn objective(&self, z: &[f64]) -> f64 {
+        self.offset + self.theta_cost * z[z.len() - 1] + self.penalty * self.violations(z).into_iter().sum::<f64>()
+    }
+
+    /// Violations of all elastic rows at `z`, >= 0, equalities first.
+    fn violations(&self, z: &[f64]) -> Vec<f64> {
         let mut equalities = vec![0.0; self.equalities()];
         self.equality_values(z, &mut equalities);
         let mut inequalities = vec![0.0; self.inequalities()];
         self.inequality_values(z, &mut inequalities);
         let off = equalities.iter().zip(self.equality_rhs()).map(|(value, d)| (value - d).abs());
-        let above = inequalities.iter().zip(self.inequality_rhs()).map(|(value, g)| value - g);
-        off.chain(above).fold(0.0, f64::max)
+        let above = inequalities.iter().zip(self.inequality_rhs()).map(|(value, g)| (value - g).max(0.0));
+        off.chain(above).collect()
     }
 
     /// `out = E z`: links, then pins.
@@ -165,7 +194,7 @@ impl Program {
             *row = -z;
         }
         for (plane, row) in self.planes.iter().zip(planes) {
-            *row = plane.normal[0] * z[STAGE * plane.stage] + plane.normal[1] * z[STAGE * plane.stage + 1];
+            *row = plane.terms().map(|(index, coefficient)| coefficient * z[index]).sum();
         }
     }
 
@@ -177,8 +206,9 @@ impl Program {
             *out += upper - lower;
         }
         for (plane, λ) in self.planes.iter().zip(planes) {
-            out[STAGE * plane.stage] += plane.normal[0] * λ;
-            out[STAGE * plane.stage + 1] += plane.normal[1] * λ;
+            for (index, coefficient) in plane.terms() {
+                out[index] += coefficient * λ;
+            }
         }
     }
 

@@ -32,6 +32,6 @@ pub fn append_planes(trajectory: &Iterate, keep_out: &KeepOut, trust_region_m: f
         }
         let normal = if distance_m > 0.0 { away.map(|a| a / distance_m) } else { keep_out.tie_break };
         let bound = (distance_m - keep_out.radius_m) / POSITION_M;
-        planes.push(Plane { stage, normal: [-normal[0], -normal[1]], bound });
+        planes.push(Plane { stage, here: [-normal[0], -normal[1]], next: [0.0; 2], bound });
     }
 }

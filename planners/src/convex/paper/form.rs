@@ -159,9 +159,6 @@ fn link_pattern(program: &Program) -> LinkPattern {
 fn inequality_rows(program: &Program) -> Vec<Vec<(usize, f64)>> {
     let upper = (0..program.len()).map(|j| vec![(j, 1.0)]);
     let lower = (0..program.len()).map(|j| vec![(j, -1.0)]);
-    let planes = program.planes.iter().map(|plane| {
-        let first = STAGE * plane.stage;
-        vec![(first, plane.normal[0]), (first + 1, plane.normal[1])]
-    });
+    let planes = program.planes.iter().map(|plane| plane.terms().collect());
     upper.chain(lower).chain(planes).collect()
 }
