@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use divan::Bencher;
 use harness::bench::ipm::TOLERANCE;
 use harness::bench::subproblems::{self, Subproblem};
-use planners::convex::{self, Backend, InteriorPoint, Settings};
+use planners::convex::{self, Backend, InteriorPoint, Settings, Solvers};
 
 fn main() {
     divan::main();
@@ -42,7 +42,7 @@ fn small() -> impl Iterator<Item = Named> {
 fn solve(bencher: Bencher, Named(subproblem): Named, backend: Backend) {
     let program = &subproblem.program;
     let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
-    let mut solver = InteriorPoint::with_backend(program, settings, backend);
+    let mut solver = InteriorPoint::with_backend(settings, backend);
     bencher.bench_local(|| solver.solve(program));
 }
 
@@ -54,6 +54,13 @@ fn clarabel(bencher: Bencher, Named(subproblem): Named) {
 #[divan::bench(args = full_size())]
 fn block(bencher: Bencher, subproblem: Named) {
     solve(bencher, subproblem, Backend::Block);
+}
+
+/// Four subproblems in one pass: divide by four.
+#[divan::bench(args = full_size())]
+fn block_x4(bencher: Bencher, Named(subproblem): Named) {
+    let solvers = Solvers::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
+    bencher.bench_local(|| solvers.solve_all(&subproblem.together));
 }
 
 #[divan::bench(args = full_size())]

@@ -27,20 +27,28 @@
 //! No vehicle is named here.
 
 mod backend;
+#[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
+mod batch;
+#[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod block;
+mod boxed;
+mod certificate;
 mod clarabel;
 mod interior_point;
+#[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
+mod iterate;
+#[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod kernels;
+mod lanes;
+mod many;
 mod newton;
 mod paper;
-mod point;
 mod program;
 mod progress;
-mod reductions;
 mod solution;
 
 pub use self::backend::Backend;
 pub use self::clarabel::solve as solve_with_clarabel;
-pub use interior_point::InteriorPoint;
+pub use many::{InteriorPoint, Solvers, solve_all};
 pub use program::{LINK, Link, Pin, Plane, Program, STAGE};
 pub use solution::{Settings, Solution, Status};

@@ -15,7 +15,12 @@ pub struct Subproblem {
     pub iteration: usize,
     /// The subproblem.
     pub program: Program,
+    /// It and others of the same iteration, four in all or as many as there are: what the planner solves in one pass.
+    pub together: Vec<Program>,
 }
+
+/// Number of subproblems in one pass.
+const TOGETHER: usize = 4;
 
 /// An early, a middle and a late subproblem of a run of `scenario` with `intervals` intervals: of the first iteration
 /// and of one a third of the way the vehicle with the most avoidance rows, of the last (rows out of reach are dropped, and by then
@@ -23,12 +28,15 @@ pub struct Subproblem {
 pub fn of_a_run(scenario: &Scenario, intervals: usize) -> Vec<Subproblem> {
     let iterations = iterations(scenario, intervals);
     let (middle, last) = (iterations.len() / 3, iterations.len() - 1);
-    let pick = |what: &str, iteration: usize, rank: fn(usize) -> usize| Subproblem {
-        name: format!("K={intervals} {what}"),
-        iteration: iteration + 1,
-        program: iterations[iteration][rank(iterations[iteration].len())].clone(),
+    let most = |programs: &[Program]| programs.iter().rev().cloned().collect();
+    let fewest = |programs: &[Program]| programs.to_vec();
+    let pick = |what: &str, iteration: usize, order: &dyn Fn(&[Program]) -> Vec<Program>| {
+        let mut together = order(&iterations[iteration]);
+        together.truncate(TOGETHER);
+        let (name, program) = (format!("K={intervals} {what}"), together[0].clone());
+        Subproblem { name, iteration: iteration + 1, program, together }
     };
-    vec![pick("early", 0, |n| n - 1), pick("middle", middle, |n| n - 1), pick("late", last, |_| 0)]
+    vec![pick("early", 0, &most), pick("middle", middle, &most), pick("late", last, &fewest)]
 }
 
 /// The subproblems of every iteration, the one with the fewest avoidance rows first, whatever thread was faster.

@@ -1,23 +1,24 @@
 //! The seam between the loop and the ways to find a Newton direction.
 
-use std::ops::{Deref, DerefMut};
-
+use super::batch::Batch;
+use super::block::{BlockSystem, Columns, Weights};
+use super::iterate::Iterate;
+use super::lanes::{Mask, Vector};
 use super::newton::Newton;
 use super::paper::PaperSystem;
-use super::point::Point;
 use super::program::Program;
 
 /// How the Newton direction is found. All of them find the same one; they differ in time and in the digits they lose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// The block sweep over the stages, in square roots: ours.
+    /// The block sweep over the stages, in square roots, four programmes at a time: ours.
     #[default]
     Block,
     /// Method I of the paper: sparse LDL^T of the reduced matrix of P4, one symbolic analysis per shape.
     SparseLdl,
-    /// Method II: the dense inverse of the reduced matrix, n_X x n_X.
+    /// Method II: the dense reduced matrix, n_X x n_X.
     DenseReduced,
-    /// Method III: the dense inverse of the whole KKT matrix, (n_X + 2 n_A) x (n_X + 2 n_A).
+    /// Method III: the whole KKT matrix as a dense one, (n_X + 2 n_A) x (n_X + 2 n_A).
     DenseKkt,
 }
 
@@ -36,66 +37,92 @@ impl Backend {
     }
 }
 
-/// The Newton system by the chosen backend. Residuals and targets are [`Newton`]'s for all of them.
+/// The Newton system by the chosen backend.
 #[derive(Clone, Debug)]
-pub struct NewtonSystem {
-    newton: Newton,
-    /// The paper's way, where it is asked for.
-    paper: Option<PaperSystem>,
+pub enum NewtonSystem<S: Vector> {
+    /// Four lanes at once.
+    Block {
+        /// The sweep.
+        system: Box<BlockSystem<S>>,
+        /// Room for the border and a right-hand side.
+        both: Columns<S, 2>,
+        /// Room for a refinement.
+        correction: Columns<S, 1>,
+    },
+    /// One of the paper's, in the first lane only.
+    Paper(Box<PaperSystem>),
 }
 
-impl NewtonSystem {
-    /// Room for programmes like `program`.
-    pub fn new(program: &Program, backend: Backend) -> Self {
-        Self { newton: Newton::new(program), paper: PaperSystem::new(program, backend) }
-    }
-
-    /// To be called before each solve.
-    pub fn begin(&mut self, program: &Program) {
-        if let Some(paper) = &mut self.paper {
-            paper.begin(program);
+impl<S: Vector> NewtonSystem<S> {
+    /// No factors yet.
+    pub fn new(simd: S, backend: Backend) -> Self {
+        match PaperSystem::new(backend) {
+            Some(paper) => Self::Paper(Box::new(paper)),
+            None => Self::Block {
+                system: Box::new(BlockSystem::new(simd, 0)),
+                both: Columns::zero(simd, 0),
+                correction: Columns::zero(simd, 0),
+            },
         }
     }
 
-    /// See [`Newton::factor`].
-    pub fn factor(&mut self, program: &Program, point: &Point) {
-        match &mut self.paper {
-            None => self.newton.factor(program, point),
-            Some(paper) => {
-                self.newton.inverse.set_inverse(point);
-                paper.factor(point);
+    /// To be called before each solve; `first` is the programme of the first lane.
+    pub fn begin(&mut self, batch: &Batch<S>, first: &Program) {
+        match self {
+            Self::Block { system, both, correction } if both.intervals() != batch.intervals() => {
+                **system = BlockSystem::new(batch.simd, batch.intervals());
+                *both = Columns::zero(batch.simd, batch.intervals());
+                *correction = Columns::zero(batch.simd, batch.intervals());
             }
+            Self::Block { .. } => {}
+            Self::Paper(paper) => paper.begin(first),
         }
     }
 
-    /// See [`Newton::direction`].
-    pub fn direction(&mut self, program: &Program, point: &Point, step: &mut Point) {
-        match &mut self.paper {
-            None => self.newton.direction(program, point, step),
-            Some(paper) => paper.direction(&self.newton, step),
+    /// Factors the matrix at `at`.
+    #[inline(always)]
+    pub fn factor(&mut self, batch: &Batch<S>, at: &Iterate<S>, weights: &Weights<S>) {
+        match self {
+            Self::Block { system, .. } => system.factor(batch, weights),
+            Self::Paper(paper) => paper.factor(at),
         }
     }
 
-    /// See [`Newton::refine`].
-    pub fn refine(&mut self, program: &Program, point: &Point, step: &mut Point, correction: &mut Point) {
-        match &mut self.paper {
-            None => self.newton.refine(program, point, step, correction),
-            Some(paper) => paper.refine(step),
+    /// The first direction with new factors; the right-hand side is in `newton.step` and becomes the direction.
+    #[inline(always)]
+    pub fn solve_first(&mut self, batch: &Batch<S>, at: &Iterate<S>, newton: &mut Newton<S>) {
+        match self {
+            Self::Block { system, both, .. } => {
+                let θ_weight = newton.weights.diagonal[batch.len() - 1];
+                system.solve_with_border(batch, θ_weight, both, &mut newton.step);
+                newton.recover(batch, at);
+            }
+            Self::Paper(paper) => paper.direction(at, newton),
         }
     }
-}
 
-impl Deref for NewtonSystem {
-    type Target = Newton;
-
-    fn deref(&self) -> &Newton {
-        &self.newton
+    /// Another direction with the same factors.
+    #[inline(always)]
+    pub fn solve(&mut self, batch: &Batch<S>, at: &Iterate<S>, newton: &mut Newton<S>) {
+        match self {
+            Self::Block { system, .. } => {
+                system.solve(batch, &mut newton.step);
+                newton.recover(batch, at);
+            }
+            Self::Paper(paper) => paper.direction(at, newton),
+        }
     }
-}
 
-impl DerefMut for NewtonSystem {
-    fn deref_mut(&mut self) -> &mut Newton {
-        &mut self.newton
+    /// One step of iterative refinement in the lanes of `mask`: what the direction leaves of the linear equations is
+    /// solved for once more. The paper's ways do that by themselves.
+    #[inline(always)]
+    pub fn refine(&mut self, batch: &Batch<S>, at: &Iterate<S>, newton: &mut Newton<S>, mask: Mask<S>) {
+        if let Self::Block { system, correction, .. } = self {
+            newton.remainder(batch, at, correction);
+            system.solve(batch, correction);
+            newton.correct(correction, mask);
+            newton.recover(batch, at);
+        }
     }
 }
 

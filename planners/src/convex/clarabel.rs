@@ -43,8 +43,7 @@ pub fn solve(program: &Program, tolerance: f64) -> Solution {
         },
         z: solver.solution.x[..n_z].to_vec(),
         objective: objective + program.offset,
-        gap,
-        residual: solver.solution.r_prim.max(solver.solution.r_dual),
+        gap: gap.max(solver.solution.r_prim).max(solver.solution.r_dual),
         iterations: solver.solution.iterations as usize,
     }
 }

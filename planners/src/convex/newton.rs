@@ -1,263 +1,323 @@
 //! One Newton direction of the perturbed optimality conditions: what a factorisation needs, and what follows from it.
 //!
-//! With targets r for the products of each family of pairs (s dv + v ds = r), elimination leaves
+//! With targets r_c, r_d of everything that is boxed (see [`Boxed`]) and ρ = r_c/a - r_d/b, elimination leaves
 //!
 //! ```text
-//! H dz + E^T dy = r_z        H = V_u/U + V_l/L + F^T Ω_F^-1 F,    Ω_F = T/λ + β/(μ - λ)
-//! E dz - Ω_E dy = r_y        Ω_E = P/(μ - y) + N/(μ + y)
+//! H dz + E^T dy = r_z        H = W + F^T Ω_F^-1 F,    r_z = -ρ + F^T Ω_F^-1 ρ_F
+//! E dz - Ω_E dy = r_y        r_y = ρ_E
 //! ```
+//!
+//! with W = c/a + d/b of the trust region's boxes and Ω = c/a + d/b of the multipliers' boxes.
 
-use super::block::{BlockSystem, Weights};
-use super::point::{Point, dual_sum};
-use super::program::{LINK, Program};
+use super::batch::Batch;
+use super::block::{Columns, Weights};
+use super::boxed::{AffineTally, Loss};
+use super::iterate::{Iterate, Variable, link_values};
+use super::lanes::{Lanes, Mask, Vector};
+use super::program::{LINK, STAGE};
 
-/// Added to every ω, so that a row that holds exactly does not swallow the digits of the others; refinement makes up
-/// for it.
+/// Added to every ω, so that a row that holds exactly does not swallow the digits of the others.
 const REGULARISATION: f64 = 1e-12;
 
-/// Index among the families of [`Point::pairs`] from which on they belong to the box, where the slack of a step is known
-/// first and the dual follows.
-const BOXES: usize = 4;
-
-/// Newton system of one iterate, its factorisation and its work vectors.
+/// Newton system of one iterate, without its factors.
 #[derive(Clone, Debug)]
-pub struct Newton {
-    system: BlockSystem,
-    weights: Weights,
-    /// Targets r of the products, in the slacks of a point (the duals are unused).
-    pub target: Point,
-    /// Reciprocals of the slacks and duals of the iterate that was factored last.
-    pub inverse: Point,
-    /// Ω_E^-1 of the pins; Ω_F^-1 of all inequalities.
-    pin_weights: Vec<f64>,
-    inequality_weights: Vec<f64>,
-    /// Residuals of E z - d = p - n, F z - g = β - t, and of the dual equation.
-    pub residual_equality: Vec<f64>,
-    pub residual_inequality: Vec<f64>,
-    pub residual_dual: Vec<f64>,
-    /// Right-hand sides of the rows after the pairs have been eliminated.
-    rhs_equality: Vec<f64>,
-    rhs_inequality: Vec<f64>,
-    dy: Vec<f64>,
-    dλ: Vec<f64>,
+pub struct Newton<S: Vector> {
+    /// Matrix of the system.
+    pub weights: Weights<S>,
+    /// 1/ω of the elastic bounds, upper and lower, of every variable.
+    bound_weights: Vec<[Lanes<S>; 2]>,
+    /// 1/ω of the pins.
+    pin_weights: Vec<Lanes<S>>,
+    /// Right-hand side; becomes the direction.
+    pub step: Columns<S, 1>,
+    /// The direction's other multipliers.
+    pub multipliers: MultiplierSteps<S>,
 }
 
-impl Newton {
-    /// Room for programmes like `program`.
-    pub fn new(program: &Program) -> Self {
-        let (n_z, n_eq, n_in) = (program.len(), program.equalities(), program.inequalities());
+/// Steps dλ and dy that are not in [`Columns`]: they follow from dz.
+#[derive(Clone, Debug)]
+pub struct MultiplierSteps<S: Vector> {
+    /// Of the upper and the lower elastic bound of every variable.
+    pub bounds: Vec<[Lanes<S>; 2]>,
+    /// Of the pins.
+    pub pins: Vec<Lanes<S>>,
+    /// Of the planes.
+    pub planes: Vec<Lanes<S>>,
+}
+
+/// Losses of what is counted in the primal step, and in the dual one.
+#[derive(Clone, Copy, Debug)]
+pub struct Losses<S: Vector> {
+    /// Of z and of the slacks of elastic rows.
+    pub primal: Lanes<S>,
+    /// Of multipliers and of the duals of the trust region.
+    pub dual: Lanes<S>,
+}
+
+/// What the loop wants to know of an iterate.
+#[derive(Clone, Copy, Debug)]
+pub struct Measures<S: Vector> {
+    /// Sum of all complementarity products: the duality gap.
+    pub products: Lanes<S>,
+    /// q θ + μ (violations).
+    pub objective: Lanes<S>,
+}
+
+impl<S: Vector> Newton<S> {
+    /// Room for nothing yet.
+    pub fn new(simd: S) -> Self {
         Self {
-            system: BlockSystem::new(program.intervals()),
-            weights: Weights {
-                diagonal: vec![0.0; n_z],
-                planes: vec![0.0; program.planes.len()],
-                links: vec![0.0; LINK * program.intervals()],
-            },
-            target: Point::zero(program),
-            inverse: Point::zero(program),
-            pin_weights: vec![0.0; program.pins.len()],
-            inequality_weights: vec![0.0; n_in],
-            residual_equality: vec![0.0; n_eq],
-            residual_inequality: vec![0.0; n_in],
-            residual_dual: vec![0.0; n_z],
-            rhs_equality: vec![0.0; n_eq],
-            rhs_inequality: vec![0.0; n_in],
-            dy: vec![0.0; n_eq],
-            dλ: vec![0.0; n_in],
+            weights: Weights { diagonal: Vec::new(), planes: Vec::new(), links: Vec::new() },
+            bound_weights: Vec::new(),
+            pin_weights: Vec::new(),
+            step: Columns::zero(simd, 0),
+            multipliers: MultiplierSteps { bounds: Vec::new(), pins: Vec::new(), planes: Vec::new() },
         }
     }
 
-    /// Residuals of the linear equations at `point`.
-    pub fn residuals(&mut self, program: &Program, point: &Point) {
-        program.equality_values(&point.z, &mut self.residual_equality);
-        for (i, d) in program.equality_rhs().enumerate() {
-            self.residual_equality[i] = d + point.over.slack[i] - point.under.slack[i] - self.residual_equality[i];
+    /// Makes room for `batch`.
+    pub fn fit(&mut self, batch: &Batch<S>) {
+        let (zero, n_z, n_y) = (Lanes::splat(batch.simd, 0.0), batch.len(), LINK * batch.intervals());
+        self.weights.diagonal.resize(n_z, zero);
+        self.weights.links.resize(n_y, zero);
+        self.bound_weights.resize(n_z, [zero; 2]);
+        self.pin_weights.resize(batch.pins.len(), zero);
+        self.step.z.resize(n_z, [zero]);
+        self.step.y.resize(n_y, [zero]);
+        self.multipliers.bounds.resize(n_z, [zero; 2]);
+        self.multipliers.pins.resize(batch.pins.len(), zero);
+        self.multipliers.planes.resize(batch.planes.len(), zero);
+    }
+
+    /// Forms the matrix at `at`, and the right-hand side of the affine direction: targets of zero (Mehrotra's predictor).
+    #[inline(always)]
+    pub fn weigh(&mut self, batch: &Batch<S>, at: &mut Iterate<S>) {
+        let ε = Lanes::splat(batch.simd, REGULARISATION);
+        let Self { weights, bound_weights, pin_weights, step, .. } = self;
+        let rows = weights.diagonal.iter_mut().zip(bound_weights).zip(&mut step.z);
+        for (variable, ((diagonal, weights), r_z)) in at.variables.iter_mut().zip(rows) {
+            let Variable { trust, upper, lower } = variable;
+            *weights = [upper.weigh().recip(), lower.weigh().recip()];
+            *diagonal = trust.weigh() + (weights[0] + weights[1]);
+            let bounds = upper.aim_at_zero() * weights[0] - lower.aim_at_zero() * weights[1];
+            *r_z = [bounds - trust.aim_at_zero()];
         }
-        program.inequality_values(&point.z, &mut self.residual_inequality);
-        for (i, g) in program.inequality_rhs().enumerate() {
-            self.residual_inequality[i] = g + point.excess.slack[i] - point.gap.slack[i] - self.residual_inequality[i];
+        let links = weights.links.iter_mut().zip(&mut step.y);
+        for (boxed, (ω, r_y)) in at.links.as_flattened_mut().iter_mut().zip(links) {
+            *ω = boxed.weigh() + ε;
+            *r_y = [boxed.aim_at_zero()];
         }
-        for (y, multiplier) in self.dy.iter_mut().zip(point.multipliers()) {
-            *y = multiplier;
+        for ((boxed, weight), (index, _)) in at.pins.iter_mut().zip(pin_weights).zip(&batch.pins) {
+            *weight = boxed.weigh().recip();
+            weights.diagonal[*index] += *weight;
+            step.z[*index][0] += boxed.aim_at_zero() * *weight;
         }
-        dual_sum(program, &self.dy, &point.gap.dual, &mut self.residual_dual);
-        for (i, residual) in self.residual_dual.iter_mut().enumerate() {
-            *residual += point.upper.dual[i] - point.lower.dual[i];
+        weights.planes.clear();
+        for (boxed, plane) in at.planes.iter_mut().zip(&batch.planes) {
+            let weight = boxed.weigh().recip();
+            weights.planes.push(weight);
+            plane.add(boxed.aim_at_zero() * weight, step.z.as_flattened_mut());
         }
     }
 
-    /// Forms the matrix at `point` and factors it.
-    pub fn factor(&mut self, program: &Program, point: &Point) {
-        self.inverse.set_inverse(point);
-        let inverse = &self.inverse;
-        let gaps = point.gap.slack.iter().zip(&inverse.gap.dual);
-        let excesses = point.excess.slack.iter().zip(&inverse.excess.dual);
-        for (weight, ((t, λ_inverse), (β, κ_inverse))) in self.inequality_weights.iter_mut().zip(gaps.zip(excesses))
-        {
-            *weight = 1.0 / (t * λ_inverse + β * κ_inverse + REGULARISATION);
+    /// Sets targets and right-hand side of the centred direction: products of σμ, with Mehrotra's correction for the
+    /// affine direction, which must be the present one.
+    #[inline(always)]
+    pub fn centre(&mut self, batch: &Batch<S>, at: &mut Iterate<S>, σμ: Lanes<S>) {
+        let Self { weights, bound_weights, pin_weights, step, multipliers } = self;
+        let steps = step.z.iter_mut().zip(&multipliers.bounds).zip(bound_weights);
+        for (variable, ((dz, by), weights)) in at.variables.iter_mut().zip(steps) {
+            let upper = variable.upper.aim(σμ, by[0]) * weights[0];
+            let lower = variable.lower.aim(σμ, by[1]) * weights[1];
+            *dz = [upper - lower - variable.trust.aim(σμ, dz[0])];
         }
-        let (upper, rest) = self.inequality_weights.split_at(program.len());
-        let (lower, planes) = rest.split_at(program.len());
-        for (i, diagonal) in self.weights.diagonal.iter_mut().enumerate() {
-            let boxes = point.upper.dual[i] * inverse.upper.slack[i] + point.lower.dual[i] * inverse.lower.slack[i];
-            *diagonal = boxes + upper[i] + lower[i];
+        for (boxed, dy) in at.links.as_flattened_mut().iter_mut().zip(&mut step.y) {
+            *dy = [boxed.aim(σμ, dy[0])];
         }
-        self.weights.planes.copy_from_slice(planes);
-        let ω_equality = |i: usize| {
-            let over = point.over.slack[i] * inverse.over.dual[i];
-            over + point.under.slack[i] * inverse.under.dual[i] + REGULARISATION
-        };
-        for (i, ω) in self.weights.links.iter_mut().enumerate() {
-            *ω = ω_equality(i);
+        let pins = at.pins.iter_mut().zip(&multipliers.pins);
+        for ((boxed, dy), (weight, (index, _))) in pins.zip(pin_weights.iter().zip(&batch.pins)) {
+            step.z[*index][0] += boxed.aim(σμ, *dy) * *weight;
         }
-        let links = self.weights.links.len();
-        for (i, (pin, weight)) in program.pins.iter().zip(&mut self.pin_weights).enumerate() {
-            *weight = 1.0 / ω_equality(links + i);
-            self.weights.diagonal[pin.index] += *weight;
+        let planes = at.planes.iter_mut().zip(&multipliers.planes);
+        for ((boxed, dλ), (&weight, plane)) in planes.zip(weights.planes.iter().zip(&batch.planes)) {
+            plane.add(boxed.aim(σμ, *dλ) * weight, step.z.as_flattened_mut());
         }
-        self.system.factor(program, &self.weights);
     }
 
-    /// One step of iterative refinement: what `step` leaves of the linear equations is solved for once more.
+    /// The direction's other multipliers, from dz.
+    #[inline(always)]
+    pub fn recover(&mut self, batch: &Batch<S>, at: &Iterate<S>) {
+        let Self { weights, bound_weights, pin_weights, step, multipliers } = self;
+        let rows = multipliers.bounds.iter_mut().zip(bound_weights).zip(&step.z);
+        for (variable, ((by, weights), dz)) in at.variables.iter().zip(rows) {
+            by[0] = (dz[0] - variable.upper.ρ()) * weights[0];
+            by[1] = (-dz[0] - variable.lower.ρ()) * weights[1];
+        }
+        let pins = at.pins.iter().zip(&mut multipliers.pins);
+        for ((boxed, dy), (weight, (index, _))) in pins.zip(pin_weights.iter().zip(&batch.pins)) {
+            *dy = (step.z[*index][0] - boxed.ρ()) * *weight;
+        }
+        let planes = at.planes.iter().zip(&mut multipliers.planes);
+        for ((boxed, dλ), (&weight, plane)) in planes.zip(weights.planes.iter().zip(&batch.planes)) {
+            *dλ = (plane.value(step.z.as_flattened()) - boxed.ρ()) * weight;
+        }
+    }
+
+    /// `out <-` what the direction leaves of the two equations, of every multiplier with the step that it will take:
     ///
-    /// The complementarity rows hold to rounding by construction; the others lose digits where a stiff row's multiplier
-    /// follows from a small difference.
-    pub fn refine(&mut self, program: &Program, point: &Point, step: &mut Point, correction: &mut Point) {
-        self.remainder(program, step);
-        for pairs in self.target.pairs_mut() {
-            pairs.slack.fill(0.0);
+    /// ```text
+    /// -(E^T dy + F^T dλ + dc - dd)        and        -(E dz - (dc - dd))
+    /// ```
+    #[inline(always)]
+    pub fn remainder(&self, batch: &Batch<S>, at: &Iterate<S>, out: &mut Columns<S, 1>) {
+        let step = &self.step;
+        let bounds = &self.multipliers.bounds;
+        for (variable, (out, (dz, by))) in at.variables.iter().zip(out.z.iter_mut().zip(step.z.iter().zip(bounds))) {
+            out[0] = by[1] - by[0] - variable.trust.force_difference_step(dz[0]);
         }
-        self.direction(program, point, correction);
-        add(&mut step.z, &correction.z);
-        for (step, correction) in step.pairs_mut().into_iter().zip(correction.pairs()) {
-            add(&mut step.slack, &correction.slack);
-            add(&mut step.dual, &correction.dual);
+        for (boxed, (out, dy)) in at.links.as_flattened().iter().zip(out.y.iter_mut().zip(&step.y)) {
+            out[0] = boxed.force_difference_step(dy[0]);
         }
-    }
-
-    /// Residuals of the linear equations after `step`, in place of those before it.
-    fn remainder(&mut self, program: &Program, step: &Point) {
-        program.equality_values(&step.z, &mut self.rhs_equality);
-        for (i, residual) in self.residual_equality.iter_mut().enumerate() {
-            *residual += step.over.slack[i] - step.under.slack[i] - self.rhs_equality[i];
-            self.dy[i] = step.under.dual[i];
-        }
-        program.inequality_values(&step.z, &mut self.rhs_inequality);
-        for (i, residual) in self.residual_inequality.iter_mut().enumerate() {
-            *residual += step.excess.slack[i] - step.gap.slack[i] - self.rhs_inequality[i];
-        }
-        program.add_equality_duals(&self.dy, &mut self.residual_dual);
-        program.add_inequality_duals(&step.gap.dual, &mut self.residual_dual);
-        for (i, residual) in self.residual_dual.iter_mut().enumerate() {
-            *residual += step.upper.dual[i] - step.lower.dual[i];
-        }
-    }
-
-    /// Direction for the present targets, with the factors at hand.
-    pub fn direction(&mut self, program: &Program, point: &Point, step: &mut Point) {
-        self.reduce();
-        self.right_hand_side(program, &mut step.z);
-        let links = LINK * program.intervals();
-        self.dy[..links].copy_from_slice(&self.rhs_equality[..links]);
-        self.system.solve(program, &mut step.z, &mut self.dy[..links]);
-        for (i, pin) in program.pins.iter().enumerate() {
-            let row = links + i;
-            self.dy[row] = (step.z[pin.index] - self.rhs_equality[row]) * self.pin_weights[i];
-        }
-        self.recover(program, point, step);
-    }
-
-    /// Right-hand sides of the rows: `E dz - Ω_E dy = rhs`, `F dz - Ω_F dλ = rhs`.
-    fn reduce(&mut self) {
-        let (r, inverse) = (&self.target, &self.inverse);
-        set_difference(
-            &mut self.rhs_equality,
-            [&r.over.slack, &inverse.over.dual],
-            [&r.under.slack, &inverse.under.dual],
-            &self.residual_equality,
-        );
-        set_difference(
-            &mut self.rhs_inequality,
-            [&r.excess.slack, &inverse.excess.dual],
-            [&r.gap.slack, &inverse.gap.dual],
-            &self.residual_inequality,
-        );
-    }
-
-    /// r_z, with the pins eliminated like the inequalities.
-    fn right_hand_side(&mut self, program: &Program, r_z: &mut [f64]) {
-        let (r, inverse) = (&self.target, &self.inverse);
-        for (r_z, residual) in r_z.iter_mut().zip(&self.residual_dual) {
-            *r_z = -residual;
-        }
-        add_difference(r_z, [&r.lower.slack, &inverse.lower.slack], [&r.upper.slack, &inverse.upper.slack]);
-        for ((dλ, rhs), weight) in self.dλ.iter_mut().zip(&self.rhs_inequality).zip(&self.inequality_weights) {
-            *dλ = rhs * weight;
-        }
-        program.add_inequality_duals(&self.dλ, r_z);
-        let links = LINK * program.intervals();
-        for (i, pin) in program.pins.iter().enumerate() {
-            r_z[pin.index] += self.rhs_equality[links + i] * self.pin_weights[i];
-        }
-    }
-
-    /// Slacks and duals of the direction from dz and dy.
-    fn recover(&mut self, program: &Program, point: &Point, step: &mut Point) {
-        let (target, inverse) = (&self.target, &self.inverse);
-        set_signed(&mut step.under.dual, &mut step.over.dual, &self.dy);
-        program.inequality_values(&step.z, &mut self.dλ);
-        let rows = self.rhs_inequality.iter().zip(&self.inequality_weights);
-        for (dλ, (rhs, weight)) in self.dλ.iter_mut().zip(rows) {
-            *dλ = (*dλ - rhs) * weight;
-        }
-        set_signed(&mut step.gap.dual, &mut step.excess.dual, &self.dλ);
-        set_signed(&mut step.lower.slack, &mut step.upper.slack, &step.z);
-        let [targets, points, inverses] = [target.pairs(), point.pairs(), inverse.pairs()];
-        for (i, step) in step.pairs_mut().into_iter().enumerate() {
-            let (target, point, inverse) = (targets[i], points[i], inverses[i]);
-            if i < BOXES {
-                complement(&mut step.slack, &target.slack, &point.slack, &step.dual, &inverse.dual);
-            } else {
-                complement(&mut step.dual, &target.slack, &point.dual, &step.slack, &inverse.slack);
+        let last = batch.len() - 1;
+        let (outs, _) = out.y.as_chunks_mut::<LINK>();
+        let (dys, _) = step.y.as_chunks::<LINK>();
+        for (k, (link, (row, dy))) in batch.links.iter().zip(outs.iter_mut().zip(dys)).enumerate() {
+            for i in 0..LINK {
+                let mut value = link.theta[i] * step.z[last][0];
+                for j in 0..STAGE {
+                    let (here, next) = (STAGE * k + j, STAGE * (k + 1) + j);
+                    value += link.left[i][j] * step.z[here][0] + link.right[i][j] * step.z[next][0];
+                    out.z[here][0] -= link.left[i][j] * dy[i][0];
+                    out.z[next][0] -= link.right[i][j] * dy[i][0];
+                }
+                out.z[last][0] -= link.theta[i] * dy[i][0];
+                row[i][0] -= value;
             }
         }
+        for ((index, _), dy) in batch.pins.iter().zip(&self.multipliers.pins) {
+            out.z[*index][0] -= *dy;
+        }
+        for (plane, &dλ) in batch.planes.iter().zip(&self.multipliers.planes) {
+            plane.add(-dλ, out.z.as_flattened_mut());
+        }
+    }
+
+    /// Adds `correction` to the direction in the lanes of `mask`.
+    #[inline(always)]
+    pub fn correct(&mut self, correction: &Columns<S, 1>, mask: Mask<S>) {
+        for (value, by) in self.step.z.iter_mut().zip(&correction.z) {
+            value[0] = mask.select(value[0] + by[0], value[0]);
+        }
+        for (value, by) in self.step.y.iter_mut().zip(&correction.y) {
+            value[0] = mask.select(value[0] + by[0], value[0]);
+        }
+    }
+
+    /// Takes the affine direction into account: what is primal in it, and what is dual.
+    #[inline(always)]
+    pub fn affine_tallies(&self, batch: &Batch<S>, at: &Iterate<S>) -> [AffineTally<S>; 2] {
+        let mut trust = AffineTally::none(batch.simd);
+        let mut rows = AffineTally::none(batch.simd);
+        for (variable, (dz, by)) in at.variables.iter().zip(self.step.z.iter().zip(&self.multipliers.bounds)) {
+            trust.add(&variable.trust, dz[0]);
+            rows.add(&variable.upper, by[0]);
+            rows.add(&variable.lower, by[1]);
+        }
+        for (boxed, dy) in at.links.as_flattened().iter().zip(&self.step.y) {
+            rows.add(boxed, dy[0]);
+        }
+        for (boxed, &dy) in at.pins.iter().zip(&self.multipliers.pins) {
+            rows.add(boxed, dy);
+        }
+        for (boxed, (plane, &dλ)) in at.planes.iter().zip(batch.planes.iter().zip(&self.multipliers.planes)) {
+            let mut with = rows;
+            with.add(boxed, dλ);
+            rows = AffineTally::select(plane.is_present(), with, rows);
+        }
+        [trust, rows]
+    }
+
+    /// Largest relative losses along the direction.
+    #[inline(always)]
+    pub fn losses(&self, batch: &Batch<S>, at: &Iterate<S>) -> Losses<S> {
+        let (mut trust, mut rows) = (Loss::none(batch.simd), Loss::none(batch.simd));
+        for (variable, (dz, by)) in at.variables.iter().zip(self.step.z.iter().zip(&self.multipliers.bounds)) {
+            trust.add(&variable.trust, dz[0]);
+            rows.add(&variable.upper, by[0]);
+            rows.add(&variable.lower, by[1]);
+        }
+        for (boxed, dy) in at.links.as_flattened().iter().zip(&self.step.y) {
+            rows.add(boxed, dy[0]);
+        }
+        for (boxed, &dy) in at.pins.iter().zip(&self.multipliers.pins) {
+            rows.add(boxed, dy);
+        }
+        for (boxed, (plane, &dλ)) in at.planes.iter().zip(batch.planes.iter().zip(&self.multipliers.planes)) {
+            let mut with = rows;
+            with.add(boxed, dλ);
+            rows = Loss::select(plane.is_present(), with, rows);
+        }
+        Losses { primal: trust.room.max(rows.force), dual: trust.force.max(rows.room) }
+    }
+
+    /// Goes shares `α_p` and `α_d` of the direction, and ties everything together again.
+    #[inline(always)]
+    pub fn advance(&self, batch: &Batch<S>, at: &mut Iterate<S>, α_p: Lanes<S>, α_d: Lanes<S>) {
+        let (μ, two_μ) = (batch.penalty, batch.penalty + batch.penalty);
+        for (boxed, &dy) in at.pins.iter_mut().zip(&self.multipliers.pins) {
+            boxed.advance(dy, α_d, α_p, two_μ);
+        }
+        for (boxed, &dλ) in at.planes.iter_mut().zip(&self.multipliers.planes) {
+            boxed.advance(dλ, α_d, α_p, μ);
+        }
+        for (boxed, dy) in at.links.as_flattened_mut().iter_mut().zip(&self.step.y) {
+            boxed.advance(dy[0], α_d, α_p, two_μ);
+        }
+        let steps = self.step.z.iter().zip(&self.multipliers.bounds);
+        let variables = at.variables.iter_mut().zip(&mut at.z).zip(&batch.bounds);
+        for (((variable, z), bounds), (dz, by)) in variables.zip(steps) {
+            let Variable { trust, upper, lower } = variable;
+            trust.advance(dz[0], α_p, α_d, bounds.room());
+            let is_nearer_above = trust.below.is_above(trust.above);
+            *z = is_nearer_above.select(bounds.box_upper - trust.above, bounds.box_lower + trust.below);
+            upper.advance(by[0], α_d, α_p, μ);
+            lower.advance(by[1], α_d, α_p, μ);
+        }
     }
 }
 
-/// `plus <- values`, `minus <- -values`.
-fn set_signed(plus: &mut [f64], minus: &mut [f64], values: &[f64]) {
-    for ((plus, minus), value) in plus.iter_mut().zip(minus).zip(values) {
-        *plus = *value;
-        *minus = -*value;
+/// Restores every difference of forces at `at`: slacks fit z, duals fit the multipliers.
+#[inline(always)]
+pub fn tie<S: Vector>(batch: &Batch<S>, at: &mut Iterate<S>) -> Measures<S> {
+    let mut products = Lanes::splat(batch.simd, 0.0);
+    let mut violations = products;
+    at.set_dual(batch);
+    for k in 0..batch.intervals() {
+        let values = link_values(batch, &at.z, k);
+        for (boxed, value) in at.links[k].iter_mut().zip(values) {
+            boxed.tie_forces(value);
+            products += boxed.products();
+            violations += boxed.force_above + boxed.force_below;
+        }
     }
-}
-
-/// The unknown half of a step of pairs: `s dv + v ds = r` gives `ds = (r - s dv) / v`, and dv likewise.
-fn complement(out: &mut [f64], r: &[f64], at: &[f64], by: &[f64], inverse: &[f64]) {
-    let known = r.iter().zip(at).zip(by.iter().zip(inverse));
-    for (out, ((r, at), (by, inverse))) in out.iter_mut().zip(known) {
-        *out = (r - at * by) * inverse;
+    for (boxed, (index, value)) in at.pins.iter_mut().zip(&batch.pins) {
+        boxed.tie_forces(at.z[*index] - *value);
+        products += boxed.products();
+        violations += boxed.force_above + boxed.force_below;
     }
-}
-
-/// `out <- a b - c d + e`.
-fn set_difference(out: &mut [f64], [a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2], e: &[f64]) {
-    let terms = a.iter().zip(b).zip(c.iter().zip(d)).zip(e);
-    for (out, (((a, b), (c, d)), e)) in out.iter_mut().zip(terms) {
-        *out = a * b - c * d + e;
+    for (boxed, plane) in at.planes.iter_mut().zip(&batch.planes) {
+        boxed.tie_forces(plane.value(&at.z) - plane.bound);
+        products += boxed.products() * plane.present;
+        violations += boxed.force_above * plane.present;
     }
-}
-
-/// `out += a b - c d`.
-fn add_difference(out: &mut [f64], [a, b]: [&[f64]; 2], [c, d]: [&[f64]; 2]) {
-    let terms = a.iter().zip(b).zip(c.iter().zip(d));
-    for (out, ((a, b), (c, d))) in out.iter_mut().zip(terms) {
-        *out += a * b - c * d;
+    let values = at.z.iter().zip(&at.dual).zip(&batch.bounds);
+    for (variable, ((&z, &dual), bounds)) in at.variables.iter_mut().zip(values) {
+        let Variable { trust, upper, lower } = variable;
+        trust.tie_forces(-dual);
+        upper.tie_forces(z - bounds.soft_upper);
+        lower.tie_forces(bounds.soft_lower - z);
+        products += trust.products() + (upper.products() + lower.products());
+        violations += upper.force_above + lower.force_above;
     }
-}
-
-fn add(value: &mut [f64], increment: &[f64]) {
-    for (value, increment) in value.iter_mut().zip(increment) {
-        *value += increment;
-    }
+    Measures { products, objective: batch.theta_cost * at.z[at.z.len() - 1] + batch.penalty * violations }
 }

@@ -102,6 +102,12 @@ impl Program {
         false
     }
 
+    /// Can it be solved in one pass with `other`: as many links, pins of the same variables? Planes may differ.
+    pub fn has_shape_of(&self, other: &Self) -> bool {
+        let pins = |program: &Self| program.pins.iter().map(|pin| pin.index).collect::<Vec<_>>();
+        self.intervals() == other.intervals() && pins(self) == pins(other)
+    }
+
     /// Number of elastic equalities: the rows of the links, then the pins.
     pub fn equalities(&self) -> usize {
         LINK * self.intervals() + self.pins.len()

@@ -5,7 +5,7 @@ use super::program::Program;
 /// When to stop, and how boldly to step.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Relative duality gap and residuals at the end, -.
+    /// Relative duality gap at the end, -.
     pub tolerance: f64,
     /// Most iterations.
     pub max_iterations: usize,
@@ -24,7 +24,7 @@ impl Default for Settings {
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Gap and residuals are below the tolerance.
+    /// The gap is below the tolerance.
     Solved,
     /// The iteration limit came first; the best iterate is returned.
     IterationLimit,
@@ -39,14 +39,13 @@ pub enum Status {
 pub struct Solution {
     /// How it ended.
     pub status: Status,
-    /// Variables z.
+    /// Variables z, inside their box.
     pub z: Vec<f64>,
     /// `q θ + μ (violations)` at z, plus the programme's offset.
     pub objective: f64,
-    /// Relative duality gap, -.
+    /// How much of the objective could be gained at most, relative to it or to 1 where that is larger, -. Proven by
+    /// multipliers; of a general solver the larger of its own gap and residuals.
     pub gap: f64,
-    /// Largest residual of the linear equations relative to their data, -.
-    pub residual: f64,
     /// Iterations taken.
     pub iterations: usize,
 }
@@ -54,13 +53,6 @@ pub struct Solution {
 impl Solution {
     /// Nothing was solved.
     pub(super) fn refused(program: &Program) -> Self {
-        Self {
-            status: Status::Refused,
-            z: vec![0.0; program.len()],
-            objective: f64::NAN,
-            gap: f64::NAN,
-            residual: f64::NAN,
-            iterations: 0,
-        }
+        Self { status: Status::Refused, z: vec![0.0; program.len()], objective: f64::NAN, gap: f64::NAN, iterations: 0 }
     }
 }

@@ -142,7 +142,7 @@ impl<'a> Fleet<'a> {
         match self.options.solver {
             Solver::Block => {
                 let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
-                InteriorPoint::new(program, settings).solve(program)
+                InteriorPoint::new(settings).solve(program)
             }
             Solver::Clarabel => convex::solve_with_clarabel(program, TOLERANCE),
         }

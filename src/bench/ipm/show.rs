@@ -61,22 +61,23 @@ fn remark(row: &Row) -> String {
     match &row.measured {
         None => row.not_run.clone().unwrap_or_default(),
         Some(measured) if measured.status == "solved" => String::new(),
-        Some(measured) => format!("{} at {:.1e}", measured.status, measured.reached),
+        Some(measured) => format!("{} at {:.1e}", measured.status, measured.gap),
     }
 }
 
 fn notes(results: &Results) -> [String; 4] {
     [
         format!(
-            "subproblem: of a run on {}, with so many avoidance rows. Relative gap and residuals at the end: {:e}.",
+            "subproblem: of a run on {}, with so many avoidance rows. Relative gap at the end: {:e}.",
             results.scenario, results.tolerance
         ),
         format!(
             "ms: best of up to {} solves after one to warm up, on one thread; work memory and symbolic analysis are kept \
-             from solve to solve.",
+             from solve to solve. block x4: four subproblems of one iteration in one pass, time per subproblem; block: \
+             one alone, three lanes idle.",
             results.repetitions
         ),
-        "speed: Clarabel's time over this one's, set-up counted in both.".to_owned(),
+        "speed: Clarabel's time over this one's.".to_owned(),
         "paper Gflop/it: Table 1 of Wang, Xu, Long (2020). sparse-ldl is its method I, 0.33 n_X^3 + 3 n_A^3 + n_X^2 n_A + \
          n_X n_A^2, a count for dense blocks, of which a sparse factorisation does a small part; dense-reduced is its \
          method II, 2.67 n_X^3 (our copy of the table lacks the terms that follow); dense-kkt its method III, \

@@ -23,7 +23,7 @@ use super::sparse_ldl::SparseLdl;
 const REGULARISATION: f64 = 1e-13;
 
 /// Least and most that is added.
-const REGULARISATION_RANGE: [f64; 2] = [1e-12, 1e-8];
+const REGULARISATION_RANGE: [f64; 2] = [1e-12, 1e-4];
 
 /// Most refinements of one direction; they end before, as soon as one does not help.
 const REFINEMENTS: usize = 15;
