@@ -14,7 +14,7 @@ const NEAR: f64 = 1e-7;
 
 /// Share of the subproblems on which a method of the paper may end short of that: they work with squares of the numbers
 /// that the block sweep works with, and lose twice the digits.
-const MOST_SHORT: f64 = 0.15;
+const MOST_SHORT: f64 = 0.2;
 
 /// Every subproblem of a run with `intervals`, in an order that does not depend on the threads.
 fn subproblems(scenario: &str, intervals: usize) -> Vec<Program> {
