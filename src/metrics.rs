@@ -5,7 +5,8 @@
 
 mod over_time;
 
-use scenarios::{Plan, Scenario, Trajectory};
+use scenarios::fixed_wing::Trajectory;
+use scenarios::{Plan, Scenario};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{Flight, Sample};
@@ -89,14 +90,15 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
 
 fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
     let planned = Planned::new(scenario, plan);
+    let trajectories = || plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing);
     let states = |value: fn(&scenarios::fixed_wing::State) -> f64| {
-        Spread::over(plan.trajectories.iter().map(|trajectory| trajectory.states.iter().map(value)))
+        Spread::over(trajectories().map(|trajectory| trajectory.states.iter().map(value)))
     };
     let controls = |axis: usize, trim: f64| {
         let magnitudes = |trajectory: &Trajectory| -> f64 {
             trajectory.controls.iter().map(|control| (control.to_array()[axis] - trim).abs()).sum()
         };
-        finite(plan.trajectories.iter().map(magnitudes).sum())
+        finite(trajectories().map(magnitudes).sum())
     };
     let (speed, altitude) = (states(|state| state.speed_mps), states(|state| state.z_m));
     PlanMetrics {

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use scenarios::{CHECK_NAMES, CSV_COLUMNS, Plan};
+use scenarios::fixed_wing::CSV_COLUMNS;
+use scenarios::{CHECK_NAMES, Plan};
 use serde_json::Value;
 
 use crate::workplace::{PAIR, Workplace, code, stderr};
@@ -68,7 +69,7 @@ fn the_plan_is_there_in_both_forms_and_they_agree() {
     let csv = fs::read_to_string(workplace.path(FOLDER).join("plan.csv")).unwrap();
     let mut lines = csv.lines();
     assert_eq!(lines.next().unwrap(), CSV_COLUMNS.join(","));
-    for trajectory in &plan.trajectories {
+    for trajectory in plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing) {
         for (node, t_s) in trajectory.times_s.iter().enumerate() {
             let cells: Vec<&str> = lines.next().unwrap().split(',').collect();
             assert_eq!((cells[0], cells.len()), (trajectory.vehicle.as_str(), CSV_COLUMNS.len()));

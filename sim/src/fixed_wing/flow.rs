@@ -1,6 +1,6 @@
 use nalgebra::{Vector3, Vector6};
-use scenarios::fixed_wing::{Control, State};
-use scenarios::{Interpolation, Trajectory};
+use scenarios::Interpolation;
+use scenarios::fixed_wing::{Control, State, Trajectory};
 
 use super::acceleration_mps2;
 
