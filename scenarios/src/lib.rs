@@ -35,7 +35,9 @@ pub use load::{Fault, Invalid, LoadError, Source, load, parse};
 pub use models::{Family, Model, Models};
 pub use nearest::nearest;
 pub use plan::{Iteration, Plan, PlanStatus, PlanTimings};
-pub use planner_settings::{Convergence, PlannerSettings, Solver, Transcription, TrustRegion};
+pub use planner_settings::{
+    Collocation, Convergence, Objective, PlannerSettings, Shape, Solver, Transcription, TrustRegion,
+};
 pub use problem::Problem;
 pub use random::stream;
 pub use range::Range;

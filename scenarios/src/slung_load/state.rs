@@ -1,3 +1,4 @@
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{LoadPoint, Waypoint};
@@ -29,7 +30,7 @@ pub struct Control {
 }
 
 /// What the cable does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cable {
     /// Stretched to its length: it holds the distance, and pulls.

@@ -51,6 +51,21 @@ pub struct Trajectory {
     pub controls: Vec<Control>,
     /// What the cable does from each node to the next; the last one's says what it does after the end.
     pub cable: Vec<Cable>,
+    /// The nodes at which the planner's own constraints stood, by index, where the trajectory is sampled more densely than
+    /// that: `nodes.*` looks at these. Empty: all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub planner_nodes: Vec<usize>,
+}
+
+impl Trajectory {
+    /// The nodes at which the planner's own constraints stood, by index.
+    pub fn planner_nodes(&self) -> Vec<usize> {
+        let count = self.times_s.len();
+        match self.planner_nodes.as_slice() {
+            [] => (0..count).collect(),
+            own => own.iter().copied().filter(|node| *node < count).collect(),
+        }
+    }
 }
 
 impl Nodes for Trajectory {
