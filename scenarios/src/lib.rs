@@ -42,7 +42,7 @@ pub use problem::Problem;
 pub use random::stream;
 pub use range::Range;
 pub use scenario::Scenario;
-pub use simulation::{Gusts, Mismatch, Sensors, Simulation, Tracker, Wind};
+pub use simulation::{GustPulse, Gusts, Mismatch, Sensors, Simulation, Tracker, Wind};
 pub use trajectory::{Interpolation, Nodes, Trajectory};
 pub use validate::validate;
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};

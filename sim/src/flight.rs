@@ -84,8 +84,6 @@ pub struct LoadSample {
     pub measured_velocity_mps: [f64; 3],
     /// Position that the plan asks for, m.
     pub reference_position_m: [f64; 3],
-    /// Angular velocity of the quadrotor in body axes, rad/s.
-    pub body_rate_radps: [f64; 3],
     /// Tension of the cable over the step that ends here, N: the impulse that it gave, by the step's length.
     pub tension_n: f64,
     /// What the cable does.
@@ -159,4 +157,11 @@ pub enum EventKind {
     SaturationBegan,
     /// A vehicle's command is inside its limits again.
     SaturationEnded,
+    /// A slack cable became taut, with this impulse.
+    CableTaut {
+        /// Impulse of the impact, N s.
+        impulse_ns: f64,
+    },
+    /// A taut cable became slack.
+    CableSlack,
 }

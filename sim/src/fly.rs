@@ -2,7 +2,7 @@ use std::time::Instant;
 
 use scenarios::{Family, Plan, Scenario};
 
-use crate::{Flight, fixed_wing};
+use crate::{Flight, fixed_wing, slung_load};
 
 /// Who decides on the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub fn fly_with(scenario: &Scenario, plan: &Plan, seed: u64, setup: &Setup, prog
     let steps = number_of_steps(scenario, plan);
     let (vehicles, mut events) = match scenario.family() {
         Family::FixedWing => fixed_wing::fly(scenario, plan, seed, setup, steps, progress),
-        Family::SlungLoad => unreachable!("a slung load is not flown yet"),
+        Family::SlungLoad => slung_load::fly(scenario, plan, seed, setup, steps, progress),
     };
     events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     Flight {

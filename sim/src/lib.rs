@@ -11,8 +11,10 @@ pub mod fixed_wing;
 mod flight;
 mod fly;
 mod rapier_world;
+mod runge_kutta;
 mod saturation;
 mod sensors;
+pub mod slung_load;
 mod touch;
 
 pub use flight::{Actuation, Commanded, Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
