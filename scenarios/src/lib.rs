@@ -28,7 +28,7 @@ mod vehicle;
 mod verdict_limits;
 mod world;
 
-pub use check_names::CHECK_NAMES;
+pub use check_names::{CHECK_NAMES, check_names};
 pub use find::{FindError, find};
 pub use fleet::FleetRules;
 pub use load::{Fault, Invalid, LoadError, Source, load, parse};

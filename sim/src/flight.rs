@@ -134,6 +134,20 @@ impl Sample {
     }
 }
 
+impl LoadSample {
+    /// Every number in it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let vectors = [
+            self.position_m,
+            self.velocity_mps,
+            self.measured_position_m,
+            self.measured_velocity_mps,
+            self.reference_position_m,
+        ];
+        vectors.into_iter().flatten().chain([self.tension_n])
+    }
+}
+
 /// Something worth a line in the log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {

@@ -16,9 +16,10 @@ mod shapes;
 mod tracker;
 
 pub use body::Body;
+pub use cable_watch::SHORTEST_PHASE_S;
 pub use dynamics::{Plant, impact};
 pub use flow::{Knot, flow};
 pub use reference::{Reference, ReferencePoint};
-pub use shapes::{Obstacle, Part, Parts};
+pub use shapes::{GROUND, Part, Parts};
 
 pub(crate) use fly::fly;

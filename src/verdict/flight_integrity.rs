@@ -1,7 +1,7 @@
 //! Is the flight log whole, is everything in it a number, and did nobody crash?
 
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
-use sim::{EventKind, Flight, Sample, VehicleLog};
+use sim::{EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
@@ -17,7 +17,9 @@ pub fn check_finite(flight: &Flight) -> Check {
     let mut count = times.filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
-        let here: usize = log.samples.iter().flat_map(Sample::numbers).filter(|value| !value.is_finite()).count();
+        let numbers =
+            log.samples.iter().flat_map(Sample::numbers).chain(log.loads.iter().flat_map(LoadSample::numbers));
+        let here = numbers.filter(|value| !value.is_finite()).count();
         if here > 0 {
             odd.push(log.vehicle.as_str());
         }
@@ -51,7 +53,10 @@ pub fn check_crash(flight: &Flight) -> Check {
     let question = Question::new(Group::Flight, "crash", "crashes");
     let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
-        EventKind::SaturationBegan | EventKind::SaturationEnded => None,
+        EventKind::SaturationBegan
+        | EventKind::SaturationEnded
+        | EventKind::CableTaut { .. }
+        | EventKind::CableSlack => None,
     });
     let Some((t_s, concerned)) = crashes.next() else { return question.at_most(Measured::value(0.0), 0.0) };
     let count = 1 + crashes.count();

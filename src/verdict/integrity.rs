@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use scenarios::slung_load::{Model, State};
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
@@ -101,9 +102,25 @@ fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
         return Some(format!("{} nodes, at least 2 are needed", times_s.len()));
     }
     time_defect(trajectory).or_else(|| {
+        let load = match trajectory {
+            Trajectory::FixedWing(_) => None,
+            Trajectory::SlungLoad(trajectory) => {
+                load_defect(scenario.slung_load_model(vehicle), vehicle, &trajectory.states[0])
+            }
+        };
         start_defect("m", nodes.position_m(0), vehicle.start.position_m(), START_TOLERANCE)
             .or_else(|| start_defect("m/s", nodes.velocity_mps(0), vehicle.start.velocity_mps(), START_TOLERANCE))
+            .or(load)
     })
+}
+
+/// Does a quadrotor begin level, not turning, and with its load where it is?
+fn load_defect(model: &Model, vehicle: &Vehicle, first: &State) -> Option<String> {
+    let start = State::at(&vehicle.start, model.cable_length_m);
+    start_defect("m (the load)", first.load_position_m, start.load_position_m, START_TOLERANCE)
+        .or_else(|| start_defect("m/s (the load)", first.load_velocity_mps, start.load_velocity_mps, START_TOLERANCE))
+        .or_else(|| start_defect("rad", first.roll_pitch_yaw_rad, start.roll_pitch_yaw_rad, START_TOLERANCE))
+        .or_else(|| start_defect("rad/s", first.body_rate_radps, start.body_rate_radps, START_TOLERANCE))
 }
 
 /// Do the times start at 0 and increase? (Or stand still, where a jump is in order.)

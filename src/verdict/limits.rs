@@ -20,7 +20,7 @@ use crate::verdict::worst::{Quantity, Worst};
 
 /// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
 /// The limit that the check reports includes it. The physical limits know no such mercy.
-const SOLVER_TOLERANCE: f64 = 1e-6;
+pub(super) const SOLVER_TOLERANCE: f64 = 1e-6;
 /// Distance between the bounds of an extreme position that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
 
@@ -94,7 +94,7 @@ fn control_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: 
     answer(group, "control_limits", evidence, look)
 }
 
-fn answer<'a, T: ?Sized>(
+pub(super) fn answer<'a, T: ?Sized>(
     group: Group,
     name: &'static str,
     evidence: Evidence<'_, T>,
@@ -197,7 +197,7 @@ impl<'a> Limited<'a> {
 }
 
 /// Lowest and highest value of one coordinate over continuous time, m, and when, s.
-fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
+pub(super) fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
     [1.0, -1.0].map(|sign| {
         let (mut lowest, mut at_s) = (f64::INFINITY, motion.knots()[0].t_s);
         for segment in motion.segments() {

@@ -3,7 +3,7 @@
 use std::fs;
 
 use scenarios::fixed_wing::CSV_COLUMNS;
-use scenarios::{CHECK_NAMES, Plan};
+use scenarios::{Family, Plan, check_names};
 use serde_json::Value;
 
 use crate::workplace::{PAIR, Workplace, code, stderr};
@@ -47,7 +47,7 @@ fn the_report_holds_every_check_with_the_fields_that_others_rely_on() {
     assert_eq!(report["verdict"], "pass");
     let checks = report["checks"].as_array().unwrap();
     let names: Vec<&str> = checks.iter().map(|check| check["name"].as_str().unwrap()).collect();
-    assert_eq!(names, CHECK_NAMES);
+    assert_eq!(names, check_names(Family::FixedWing).collect::<Vec<_>>());
     let separation = checks.iter().find(|check| check["name"] == "flight.separation").unwrap();
     assert_eq!((&separation["status"], &separation["unit"]), (&"pass".into(), &"m".into()));
     assert_eq!((&separation["limit"], &separation["between"]), (&100.0.into(), &serde_json::json!(["uav-1", "uav-2"])));

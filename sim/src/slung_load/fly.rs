@@ -1,12 +1,12 @@
 use nalgebra::{Vector3, Vector4};
 use scenarios::slung_load::{Control, Model, Trajectory};
-use scenarios::{Plan, Scenario, Vehicle};
+use scenarios::{Plan, Prism, Scenario, Vehicle};
 
 use super::body::Body;
 use super::cable_watch::CableWatch;
 use super::dynamics::Plant;
 use super::reference::{Reference, ReferencePoint};
-use super::shapes::{Obstacle, Part, Parts};
+use super::shapes::{GROUND, Part, Parts};
 use super::tracker::{Thrusts, Tracker};
 use crate::air::Air;
 use crate::rapier_world::{Hoist, Loads};
@@ -53,8 +53,9 @@ struct Sortie {
     tracker: Tracker,
     sensors: Sensors,
     air: Air,
-    obstacles: Vec<Obstacle>,
+    obstacles: Vec<Prism>,
     parts: Parts,
+    ground_m: Option<f64>,
     step_s: f64,
     plant_steps: usize,
     /// Thrusts that the rotors give, N.
@@ -95,8 +96,9 @@ impl Sortie {
             tracker: Tracker::new(&reference, &nominal, model.limits.thrust_n, settings.step_s),
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
-            obstacles: Obstacle::all(&scenario.world),
+            obstacles: scenario.world.flat_obstacles(),
             parts: Parts::of(&model),
+            ground_m: scenario.world.ground_m,
             step_s: settings.step_s,
             plant_steps,
             rotors_n: first.thrust_n,
@@ -179,14 +181,20 @@ impl Sortie {
         });
     }
 
-    /// Name of an obstacle that body, cable or load touches.
+    /// Name of an obstacle that body, cable or load touches; of the ground if the body does.
     fn touched(&self) -> Option<String> {
         let body = self.hoist.body();
-        let touches = |obstacle: &&Obstacle| {
-            // Written so that what is not a number touches.
-            Part::ALL.iter().any(|part| !(self.parts.distance_m(*part, &body, obstacle) > 0.0))
+        let touches = |obstacle: &&Prism| {
+            // What is not a number touches.
+            let is_clear = |part: &Part| {
+                self.parts.at_least_m(*part, &body, obstacle) > 0.0
+                    || self.parts.distance_m(*part, &body, obstacle) > 0.0
+            };
+            !Part::ALL.iter().all(is_clear)
         };
-        self.obstacles.iter().find(touches).map(|obstacle| obstacle.name.clone())
+        let ground =
+            self.ground_m.filter(|ground_m| self.parts.height_m(&body) <= *ground_m).map(|_| GROUND.to_owned());
+        ground.or_else(|| self.obstacles.iter().find(touches).map(|obstacle| obstacle.name.clone()))
     }
 
     /// One step under commanded thrusts, N, in small steps of the plant.

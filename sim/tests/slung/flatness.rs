@@ -92,11 +92,11 @@ impl Swing {
         (quadrotor + up) * model.mass_kg + (load[2] + up) * model.load_mass_kg
     }
 
-    /// Position of the load and its derivatives: s(τ) of degree 13, six derivatives zero at both ends; the bow is
+    /// Position of the load and its derivatives: s(share) of degree 13, six derivatives zero at both ends; the bow is
     /// 16 s²(1 - s)².
     fn load(&self, t_s: f64) -> Jet {
-        let τ = (t_s / self.duration_s).clamp(0.0, 1.0);
-        let s = smooth_step(τ).map(|value| Vector3::repeat(value));
+        let share = (t_s / self.duration_s).clamp(0.0, 1.0);
+        let s = smooth_step(share).map(|value| Vector3::repeat(value));
         let mut rest = s.map(|value| -value);
         rest[0].add_scalar_mut(1.0);
         let bow = product(&product(&s, &rest), &product(&s, &rest));
@@ -129,8 +129,8 @@ fn product(a: &Jet, b: &Jet) -> Jet {
     std::array::from_fn(|order| (0..=order).map(|k| a[k].component_mul(&b[order - k]) * BINOMIALS[order][k]).sum())
 }
 
-/// τ⁷ Σ_k C(6+k, k) C(13, 6-k) (-τ)^k and its first four derivatives by τ.
-fn smooth_step(τ: f64) -> [f64; 5] {
+/// share⁷ Σ_k C(6+k, k) C(13, 6-k) (-share)^k and its first four derivatives by share.
+fn smooth_step(share: f64) -> [f64; 5] {
     let choose = |n: u32, k: u32| (0..k).fold(1.0, |c, i| c * f64::from(n - i) / f64::from(i + 1));
     let mut jet = [0.0; 5];
     for k in 0..=6_u32 {
@@ -138,7 +138,7 @@ fn smooth_step(τ: f64) -> [f64; 5] {
         for (order, value) in jet.iter_mut().enumerate() {
             let power = 7 + k as i32;
             let falling = (0..order as i32).fold(1.0, |product, i| product * f64::from(power - i));
-            *value += coefficient * falling * τ.powi(power - order as i32);
+            *value += coefficient * falling * share.powi(power - order as i32);
         }
     }
     jet
