@@ -4,8 +4,10 @@
 //! altitude, sums of the absolute load factors, smallest distance between vehicles.
 
 mod over_time;
+mod slung_load;
 
-use scenarios::{Plan, Scenario, Trajectory};
+use scenarios::fixed_wing::Trajectory;
+use scenarios::{Family, Plan, Scenario};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{Flight, Sample};
@@ -13,6 +15,7 @@ use sim::{Flight, Sample};
 use crate::verdict::{self, Flown, Motion, Planned};
 
 pub use over_time::{Nearest, clearance_over_time, separation_over_time};
+pub use slung_load::{CableSwitch, SlungLoadMetrics};
 
 /// Everything that was measured of a plan and its flight.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,6 +26,9 @@ pub struct Metrics {
     /// Absent when there is no flight, or its logs cannot be matched with the vehicles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flight: Option<FlightMetrics>,
+    /// Of a quadrotor with a slung load, in the place of the two above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slung_load: Option<SlungLoadMetrics>,
 }
 
 /// Figures of the plan, at its nodes unless said otherwise. A figure that is absent could not be measured.
@@ -83,20 +89,28 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
     if verdict::is_flyable(scenario, plan).is_err() {
         return Metrics::default();
     }
+    if scenario.family() == Family::SlungLoad {
+        return Metrics { slung_load: Some(slung_load::measure(scenario, plan, flight)), ..Metrics::default() };
+    }
     let flown = flight.and_then(|flight| Flown::new(scenario, plan, flight).ok());
-    Metrics { plan: Some(of_plan(scenario, plan)), flight: flown.map(|flown| of_flight(scenario, &flown)) }
+    Metrics {
+        plan: Some(of_plan(scenario, plan)),
+        flight: flown.map(|flown| of_flight(scenario, &flown)),
+        slung_load: None,
+    }
 }
 
 fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
     let planned = Planned::new(scenario, plan);
+    let trajectories = || plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing);
     let states = |value: fn(&scenarios::fixed_wing::State) -> f64| {
-        Spread::over(plan.trajectories.iter().map(|trajectory| trajectory.states.iter().map(value)))
+        Spread::over(trajectories().map(|trajectory| trajectory.states.iter().map(value)))
     };
     let controls = |axis: usize, trim: f64| {
         let magnitudes = |trajectory: &Trajectory| -> f64 {
             trajectory.controls.iter().map(|control| (control.to_array()[axis] - trim).abs()).sum()
         };
-        finite(plan.trajectories.iter().map(magnitudes).sum())
+        finite(trajectories().map(magnitudes).sum())
     };
     let (speed, altitude) = (states(|state| state.speed_mps), states(|state| state.z_m));
     PlanMetrics {

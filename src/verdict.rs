@@ -20,6 +20,7 @@ mod question;
 #[cfg(test)]
 mod random;
 mod separation;
+pub mod slung_load;
 mod tracking;
 mod worst;
 

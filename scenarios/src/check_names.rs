@@ -1,3 +1,5 @@
+use crate::Family;
+
 /// Every check that a verdict may hold, by its full name, in the order in which a verdict lists them.
 ///
 /// - `nodes.*`: what the planner's own constraints saw, at its own nodes;
@@ -6,6 +8,7 @@
 pub const CHECK_NAMES: &[&str] = &[
     "nodes.separation",
     "nodes.clearance",
+    "nodes.envelope",
     "nodes.state_limits",
     "nodes.control_limits",
     "nodes.goal",
@@ -13,21 +16,28 @@ pub const CHECK_NAMES: &[&str] = &[
     "plan.complete",
     "plan.separation",
     "plan.clearance",
+    "plan.envelope",
     "plan.state_limits",
     "plan.control_limits",
     "plan.dynamics",
     "plan.rollout",
     "plan.goal",
+    "plan.rest",
     "plan.arrival",
     "plan.duration",
+    "plan.tension",
+    "plan.slack",
+    "plan.swing",
     "flight.finite",
     "flight.complete",
     "flight.crash",
     "flight.separation",
     "flight.clearance",
+    "flight.envelope",
     "flight.state_limits",
     "flight.control_limits",
     "flight.goal",
+    "flight.rest",
     "flight.arrival",
     "flight.duration",
     "flight.tracking_rms",
@@ -37,3 +47,21 @@ pub const CHECK_NAMES: &[&str] = &[
     "flight.slack",
     "flight.swing",
 ];
+
+/// Checks that are put to slung loads alone.
+const OF_SLUNG_LOADS: [&str; 8] = [
+    "nodes.envelope",
+    "plan.envelope",
+    "plan.rest",
+    "plan.tension",
+    "plan.slack",
+    "plan.swing",
+    "flight.envelope",
+    "flight.rest",
+];
+
+/// The checks of a verdict on vehicles of this family, in its order.
+pub fn check_names(family: Family) -> impl Iterator<Item = &'static str> {
+    let is_put = move |name: &&str| family == Family::SlungLoad || !OF_SLUNG_LOADS.contains(name);
+    CHECK_NAMES.iter().copied().filter(is_put)
+}

@@ -2,10 +2,14 @@
 //!
 //! Wang, Xu, Long (2020), eq. 2: state (x, y, h, V, χ, γ), control the load factors (n_x, n_y, n_z).
 
+mod trajectory;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Range;
+
+pub use trajectory::{CSV_COLUMNS, Trajectory};
 
 /// Standard gravity as the papers use it, m/s².
 pub const GRAVITY_MPS2: f64 = 9.81;

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::fixed_wing::{Control, State};
+use crate::Trajectory;
 
 /// A planner's answer: one trajectory for every vehicle, and how it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,7 +32,7 @@ pub struct Plan {
 impl Plan {
     /// Time at which the last vehicle reaches the end of its trajectory, s; `None` without a trajectory.
     pub fn flight_time_s(&self) -> Option<f64> {
-        self.trajectories.iter().filter_map(|trajectory| trajectory.times_s.last().copied()).reduce(f64::max)
+        self.trajectories.iter().filter_map(Trajectory::end_s).reduce(f64::max)
     }
 }
 
@@ -56,30 +56,6 @@ impl std::fmt::Display for PlanStatus {
             Self::NoPlan => "no plan",
         })
     }
-}
-
-/// The planned motion of one vehicle, given at nodes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Trajectory {
-    /// Name of the vehicle.
-    pub vehicle: String,
-    /// Controls between the nodes.
-    pub interpolation: Interpolation,
-    /// Times of the nodes, s, increasing from 0.
-    pub times_s: Vec<f64>,
-    /// States at the nodes.
-    pub states: Vec<State>,
-    /// Controls at the nodes.
-    pub controls: Vec<Control>,
-}
-
-/// How controls run between two nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Interpolation {
-    /// Linear in time from node to node.
-    FirstOrderHold,
 }
 
 /// One iteration of an iterative planner.

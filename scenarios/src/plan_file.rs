@@ -2,11 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::{Plan, Trajectory};
-
-/// Columns of a fixed-wing plan: time, state and control, one row per vehicle and node. World frame, SI, radians.
-pub const CSV_COLUMNS: [&str; 11] =
-    ["vehicle", "t_s", "x_m", "y_m", "z_m", "speed_mps", "heading_rad", "flight_path_rad", "n_x", "n_y", "n_z"];
+use crate::{Nodes, Plan};
 
 impl Plan {
     /// Writes the whole plan as JSON, indented. Numbers read back as they were, to the last bit; JSON has no NaN and no
@@ -16,31 +12,26 @@ impl Plan {
         writer.write_all(b"\n")
     }
 
-    /// Writes the trajectories as CSV, with [`CSV_COLUMNS`] as the first line. Numbers read back as they were, to the
+    /// Writes the trajectories as CSV, the columns of their family as the first line. Numbers read back as they were, to the
     /// last bit. Between the rows controls run linearly in time (first-order hold).
     pub fn write_csv(&self, mut writer: impl Write) -> io::Result<()> {
-        writeln!(writer, "{}", CSV_COLUMNS.join(","))?;
-        self.trajectories.iter().try_for_each(|trajectory| write_rows(trajectory, &mut writer))
+        let columns = self.trajectories.first().map_or(&["vehicle", "t_s"][..], |first| first.nodes().csv_columns());
+        writeln!(writer, "{}", columns.join(","))?;
+        self.trajectories.iter().try_for_each(|trajectory| write_rows(trajectory.nodes(), &mut writer))
     }
 }
 
-fn write_rows(trajectory: &Trajectory, writer: &mut impl Write) -> io::Result<()> {
-    let nodes = trajectory.times_s.iter().zip(&trajectory.states).zip(&trajectory.controls);
-    for ((t_s, state), control) in nodes {
-        write!(writer, "{},{t_s:?}", trajectory.vehicle)?;
-        for value in state.to_array().into_iter().chain(control.to_array()) {
-            write!(writer, ",{value:?}")?;
-        }
-        writeln!(writer)?;
+fn write_rows(nodes: &dyn Nodes, writer: &mut impl Write) -> io::Result<()> {
+    for (node, t_s) in nodes.times_s().iter().enumerate() {
+        writeln!(writer, "{},{t_s:?},{}", nodes.vehicle(), nodes.csv_cells(node).join(","))?;
     }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::CSV_COLUMNS;
-    use crate::fixed_wing::{Control, State};
-    use crate::{Interpolation, Plan, PlanStatus, PlanTimings, Trajectory};
+    use crate::fixed_wing::{CSV_COLUMNS, Control, State, Trajectory};
+    use crate::{Interpolation, Plan, PlanStatus, PlanTimings};
 
     /// Numbers that a format with a fixed number of digits would not bring back.
     const NODE: [f64; 10] = [0.1 + 0.2, -1.0 / 3.0, 1e-300, 4e22, 35.0, -0.0, f64::EPSILON, 1e-7, 123456789.123, 1.0];
@@ -61,7 +52,7 @@ mod tests {
             status: PlanStatus::NotConverged,
             reason: Some("made by hand".into()),
             objective: None,
-            trajectories: vec![trajectory],
+            trajectories: vec![trajectory.into()],
             history: Vec::new(),
             timings: PlanTimings::default(),
         }

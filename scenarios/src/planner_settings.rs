@@ -1,5 +1,9 @@
+mod collocation;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use collocation::{Collocation, Objective, Shape};
 
 /// Which planner answers, and its options. An option that is absent takes the planner's own default, in most cases the
 /// value of its paper (`harness list` shows the planners).
@@ -36,6 +40,9 @@ pub struct PlannerSettings {
     /// When the sequence has converged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
+    /// Options of planners by collocation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub collocation: Option<Collocation>,
 }
 
 /// Transcription of the equations of motion.

@@ -1,7 +1,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{FleetRules, Models, PlannerSettings, Simulation, Vehicle, VerdictLimits, World};
+use crate::{
+    AppliedLimits, Family, FleetRules, Model, Models, PlannerSettings, Simulation, Vehicle, VerdictLimits, World,
+    fixed_wing, slung_load,
+};
 
 /// One scenario: everything a planner, the simulator and the judge need to know. One TOML file holds one scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,9 +20,9 @@ pub struct Scenario {
     pub tags: Vec<String>,
     /// The map and what stands on it.
     pub world: World,
-    /// Vehicle models: dynamics and limits, by kind and name.
+    /// Vehicle models: dynamics and limits, by family and name.
     pub models: Models,
-    /// The vehicles: which model, from where, to where.
+    /// The vehicles: which model, from where, to where. All are of one family.
     pub vehicles: Vec<Vehicle>,
     /// What the vehicles owe to each other.
     #[serde(default)]
@@ -35,9 +38,29 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// The family of its vehicles: validation has seen to it that all are of one.
+    pub fn family(&self) -> Family {
+        self.model(&self.vehicles[0]).family()
+    }
+
+    /// The model of a vehicle. Panics if there is none: validation has seen to that.
+    pub fn model(&self, vehicle: &Vehicle) -> Model<'_> {
+        self.models.get(&vehicle.model).unwrap_or_else(|| panic!("there is no model `{}`", vehicle.model))
+    }
+
     /// The fixed-wing model of a vehicle. Panics if there is none: validation has seen to that.
-    pub fn fixed_wing_model(&self, vehicle: &Vehicle) -> &crate::fixed_wing::Model {
+    pub fn fixed_wing_model(&self, vehicle: &Vehicle) -> &fixed_wing::Model {
         &self.models.fixed_wing[&vehicle.model]
+    }
+
+    /// The model of a quadrotor with a slung load. Panics if there is none: validation has seen to that.
+    pub fn slung_load_model(&self, vehicle: &Vehicle) -> &slung_load::Model {
+        &self.models.slung_load[&vehicle.model]
+    }
+
+    /// The limits that the verdict applies: those of the file, and for those that it leaves out the family's.
+    pub fn limits(&self) -> AppliedLimits {
+        self.verdict.applied_to(self.family())
     }
 }
 

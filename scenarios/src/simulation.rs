@@ -65,6 +65,21 @@ pub struct Wind {
     /// Continuous gusts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gusts: Option<Gusts>,
+    /// Single gusts at given times.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pulses: Vec<GustPulse>,
+}
+
+/// A single gust of the 1-cosine form (after MIL-F-8785C, 3.7.1.3), from rest to its peak and back to rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GustPulse {
+    /// When it begins, s.
+    pub start_s: f64,
+    /// How long it lasts, s, > 0.
+    pub duration_s: f64,
+    /// Velocity of the air at its peak, on top of everything else, world frame, m/s.
+    pub peak_mps: [f64; 3],
 }
 
 /// Dryden gusts (MIL-F-8785C): the low-altitude form below 1000 ft, interpolated between 1000 ft and 2000 ft.
@@ -86,6 +101,14 @@ pub struct Sensors {
     pub position_noise_m: f64,
     /// Velocity over ground, m/s.
     pub velocity_noise_mps: f64,
+    /// Attitude of a quadrotor, about each body axis, deg.
+    pub attitude_noise_deg: f64,
+    /// Angular velocity of a quadrotor in body axes, deg/s.
+    pub rate_noise_degps: f64,
+    /// Position of a slung load, m.
+    pub load_position_noise_m: f64,
+    /// Velocity of a slung load, m/s.
+    pub load_velocity_noise_mps: f64,
 }
 
 /// Difference between the model that plans and the vehicle that flies.
@@ -94,10 +117,12 @@ pub struct Sensors {
 pub struct Mismatch {
     /// True mass over nominal mass, -. Forces stay those of the nominal mass.
     pub mass_ratio: f64,
+    /// True mass of a slung load over its nominal mass, -.
+    pub load_mass_ratio: f64,
 }
 
 impl Default for Mismatch {
     fn default() -> Self {
-        Self { mass_ratio: 1.0 }
+        Self { mass_ratio: 1.0, load_mass_ratio: 1.0 }
     }
 }

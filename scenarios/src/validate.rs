@@ -1,5 +1,6 @@
 //! Does a scenario hold together? Every rule is a pure function from a part of the scenario to problems.
 
+mod family;
 mod fleet;
 mod identifier;
 mod model;
@@ -22,6 +23,7 @@ pub fn validate(scenario: &Scenario) -> Vec<Problem> {
     problems.extend(world::problems(&scenario.world));
     problems.extend(model::problems(&scenario.models));
     problems.extend(vehicle::problems(scenario));
+    problems.extend(family::problems(scenario));
     problems.extend(fleet::problems(scenario));
     problems.extend(planner::problems(&scenario.planner));
     problems.extend(simulation::problems(&scenario.simulation));

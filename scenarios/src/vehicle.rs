@@ -1,18 +1,7 @@
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::fixed_wing;
-
-/// Vehicle models by kind, then by name: `[models.fixed-wing.NAME]`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Models {
-    /// Fixed-wing point-mass models.
-    #[serde(default, rename = "fixed-wing")]
-    pub fixed_wing: BTreeMap<String, fixed_wing::Model>,
-}
 
 /// One vehicle of the fleet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,7 +17,7 @@ pub struct Vehicle {
     pub goal: Waypoint,
 }
 
-/// A position and a velocity, the velocity in polar form.
+/// A position and a velocity, the velocity in polar form; of a vehicle with a load also where the load is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Waypoint {
@@ -38,7 +27,8 @@ pub struct Waypoint {
     pub y_m: f64,
     /// Up, m.
     pub z_m: f64,
-    /// Speed, m/s.
+    /// Speed, m/s. A fixed wing has one; a vehicle that can hover rests unless it is given.
+    #[serde(default)]
     pub speed_mps: f64,
     /// Direction of the horizontal velocity, counterclockwise from x (east), deg.
     #[serde(default)]
@@ -46,9 +36,29 @@ pub struct Waypoint {
     /// Climb angle of the velocity above the horizontal, deg.
     #[serde(default)]
     pub flight_path_deg: f64,
+    /// Where a slung load is, moving with the vehicle's velocity. Absent: it hangs straight down on a taut cable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<LoadPoint>,
+}
+
+/// Where a load is: its centre in the world frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadPoint {
+    /// East, m.
+    pub x_m: f64,
+    /// North, m.
+    pub y_m: f64,
+    /// Up, m.
+    pub z_m: f64,
 }
 
 impl Waypoint {
+    /// At rest at this position, m, a load hanging straight down if there is one.
+    pub fn at_rest([x_m, y_m, z_m]: [f64; 3]) -> Self {
+        Self { x_m, y_m, z_m, speed_mps: 0.0, heading_deg: 0.0, flight_path_deg: 0.0, load: None }
+    }
+
     /// The waypoint as a fixed-wing state.
     pub fn fixed_wing_state(&self) -> fixed_wing::State {
         fixed_wing::State {
@@ -61,6 +71,18 @@ impl Waypoint {
         }
     }
 
+    /// Position in the world frame, m.
+    pub fn position_m(&self) -> [f64; 3] {
+        [self.x_m, self.y_m, self.z_m]
+    }
+
+    /// Velocity in the world frame, m/s.
+    pub fn velocity_mps(&self) -> [f64; 3] {
+        self.fixed_wing_state().velocity_mps()
+    }
+}
+
+impl LoadPoint {
     /// Position in the world frame, m.
     pub fn position_m(&self) -> [f64; 3] {
         [self.x_m, self.y_m, self.z_m]

@@ -3,6 +3,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+mod prism;
+
+pub use prism::{Block, Prism};
+
 /// The map and the obstacles on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -12,6 +16,35 @@ pub struct World {
     /// Vertical cylinders without top or bottom: keep-out zones in the plane (threats, pillars).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cylinders: Vec<Cylinder>,
+    /// Upright boxes, turned about the vertical.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub boxes: Vec<Block>,
+    /// Upright prisms over convex polygons.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub prisms: Vec<Prism>,
+    /// Height of the level ground on which a load may lie, m. Absent: there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground_m: Option<f64>,
+}
+
+impl World {
+    /// A map with nothing on it.
+    pub fn empty(map: Map) -> Self {
+        Self { map, cylinders: Vec::new(), boxes: Vec::new(), prisms: Vec::new(), ground_m: None }
+    }
+
+    /// Everything with flat faces as prisms: the boxes, then the prisms, each with its corners counterclockwise.
+    pub fn flat_obstacles(&self) -> Vec<Prism> {
+        let prisms = self.prisms.iter().map(Prism::counterclockwise);
+        self.boxes.iter().map(Block::as_prism).chain(prisms).collect()
+    }
+
+    /// The names of all obstacles: cylinders, boxes, prisms.
+    pub fn obstacle_names(&self) -> impl Iterator<Item = &str> {
+        let cylinders = self.cylinders.iter().map(|cylinder| cylinder.name.as_str());
+        let boxes = self.boxes.iter().map(|block| block.name.as_str());
+        cylinders.chain(boxes).chain(self.prisms.iter().map(|prism| prism.name.as_str()))
+    }
 }
 
 /// An axis-aligned box in the world frame.

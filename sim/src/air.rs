@@ -5,6 +5,7 @@ mod turbulence;
 
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
+use scenarios::GustPulse;
 
 use turbulence::Turbulence;
 
@@ -13,6 +14,8 @@ use turbulence::Turbulence;
 pub(crate) struct Air {
     mean_mps: Vector3<f64>,
     turbulence: Option<Turbulence>,
+    pulses: Vec<GustPulse>,
+    t_s: f64,
 }
 
 impl Air {
@@ -21,20 +24,25 @@ impl Air {
         Self {
             mean_mps: settings.map_or_else(Vector3::zeros, |wind| wind.mean_mps.into()),
             turbulence: settings.and_then(|wind| wind.gusts.as_ref()).map(|gusts| Turbulence::new(gusts, rng)),
+            pulses: settings.map_or_else(Vec::new, |wind| wind.pulses.clone()),
+            t_s: 0.0,
         }
     }
 
     /// Velocity of the air now, world frame, m/s, around a vehicle at an altitude (m above z = 0) with a velocity over
     /// ground (m/s).
     pub fn velocity_mps(&self, altitude_m: f64, vehicle_mps: &Vector3<f64>) -> Vector3<f64> {
+        let pulses = self.pulses.iter().map(|pulse| pulse_mps(pulse, self.t_s));
+        let ordered = pulses.fold(self.mean_mps, |sum, pulse| sum + pulse);
         match &self.turbulence {
-            Some(turbulence) => self.mean_mps + self.along(vehicle_mps) * turbulence.gust_mps(altitude_m),
-            None => self.mean_mps,
+            Some(turbulence) => ordered + self.along(vehicle_mps) * turbulence.gust_mps(altitude_m),
+            None => ordered,
         }
     }
 
     /// Lets `step_s` pass for a vehicle that flies through the air at an airspeed, m/s.
     pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) {
+        self.t_s += step_s;
         if let Some(turbulence) = &mut self.turbulence {
             turbulence.advance(step_s, altitude_m, airspeed_mps);
         }
@@ -48,4 +56,11 @@ impl Air {
         let u = horizontal.try_normalize(1e-9).unwrap_or_else(Vector3::x);
         nalgebra::Matrix3::from_columns(&[u, Vector3::new(-u.y, u.x, 0.0), Vector3::z()])
     }
+}
+
+/// Velocity of the air in a single gust at `t_s`, m/s: half its peak times 1 - cos.
+fn pulse_mps(pulse: &GustPulse, t_s: f64) -> Vector3<f64> {
+    let share = (t_s - pulse.start_s) / pulse.duration_s;
+    let height = if (0.0..=1.0).contains(&share) { 0.5 * (1.0 - (std::f64::consts::TAU * share).cos()) } else { 0.0 };
+    Vector3::from(pulse.peak_mps) * height
 }

@@ -4,14 +4,18 @@
 //! are the same motion, but share no formula, so that an error in one is not repeated in the other.
 
 mod air_path;
+mod aircraft;
 mod attitude;
+mod fleet;
 mod flow;
 mod plant;
 mod quintic;
 mod reference;
+mod tracker;
 
 pub use air_path::{AirPath, acceleration_mps2, gravity_mps2};
 pub use attitude::world_from_body;
+pub(crate) use fleet::fly;
 pub use flow::{Knot, flow, rollout};
-pub(crate) use plant::mid_step_force_n;
+use plant::mid_step_force_n;
 pub use reference::{Reference, ReferencePoint};

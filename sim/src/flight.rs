@@ -1,6 +1,6 @@
 //! The flight log: what the simulated vehicles did, as far as anybody may ask afterwards.
 
-use scenarios::fixed_wing::Control;
+use scenarios::{fixed_wing, slung_load};
 
 /// A simulated flight of the whole fleet. Positions and velocities in the world frame (ENU).
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub struct VehicleLog {
     pub vehicle: String,
     /// From time 0 to the end of the simulation, or to its crash.
     pub samples: Vec<Sample>,
+    /// Its load at the same instants; empty if it carries none.
+    pub loads: Vec<LoadSample>,
 }
 
 /// One vehicle at one instant.
@@ -47,10 +49,45 @@ pub struct Sample {
     pub reference_position_m: [f64; 3],
     /// Velocity that the plan asks for, m/s.
     pub reference_velocity_mps: [f64; 3],
-    /// Load factors that the tracker asked for.
-    pub command: Control,
-    /// Load factors that acted, inside the vehicle's limits.
-    pub control: Control,
+    /// What steered it.
+    pub actuation: Actuation,
+}
+
+/// Controls of one instant, those of the vehicle's family.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Actuation {
+    /// Load factors of a fixed wing.
+    LoadFactors(Commanded<fixed_wing::Control>),
+    /// Rotor thrusts of a quadrotor.
+    Thrusts(Commanded<slung_load::Control>),
+}
+
+/// What was asked for, and what was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Commanded<C> {
+    /// What the tracker asked for.
+    pub command: C,
+    /// What acted, inside the vehicle's limits.
+    pub control: C,
+}
+
+/// A slung load at one instant. World frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadSample {
+    /// True position, m.
+    pub position_m: [f64; 3],
+    /// True velocity, m/s.
+    pub velocity_mps: [f64; 3],
+    /// Position as the tracker measured it, m.
+    pub measured_position_m: [f64; 3],
+    /// Velocity as the tracker measured it, m/s.
+    pub measured_velocity_mps: [f64; 3],
+    /// Position that the plan asks for, m.
+    pub reference_position_m: [f64; 3],
+    /// Tension of the cable over the step that ends here, N: the impulse that it gave, by the step's length.
+    pub tension_n: f64,
+    /// What the cable does.
+    pub cable: slung_load::Cable,
 }
 
 impl Sample {
@@ -61,7 +98,53 @@ impl Sample {
 
     /// Was the tracker's command cut off at a limit?
     pub fn is_saturated(&self) -> bool {
-        self.command != self.control
+        match self.actuation {
+            Actuation::LoadFactors(Commanded { command, control }) => command != control,
+            Actuation::Thrusts(Commanded { command, control }) => command != control,
+        }
+    }
+
+    /// Every number in it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let vectors = [
+            self.position_m,
+            self.velocity_mps,
+            self.wind_mps,
+            self.measured_position_m,
+            self.measured_velocity_mps,
+            self.reference_position_m,
+            self.reference_velocity_mps,
+        ];
+        let controls: Vec<f64> = match self.actuation {
+            Actuation::LoadFactors(Commanded { command, control }) => {
+                [command, control].map(|it| it.to_array()).concat()
+            }
+            Actuation::Thrusts(Commanded { command, control }) => [command.thrust_n, control.thrust_n].concat(),
+        };
+        let others = self.world_from_body.into_iter().chain([self.t_s]);
+        vectors.into_iter().flatten().chain(controls).chain(others)
+    }
+
+    /// Load factors asked for and given. Panics for a vehicle that is not a fixed wing.
+    pub fn load_factors(&self) -> &Commanded<fixed_wing::Control> {
+        match &self.actuation {
+            Actuation::LoadFactors(factors) => factors,
+            Actuation::Thrusts(_) => panic!("the sample is not that of a fixed wing"),
+        }
+    }
+}
+
+impl LoadSample {
+    /// Every number in it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let vectors = [
+            self.position_m,
+            self.velocity_mps,
+            self.measured_position_m,
+            self.measured_velocity_mps,
+            self.reference_position_m,
+        ];
+        vectors.into_iter().flatten().chain([self.tension_n])
     }
 }
 
@@ -88,4 +171,11 @@ pub enum EventKind {
     SaturationBegan,
     /// A vehicle's command is inside its limits again.
     SaturationEnded,
+    /// A slack cable became taut, with this impulse.
+    CableTaut {
+        /// Impulse of the impact, N s.
+        impulse_ns: f64,
+    },
+    /// A taut cable became slack.
+    CableSlack,
 }

@@ -1,5 +1,7 @@
 //! The only place that knows rapier: bodies, gravity, obstacles, and who touched whom when.
 
+mod hoist;
+
 use nalgebra::Vector3;
 use rapier3d_f64::prelude::{
     ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
@@ -8,6 +10,8 @@ use scenarios::{Cylinder, Map};
 
 use crate::fixed_wing::gravity_mps2;
 use crate::touch::{first_touch, horizontal};
+
+pub(crate) use hoist::{Hoist, Loads};
 
 /// Rapier cuts off faster bodies. It also bounds how far a body moves in a step.
 const MAX_SPEED_MPS: f64 = 1000.0;

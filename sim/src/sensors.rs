@@ -1,6 +1,8 @@
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+
+use crate::slung_load::Body;
 
 /// What the sensors say of position (m) and velocity over ground (m/s), world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,22 +14,35 @@ pub(crate) struct Measurement {
 /// Sensors with white Gaussian noise, independent on every axis and at every step.
 #[derive(Clone, Debug)]
 pub(crate) struct Sensors {
-    position_noise_m: f64,
-    velocity_noise_mps: f64,
+    settings: scenarios::Sensors,
     rng: ChaCha8Rng,
 }
 
 impl Sensors {
     pub fn new(settings: &scenarios::Sensors, rng: ChaCha8Rng) -> Self {
-        let scenarios::Sensors { position_noise_m, velocity_noise_mps } = *settings;
-        Self { position_noise_m, velocity_noise_mps, rng }
+        Self { settings: settings.clone(), rng }
     }
 
     /// One measurement. What has no noise draws no random number.
     pub fn measure(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
         Measurement {
-            position_m: self.disturbed(position_m, self.position_noise_m),
-            velocity_mps: self.disturbed(velocity_mps, self.velocity_noise_mps),
+            position_m: self.disturbed(position_m, self.settings.position_noise_m),
+            velocity_mps: self.disturbed(velocity_mps, self.settings.velocity_noise_mps),
+        }
+    }
+
+    /// One measurement of a quadrotor and its load.
+    pub fn measure_slung_load(&mut self, truth: &Body) -> Body {
+        let scenarios::Sensors { attitude_noise_deg, rate_noise_degps, .. } = self.settings;
+        let Measurement { position_m, velocity_mps } = self.measure(truth.position_m, truth.velocity_mps);
+        let turn = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
+        Body {
+            position_m,
+            velocity_mps,
+            attitude: truth.attitude * UnitQuaternion::from_scaled_axis(turn),
+            body_rate_radps: self.disturbed(truth.body_rate_radps, rate_noise_degps.to_radians()),
+            load_position_m: self.disturbed(truth.load_position_m, self.settings.load_position_noise_m),
+            load_velocity_mps: self.disturbed(truth.load_velocity_mps, self.settings.load_velocity_noise_mps),
         }
     }
 
@@ -48,7 +63,7 @@ mod tests {
 
     #[test]
     fn noise_has_the_standard_deviation_of_the_settings() {
-        let settings = scenarios::Sensors { position_noise_m: 2.0, velocity_noise_mps: 0.1 };
+        let settings = scenarios::Sensors { position_noise_m: 2.0, velocity_noise_mps: 0.1, ..Default::default() };
         let mut sensors = Sensors::new(&settings, scenarios::stream(3, "sensors/test"));
         let draws = 100_000;
         let (mut position, mut velocity, mut cross) = (Vector3::zeros(), Vector3::zeros(), 0.0);

@@ -101,8 +101,11 @@ fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + S
 /// different results of one scenario can be open side by side.
 fn recording_id(run: &Run<'_>) -> String {
     let mut hasher = DefaultHasher::new();
-    let planned =
-        run.plan.trajectories.iter().flat_map(|trajectory| &trajectory.states).map(|state| state.position_m());
+    let planned = run
+        .plan
+        .trajectories
+        .iter()
+        .flat_map(|trajectory| (0..trajectory.node_count()).map(|node| trajectory.nodes().position_m(node)));
     let logs = run.flight.iter().flat_map(|flight| &flight.vehicles);
     let flown = logs.flat_map(|log| &log.samples).map(|sample| sample.position_m);
     planned.chain(flown).flatten().for_each(|coordinate| coordinate.to_bits().hash(&mut hasher));

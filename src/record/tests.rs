@@ -35,7 +35,7 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
         name: "nothing".to_owned(),
         description: String::new(),
         tags: Vec::new(),
-        world: World { map: Map { x_m: axis, y_m: axis, z_m: axis }, cylinders: Vec::new() },
+        world: World::empty(Map { x_m: axis, y_m: axis, z_m: axis }),
         models: Models::default(),
         vehicles: Vec::new(),
         fleet: FleetRules::default(),

@@ -17,7 +17,8 @@ pub fn check_node_goals(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check 
     goal_answer(Group::Nodes, scenario, plan, |plan| {
         let last = |index: usize| {
             let trajectory = &plan.trajectories[index];
-            Some((trajectory.states.last()?.position_m(), trajectory.times_s.last().copied()?))
+            let last = trajectory.times_s().len().checked_sub(1)?;
+            Some((trajectory.nodes().position_m(last), trajectory.times_s()[last]))
         };
         farthest_end(scenario, last)
     })
@@ -47,9 +48,10 @@ pub fn check_flown_goals(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) ->
 /// Difference between the earliest and the latest end of a trajectory.
 pub fn check_planned_arrival(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
     arrival_answer(Group::Plan, scenario, plan, |plan| {
-        let ends = plan.trajectories.iter().map(|trajectory| {
-            trajectory.times_s.last().map(|&end_s| (end_s, trajectory.vehicle.as_str())).ok_or_else(String::new)
-        });
+        let ends = plan
+            .trajectories
+            .iter()
+            .map(|trajectory| trajectory.end_s().map(|end_s| (end_s, trajectory.vehicle())).ok_or_else(String::new));
         spread(ends)
     })
 }
@@ -98,7 +100,7 @@ fn goal_answer<T: ?Sized>(
     match evidence.map(measure) {
         Err(reason) => question.fail(reason),
         Ok(Err(reason)) => question.fail(reason),
-        Ok(Ok(measured)) => question.at_most(measured, scenario.verdict.goal_m),
+        Ok(Ok(measured)) => question.at_most(measured, scenario.limits().goal_m),
     }
 }
 
@@ -115,7 +117,7 @@ fn arrival_answer<T: ?Sized>(
     match evidence.map(measure) {
         Err(reason) => question.fail(reason),
         Ok(Err(reason)) => question.fail(reason),
-        Ok(Ok(measured)) => question.at_most(measured, scenario.verdict.arrival_spread_s),
+        Ok(Ok(measured)) => question.at_most(measured, scenario.limits().arrival_spread_s),
     }
 }
 

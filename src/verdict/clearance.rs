@@ -46,9 +46,10 @@ fn answer<T: ?Sized>(
 pub fn at_nodes(world: &World, plan: &Plan) -> Option<Approach> {
     let mut nearest: Option<Approach> = None;
     for (i, trajectory) in plan.trajectories.iter().enumerate() {
-        for (state, &at_s) in trajectory.states.iter().zip(&trajectory.times_s) {
+        for (node, &at_s) in trajectory.times_s().iter().enumerate() {
+            let [x_m, y_m, _] = trajectory.nodes().position_m(node);
             for (m, cylinder) in world.cylinders.iter().enumerate() {
-                let distance_m = cylinder.signed_distance_m(state.x_m, state.y_m);
+                let distance_m = cylinder.signed_distance_m(x_m, y_m);
                 if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
                     nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, m] });
                 }

@@ -19,17 +19,18 @@ pub fn check_defects(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Pla
         Ok(planned) => planned,
     };
     let defects = plan.trajectories.iter().zip(&planned.ends).flat_map(|(trajectory, ends)| {
+        let (nodes, times_s) = (trajectory.nodes(), trajectory.times_s());
         ends.iter().enumerate().map(move |(interval, end)| {
             let node = interval + 1;
-            let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
-            let dt_s = t_s - trajectory.times_s[interval];
-            let position_m = distance(end.position_m, state.position_m());
-            let velocity_m = distance(end.velocity_mps, state.velocity_mps()) * dt_s;
+            let t_s = times_s[node];
+            let dt_s = t_s - times_s[interval];
+            let position_m = distance(end.position_m, nodes.position_m(node));
+            let velocity_m = distance(end.velocity_mps, nodes.velocity_mps(node)) * dt_s;
             let defect_m = if is_larger(velocity_m, position_m) { velocity_m } else { position_m };
-            (defect_m, t_s, trajectory.vehicle.as_str())
+            (defect_m, t_s, trajectory.vehicle())
         })
     });
-    largest(&question, defects, scenario.verdict.dynamics_m)
+    largest(&question, defects, scenario.limits().dynamics_m)
 }
 
 /// Largest distance between the last node and where the controls lead, open loop from the start, m.
@@ -40,10 +41,10 @@ pub fn check_rollout(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Pla
         Ok(planned) => planned,
     };
     let errors = plan.trajectories.iter().zip(&planned.open_loop_ends).filter_map(|(trajectory, end)| {
-        let last = trajectory.states.last()?;
-        Some((distance(end.position_m, last.position_m()), end.t_s, trajectory.vehicle.as_str()))
+        let last = trajectory.times_s().len().checked_sub(1)?;
+        Some((distance(end.position_m, trajectory.nodes().position_m(last)), end.t_s, trajectory.vehicle()))
     });
-    largest(&question, errors, scenario.verdict.rollout_m)
+    largest(&question, errors, scenario.limits().rollout_m)
 }
 
 fn largest<'a>(question: &Question, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> Check {

@@ -1,7 +1,7 @@
 //! Is the flight log whole, is everything in it a number, and did nobody crash?
 
-use scenarios::{Plan, Scenario, Vehicle};
-use sim::{EventKind, Flight, Sample, VehicleLog};
+use scenarios::{Plan, Scenario, Trajectory, Vehicle};
+use sim::{EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
@@ -17,7 +17,9 @@ pub fn check_finite(flight: &Flight) -> Check {
     let mut count = times.filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
-        let here: usize = log.samples.iter().map(count_not_finite).sum();
+        let numbers =
+            log.samples.iter().flat_map(Sample::numbers).chain(log.loads.iter().flat_map(LoadSample::numbers));
+        let here = numbers.filter(|value| !value.is_finite()).count();
         if here > 0 {
             odd.push(log.vehicle.as_str());
         }
@@ -33,7 +35,7 @@ pub fn check_finite(flight: &Flight) -> Check {
 /// - `plan`: one that is flyable
 pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let of_vehicle = |(index, vehicle): (usize, &Vehicle)| {
-        let planned_end_s = plan.trajectories.get(index).and_then(|trajectory| trajectory.times_s.last().copied());
+        let planned_end_s = plan.trajectories.get(index).and_then(Trajectory::end_s);
         let defect = match flight.vehicles.get(index) {
             None => Some("there is no log".to_owned()),
             Some(log) => log_defect(scenario, vehicle, planned_end_s.unwrap_or(f64::NAN), log),
@@ -51,7 +53,10 @@ pub fn check_crash(flight: &Flight) -> Check {
     let question = Question::new(Group::Flight, "crash", "crashes");
     let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
-        EventKind::SaturationBegan | EventKind::SaturationEnded => None,
+        EventKind::SaturationBegan
+        | EventKind::SaturationEnded
+        | EventKind::CableTaut { .. }
+        | EventKind::CableSlack => None,
     });
     let Some((t_s, concerned)) = crashes.next() else { return question.at_most(Measured::value(0.0), 0.0) };
     let count = 1 + crashes.count();
@@ -80,21 +85,5 @@ fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &
     if exceeds(planned_end_s, last.t_s + step_s) {
         return Some(format!("the log ends at {:.3} s, before the plan, which ends at {planned_end_s:.3} s", last.t_s));
     }
-    start_defect("m", first.position_m, vehicle.start.position_m(), scenario.verdict.tracking_max_m)
-}
-
-fn count_not_finite(sample: &Sample) -> usize {
-    let vectors = [
-        sample.position_m,
-        sample.velocity_mps,
-        sample.wind_mps,
-        sample.measured_position_m,
-        sample.measured_velocity_mps,
-        sample.reference_position_m,
-        sample.reference_velocity_mps,
-        sample.command.to_array(),
-        sample.control.to_array(),
-    ];
-    let numbers = vectors.as_flattened().iter().chain(&sample.world_from_body).chain([&sample.t_s]);
-    numbers.filter(|value| !value.is_finite()).count()
+    start_defect("m", first.position_m, vehicle.start.position_m(), scenario.limits().tracking_max_m)
 }

@@ -71,19 +71,29 @@ fn part_that_counts<'a>(
         return Err(format!("the log of {} stands where that of {} belongs", log.vehicle, vehicle.name));
     }
     let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?;
-    let planned_end_s = trajectory.times_s.last().copied().unwrap_or(0.0);
+    let planned_end_s = trajectory.end_s().unwrap_or(0.0);
     let window_s = planned_end_s - ARRIVAL_WINDOW_S;
     let mut flown = FlownVehicle {
         name: &vehicle.name,
         judged: &log.samples,
         tracked: until(&log.samples, planned_end_s),
         log_end_s: motion.end_s(),
-        approach: closest::to_point(&motion, window_s, vehicle.goal.position_m()),
+        approach: match trajectory {
+            Trajectory::FixedWing(_) => closest::to_point(&motion, window_s, vehicle.goal.position_m()),
+            Trajectory::SlungLoad(_) => hovering(&motion, planned_end_s, vehicle.goal.position_m()),
+        },
     };
     let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(planned_end_s);
     motion.end_at(judged_end_s);
     flown.judged = until(&log.samples, judged_end_s);
     Ok((motion, flown))
+}
+
+/// A vehicle that hovers at its goal has arrived when its plan ends; `None` if the log ends before.
+fn hovering(motion: &Motion, planned_end_s: f64, goal_m: [f64; 3]) -> Option<Approach> {
+    let position_m = motion.position_m(planned_end_s)?;
+    let distance_m = (0..3).map(|axis| (position_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
+    Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s: planned_end_s, who: [0, 0] })
 }
 
 /// The samples up to the first one at or beyond `t_s`.

@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use scenarios::slung_load::{Model, State};
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
@@ -23,8 +24,12 @@ pub fn is_flyable(scenario: &Scenario, plan: &Plan) -> Result<(), String> {
     if let Some(defect) = trajectory_defects(scenario, plan).into_iter().next() {
         return Err(defect);
     }
-    match plan.trajectories.iter().find(|trajectory| trajectory_numbers(trajectory).any(|value| !value.is_finite())) {
-        Some(trajectory) => Err(format!("{}: the trajectory holds a number that is not finite", trajectory.vehicle)),
+    match plan
+        .trajectories
+        .iter()
+        .find(|trajectory| trajectory.nodes().numbers().iter().any(|value| !value.is_finite()))
+    {
+        Some(trajectory) => Err(format!("{}: the trajectory holds a number that is not finite", trajectory.vehicle())),
         None => Ok(()),
     }
 }
@@ -38,9 +43,9 @@ pub fn check_plan_finite(plan: &Plan) -> Check {
     let mut count = plan_numbers(plan).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for trajectory in &plan.trajectories {
-        let here = trajectory_numbers(trajectory).filter(|value| !value.is_finite()).count();
+        let here = trajectory.nodes().numbers().iter().filter(|value| !value.is_finite()).count();
         if here > 0 {
-            odd.push(trajectory.vehicle.as_str());
+            odd.push(trajectory.vehicle());
         }
         count += here;
     }
@@ -67,39 +72,69 @@ pub fn none_of(question: &Question, count: usize, between: &[&str], reason: Opti
 fn trajectory_defects(scenario: &Scenario, plan: &Plan) -> Vec<String> {
     let of_vehicle = |(index, vehicle): (usize, &Vehicle)| match plan.trajectories.get(index) {
         None => Some(format!("{}: there is no trajectory", vehicle.name)),
-        Some(trajectory) => trajectory_defect(vehicle, trajectory).map(|defect| format!("{}: {defect}", vehicle.name)),
+        Some(trajectory) => {
+            trajectory_defect(scenario, vehicle, trajectory).map(|defect| format!("{}: {defect}", vehicle.name))
+        }
     };
     let surplus = plan.trajectories.iter().skip(scenario.vehicles.len());
-    let no_vehicle = surplus.map(|trajectory| format!("{}: no such vehicle, or twice", trajectory.vehicle));
+    let no_vehicle = surplus.map(|trajectory| format!("{}: no such vehicle, or twice", trajectory.vehicle()));
     scenario.vehicles.iter().enumerate().filter_map(of_vehicle).chain(no_vehicle).collect()
 }
 
-fn trajectory_defect(vehicle: &Vehicle, trajectory: &Trajectory) -> Option<String> {
-    let Trajectory { vehicle: name, times_s, states, controls, .. } = trajectory;
-    if *name != vehicle.name {
-        return Some(format!("the trajectory of {name} stands in its place"));
+fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory) -> Option<String> {
+    let (nodes, times_s) = (trajectory.nodes(), trajectory.times_s());
+    if trajectory.vehicle() != vehicle.name {
+        return Some(format!("the trajectory of {} stands in its place", trajectory.vehicle()));
     }
-    if times_s.len() != states.len() || times_s.len() != controls.len() {
-        let (times, states, controls) = (times_s.len(), states.len(), controls.len());
-        return Some(format!("{times} times, {states} states and {controls} controls, which should be as many"));
+    if trajectory.family() != scenario.family() {
+        return Some(format!(
+            "a trajectory of a {}, where the vehicle is a {}",
+            trajectory.family(),
+            scenario.family()
+        ));
+    }
+    if nodes.counts().iter().any(|(_, count)| *count != times_s.len()) {
+        let counts = nodes.counts().iter().map(|(what, count)| format!("{count} {what}")).collect::<Vec<_>>();
+        let counted = counts.join(" and ");
+        return Some(format!("{} times, {counted}, which should be as many", times_s.len()));
     }
     if times_s.len() < 2 {
         return Some(format!("{} nodes, at least 2 are needed", times_s.len()));
     }
-    time_defect(times_s).or_else(|| {
-        let start = vehicle.start.fixed_wing_state();
-        let first = &states[0];
-        start_defect("m", first.position_m(), start.position_m(), START_TOLERANCE)
-            .or_else(|| start_defect("m/s", first.velocity_mps(), start.velocity_mps(), START_TOLERANCE))
+    time_defect(trajectory).or_else(|| {
+        let load = match trajectory {
+            Trajectory::FixedWing(_) => None,
+            Trajectory::SlungLoad(trajectory) => {
+                load_defect(scenario.slung_load_model(vehicle), vehicle, &trajectory.states[0])
+            }
+        };
+        start_defect("m", nodes.position_m(0), vehicle.start.position_m(), START_TOLERANCE)
+            .or_else(|| start_defect("m/s", nodes.velocity_mps(0), vehicle.start.velocity_mps(), START_TOLERANCE))
+            .or(load)
     })
 }
 
-/// Do the times start at 0 and increase?
-fn time_defect(times_s: &[f64]) -> Option<String> {
+/// Does a quadrotor begin level, not turning, and with its load where it is?
+fn load_defect(model: &Model, vehicle: &Vehicle, first: &State) -> Option<String> {
+    let start = State::at(&vehicle.start, model.cable_length_m);
+    start_defect("m (the load)", first.load_position_m, start.load_position_m, START_TOLERANCE)
+        .or_else(|| start_defect("m/s (the load)", first.load_velocity_mps, start.load_velocity_mps, START_TOLERANCE))
+        .or_else(|| start_defect("rad", first.roll_pitch_yaw_rad, start.roll_pitch_yaw_rad, START_TOLERANCE))
+        .or_else(|| start_defect("rad/s", first.body_rate_radps, start.body_rate_radps, START_TOLERANCE))
+}
+
+/// Do the times start at 0 and increase? (Or stand still, where a jump is in order.)
+fn time_defect(trajectory: &Trajectory) -> Option<String> {
+    let times_s = trajectory.times_s();
     if exceeds(times_s[0].abs(), TIME_TOLERANCE_S) {
         return Some(format!("the first time is {} s, which should be 0 s", times_s[0]));
     }
-    let pair = times_s.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less))?;
+    let is_in_order = |pair: &&[f64]| match pair[0].partial_cmp(&pair[1]) {
+        Some(Ordering::Less) => true,
+        Some(Ordering::Equal) => trajectory.may_jump(),
+        _ => false,
+    };
+    let pair = times_s.windows(2).find(|pair| !is_in_order(pair))?;
     Some(format!("after the time {} s comes {} s", pair[0], pair[1]))
 }
 
@@ -107,12 +142,6 @@ fn time_defect(times_s: &[f64]) -> Option<String> {
 pub fn start_defect(unit: &str, first: [f64; 3], start: [f64; 3], tolerance: f64) -> Option<String> {
     let distance = (0..3).map(|axis| (first[axis] - start[axis]).powi(2)).sum::<f64>().sqrt();
     exceeds(distance, tolerance).then(|| format!("it begins {distance:.3} {unit} away from the vehicle's start"))
-}
-
-fn trajectory_numbers(trajectory: &Trajectory) -> impl Iterator<Item = f64> + '_ {
-    let states = trajectory.states.iter().flat_map(|state| state.to_array());
-    let controls = trajectory.controls.iter().flat_map(|control| control.to_array());
-    trajectory.times_s.iter().copied().chain(states).chain(controls)
 }
 
 /// The numbers that a plan says of itself.

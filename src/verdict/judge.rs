@@ -1,4 +1,4 @@
-use scenarios::{Plan, PlanStatus, Scenario};
+use scenarios::{Family, Plan, PlanStatus, Scenario};
 use sim::Flight;
 
 use crate::verdict::flown::Flown;
@@ -6,26 +6,24 @@ use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
     Check, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits, separation,
-    tracking,
+    slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
 ///
 /// - `flight`: `None` when the plan was not flown
 ///
-/// Every check of [`scenarios::CHECK_NAMES`] is answered, in that order. What does not apply to the scenario is skipped
+/// Every check of [`scenarios::check_names`] is answered, in that order. What does not apply to the scenario is skipped
 /// with the reason; what applies and cannot be measured, because something is missing, empty or not a number, fails
 /// with the reason. Nothing that a plan or a flight may hold makes it panic.
 pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdict {
     let flyable = integrity::is_flyable(scenario, plan);
-    let planned = flyable.clone().and_then(|()| Planned::new(scenario, plan));
     let logged = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
-    let flown = logged.clone().and_then(|flight| Flown::new(scenario, plan, flight));
-
-    let mut checks = nodes_checks(scenario, flyable.as_ref().map(|()| plan).map_err(String::as_str));
-    checks.extend(plan_checks(scenario, plan, flyable.as_ref().map_err(String::as_str), planned.as_ref()));
-    checks.extend(log_checks(scenario, plan, logged.as_ref().map(|flight| *flight).map_err(String::as_str)));
-    checks.extend(flight_checks(scenario, flown.as_ref().map_err(String::as_str)));
+    let logged = logged.as_ref().map(|flight| *flight).map_err(String::as_str);
+    let mut checks = match scenario.family() {
+        Family::FixedWing => of_fixed_wings(scenario, plan, &flyable, logged),
+        Family::SlungLoad => of_a_slung_load(scenario, plan, &flyable, logged),
+    };
 
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     settle(scenario, &mut checks);
@@ -37,6 +35,35 @@ pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdi
         Outcome::Pass
     };
     Verdict { outcome, overclaimed, checks }
+}
+
+fn of_fixed_wings(
+    scenario: &Scenario,
+    plan: &Plan,
+    flyable: &Result<(), String>,
+    logged: Evidence<'_, Flight>,
+) -> Vec<Check> {
+    let planned = flyable.clone().and_then(|()| Planned::new(scenario, plan));
+    let flown = logged.map_err(str::to_owned).and_then(|flight| Flown::new(scenario, plan, flight));
+    let mut checks = nodes_checks(scenario, flyable.as_ref().map(|()| plan).map_err(String::as_str));
+    checks.extend(plan_checks(scenario, plan, flyable.as_ref().map_err(String::as_str), planned.as_ref()));
+    checks.extend(log_checks(scenario, plan, logged));
+    checks.extend(flight_checks(scenario, flown.as_ref().map_err(String::as_str)));
+    checks
+}
+
+fn of_a_slung_load(
+    scenario: &Scenario,
+    plan: &Plan,
+    flyable: &Result<(), String>,
+    logged: Evidence<'_, Flight>,
+) -> Vec<Check> {
+    let judge = slung_load::Judge::new(scenario, plan, flyable.clone());
+    let mut checks = judge.nodes_checks();
+    checks.extend(judge.plan_checks());
+    checks.extend(log_checks(scenario, plan, logged));
+    checks.extend(judge.flight_checks(logged));
+    checks
 }
 
 fn nodes_checks(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Vec<Check> {

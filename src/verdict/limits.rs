@@ -20,7 +20,7 @@ use crate::verdict::worst::{Quantity, Worst};
 
 /// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
 /// The limit that the check reports includes it. The physical limits know no such mercy.
-const SOLVER_TOLERANCE: f64 = 1e-6;
+pub(super) const SOLVER_TOLERANCE: f64 = 1e-6;
 /// Distance between the bounds of an extreme position that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
 
@@ -28,6 +28,7 @@ const RESOLUTION_M: f64 = 1e-9;
 pub fn check_node_states(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
     state_answer(Group::Nodes, plan, |plan, worst| {
         for (limited, trajectory) in limited_vehicles(scenario, promised).zip(&plan.trajectories) {
+            let trajectory = trajectory.fixed_wing();
             for (state, &t_s) in trajectory.states.iter().zip(&trajectory.times_s) {
                 limited.place(worst, state.position_m(), t_s);
                 limited.velocity(worst, state.speed_mps, state.flight_path_rad.to_degrees(), t_s);
@@ -66,6 +67,7 @@ pub fn check_planned_controls(group: Group, scenario: &Scenario, plan: Evidence<
     let limits = if group == Group::Nodes { promised } else { physical };
     control_answer(group, plan, |plan, worst| {
         for (limited, trajectory) in limited_vehicles(scenario, limits).zip(&plan.trajectories) {
+            let trajectory = trajectory.fixed_wing();
             for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
                 limited.control(worst, control, t_s);
             }
@@ -78,7 +80,7 @@ pub fn check_flown_controls(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>)
     control_answer(Group::Flight, flown, |flown, worst| {
         for (limited, vehicle) in limited_vehicles(scenario, physical).zip(&flown.vehicles) {
             for sample in vehicle.judged {
-                limited.control(worst, &sample.control, sample.t_s);
+                limited.control(worst, &sample.load_factors().control, sample.t_s);
             }
         }
     })
@@ -92,7 +94,7 @@ fn control_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: 
     answer(group, "control_limits", evidence, look)
 }
 
-fn answer<'a, T: ?Sized>(
+pub(super) fn answer<'a, T: ?Sized>(
     group: Group,
     name: &'static str,
     evidence: Evidence<'_, T>,
@@ -195,7 +197,7 @@ impl<'a> Limited<'a> {
 }
 
 /// Lowest and highest value of one coordinate over continuous time, m, and when, s.
-fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
+pub(super) fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
     [1.0, -1.0].map(|sign| {
         let (mut lowest, mut at_s) = (f64::INFINITY, motion.knots()[0].t_s);
         for segment in motion.segments() {

@@ -1,6 +1,7 @@
 //! The plan as a continuous motion: its controls through the nonlinear equations, restarted at every node.
 
-use scenarios::{Plan, Scenario, Trajectory};
+use scenarios::fixed_wing::Trajectory;
+use scenarios::{Plan, Scenario};
 use sim::fixed_wing::{self, flow, rollout};
 
 use crate::verdict::compare::exceeds;
@@ -31,7 +32,7 @@ impl Planned {
             return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
         }
         let mut planned = Self { motions: Vec::new(), ends: Vec::new(), open_loop_ends: Vec::new() };
-        for trajectory in &plan.trajectories {
+        for trajectory in plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing) {
             let intervals: Vec<Vec<Knot>> =
                 (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
             planned.ends.push(intervals.iter().filter_map(|knots| knots.last().copied()).collect());

@@ -53,6 +53,11 @@ impl Measured {
         Self { lower: value, upper: value, at_s: None, between: Vec::new(), reason: None }
     }
 
+    /// A value known within bounds.
+    pub fn bounds(lower: f64, upper: f64) -> Self {
+        Self { lower, ..Self::value(upper) }
+    }
+
     /// A distance known within bounds, at its instant.
     pub fn approach(approach: &Approach) -> Self {
         Self { lower: approach.lower_m, upper: approach.upper_m, ..Self::value(approach.upper_m).at(approach.at_s) }

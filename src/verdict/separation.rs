@@ -54,10 +54,10 @@ pub fn at_nodes(plan: &Plan) -> Option<Approach> {
     let mut nearest: Option<Approach> = None;
     for (i, first) in plan.trajectories.iter().enumerate() {
         for (j, second) in plan.trajectories.iter().enumerate().skip(i + 1) {
-            for (node, (a, b)) in first.states.iter().zip(&second.states).enumerate() {
-                let distance_m = (a.x_m - b.x_m).hypot(a.y_m - b.y_m);
+            for (node, (&at_s, _)) in first.times_s().iter().zip(second.times_s()).enumerate() {
+                let [a, b] = [first, second].map(|trajectory| trajectory.nodes().position_m(node));
+                let distance_m = (a[0] - b[0]).hypot(a[1] - b[1]);
                 if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
-                    let at_s = first.times_s[node];
                     nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, j] });
                 }
             }
@@ -71,7 +71,7 @@ pub fn odd_node_time(plan: &Plan) -> Option<String> {
     let (first, others) = plan.trajectories.split_first()?;
     others.iter().find_map(|other| {
         let differs = |(a, b): (&f64, &f64)| exceeds((a - b).abs(), SAME_TIME_S);
-        let odd = first.times_s.iter().zip(&other.times_s).position(differs)?;
-        Some(format!("node {odd} of {} and of {} are at different times", first.vehicle, other.vehicle))
+        let odd = first.times_s().iter().zip(other.times_s()).position(differs)?;
+        Some(format!("node {odd} of {} and of {} are at different times", first.vehicle(), other.vehicle()))
     })
 }

@@ -15,19 +15,19 @@ use crate::verdict::question::{Evidence, Group, Measured, Question};
 /// Largest distance from the plan.
 pub fn check_largest(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
     let question = Question::new(Group::Flight, "tracking_max", "m");
-    answer(&question, flown, largest, scenario.verdict.tracking_max_m)
+    answer(&question, flown, largest, scenario.limits().tracking_max_m)
 }
 
 /// Largest root mean square of the distance from the plan.
 pub fn check_root_mean_square(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
     let question = Question::new(Group::Flight, "tracking_rms", "m");
-    answer(&question, flown, |samples| (root_mean_square(samples), None), scenario.verdict.tracking_rms_m)
+    answer(&question, flown, |samples| (root_mean_square(samples), None), scenario.limits().tracking_rms_m)
 }
 
 /// Largest share of the steps in which the command was cut off, in [0, 1].
 pub fn check_saturation(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
     let question = Question::new(Group::Flight, "saturation", "-");
-    answer(&question, flown, |samples| (saturation(samples), None), scenario.verdict.saturation)
+    answer(&question, flown, |samples| (saturation(samples), None), scenario.limits().saturation)
 }
 
 /// Largest distance from the plan, m, and when, s. NaN is larger than anything.

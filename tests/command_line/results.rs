@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use scenarios::{CHECK_NAMES, CSV_COLUMNS, Plan};
+use scenarios::fixed_wing::CSV_COLUMNS;
+use scenarios::{Family, Plan, check_names};
 use serde_json::Value;
 
 use crate::workplace::{PAIR, Workplace, code, stderr};
@@ -46,7 +47,7 @@ fn the_report_holds_every_check_with_the_fields_that_others_rely_on() {
     assert_eq!(report["verdict"], "pass");
     let checks = report["checks"].as_array().unwrap();
     let names: Vec<&str> = checks.iter().map(|check| check["name"].as_str().unwrap()).collect();
-    assert_eq!(names, CHECK_NAMES);
+    assert_eq!(names, check_names(Family::FixedWing).collect::<Vec<_>>());
     let separation = checks.iter().find(|check| check["name"] == "flight.separation").unwrap();
     assert_eq!((&separation["status"], &separation["unit"]), (&"pass".into(), &"m".into()));
     assert_eq!((&separation["limit"], &separation["between"]), (&100.0.into(), &serde_json::json!(["uav-1", "uav-2"])));
@@ -68,7 +69,7 @@ fn the_plan_is_there_in_both_forms_and_they_agree() {
     let csv = fs::read_to_string(workplace.path(FOLDER).join("plan.csv")).unwrap();
     let mut lines = csv.lines();
     assert_eq!(lines.next().unwrap(), CSV_COLUMNS.join(","));
-    for trajectory in &plan.trajectories {
+    for trajectory in plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing) {
         for (node, t_s) in trajectory.times_s.iter().enumerate() {
             let cells: Vec<&str> = lines.next().unwrap().split(',').collect();
             assert_eq!((cells[0], cells.len()), (trajectory.vehicle.as_str(), CSV_COLUMNS.len()));

@@ -1,11 +1,11 @@
 //! Plans and flights that are not what they should be never pass, and never make the judge panic.
 
 use harness::verdict::{Outcome, Status};
-use scenarios::fixed_wing::{Control, State};
-use scenarios::{PlanStatus, Trajectory};
+use scenarios::PlanStatus;
+use scenarios::fixed_wing::{Control, State, Trajectory};
 use sim::Sample;
 
-use crate::fleet::{Case, END_S};
+use crate::fleet::{Case, END_S, factors};
 
 /// What is broken, and how.
 type Break = (&'static str, fn(&mut Case));
@@ -57,8 +57,8 @@ fn a_number_that_is_not_finite_fails_wherever_a_flight_holds_it() {
         |sample| &mut sample.measured_velocity_mps[2],
         |sample| &mut sample.reference_position_m[0],
         |sample| &mut sample.reference_velocity_mps[0],
-        |sample| &mut sample.command.n_x,
-        |sample| &mut sample.control.n_z,
+        |sample| &mut factors(sample).command.n_x,
+        |sample| &mut factors(sample).control.n_z,
     ];
     for bad in BAD {
         for (index, field) in fields.iter().enumerate() {
@@ -86,7 +86,7 @@ fn each_check_fails_of_itself_on_nan() {
     nan(|sample| sample.velocity_mps[0] = f64::NAN, &motion);
     nan(|sample| sample.t_s = f64::NAN, &motion);
     nan(|sample| sample.wind_mps[1] = f64::NAN, &["flight.state_limits"]);
-    nan(|sample| sample.control.n_y = f64::NAN, &["flight.control_limits"]);
+    nan(|sample| factors(sample).control.n_y = f64::NAN, &["flight.control_limits"]);
     nan(|sample| sample.reference_position_m[0] = f64::NAN, &["flight.tracking_max", "flight.tracking_rms"]);
 }
 
@@ -300,6 +300,7 @@ fn is_still_good(case: &Case) -> bool {
     let mild = |a: f64, b: f64| (a - b).abs() <= 0.2;
     let good = Case::good();
     case.plan.trajectories.iter().zip(&good.plan.trajectories).all(|(trajectory, wanted)| {
+        let (trajectory, wanted) = (trajectory.fixed_wing(), wanted.fixed_wing());
         let states = trajectory.states.iter().zip(&wanted.states);
         let controls = trajectory.controls.iter().zip(&wanted.controls);
         states.flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array())).all(|(a, b)| mild(a, b))

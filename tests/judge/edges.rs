@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use harness::verdict::{Outcome, Status};
-use scenarios::CHECK_NAMES;
+use scenarios::{Family, check_names};
 use sim::{Event, EventKind};
 
-use crate::fleet::{Case, SPEED_MPS};
+use crate::fleet::{Case, SPEED_MPS, factors};
 
 /// A check, a way to break it by a given amount, and amounts just beyond and just inside its limit.
 struct Edge {
@@ -44,7 +44,7 @@ const EDGES: &[Edge] = &[
     edge("flight.separation", |case, y_m| shift(case, 0, [0.0, y_m, 0.0]), 100.001, 99.999),
     edge("flight.clearance", |case, y_m| shift(case, 0, [0.0, -y_m, 0.0]), 100.001, 99.999),
     edge("flight.state_limits", |case, wind| case.samples(2)[400].wind_mps[0] = -wind, 10.001, 9.999),
-    edge("flight.control_limits", |case, n_x| case.samples(2)[400].control.n_x = n_x, 0.4001, 0.3999),
+    edge("flight.control_limits", |case, n_x| factors(&mut case.samples(2)[400]).control.n_x = n_x, 0.4001, 0.3999),
     edge("flight.goal", |case, z_m| shift(case, 1, [0.0, 0.0, z_m]), 5.001, 4.999),
     edge("flight.arrival", |case, late_s| delay(case, 1, late_s), 0.501, 0.499),
     edge("flight.duration", end_of_time, 20.299, 20.301),
@@ -85,7 +85,7 @@ fn crash(case: &mut Case, crashes: f64) {
 /// Cuts off the command during `steps` of the 2001 steps of the plan: 5 % are 100.05.
 fn saturate(case: &mut Case, steps: f64) {
     for sample in &mut case.samples(0)[100..100 + steps as usize] {
-        sample.command.n_y = 0.7;
+        factors(sample).command.n_y = 0.7;
     }
 }
 
@@ -122,16 +122,17 @@ fn one_red_check_fails_the_verdict() {
     }
 }
 
-/// Nobody carries a load yet, so that three checks are never asked.
+/// Nobody carries a load here, so that three checks are never asked.
 const NOT_ASKED: [&str; 3] = ["flight.tension", "flight.slack", "flight.swing"];
 
 #[test]
 fn there_is_a_red_test_for_every_check_of_a_verdict() {
     let verdict = Case::good().judge();
     let names: Vec<&str> = verdict.checks.iter().map(|check| check.name.as_str()).collect();
-    assert_eq!(names, CHECK_NAMES, "the judge answers every check, in the order of the list");
+    let expected: Vec<&str> = check_names(Family::FixedWing).collect();
+    assert_eq!(names, expected, "the judge answers every check, in the order of the list");
     let red: BTreeSet<&str> = EDGES.iter().map(|edge| edge.check).chain(NOT_ASKED).collect();
-    assert_eq!(red, CHECK_NAMES.iter().copied().collect());
+    assert_eq!(red, expected.into_iter().collect());
     for check in verdict.checks.iter().filter(|check| NOT_ASKED.contains(&check.name.as_str())) {
         assert_eq!((check.status, check.reason.as_deref()), (Status::Skip, Some("no vehicle carries a load")));
     }

@@ -1,12 +1,12 @@
 //! A fleet that does everything right: three aircraft abreast, straight to the east for 20 s.
 
 use harness::verdict::{Check, Status, Verdict, judge};
-use scenarios::fixed_wing::{Control, Limits, Model, State};
+use scenarios::fixed_wing::{Control, Limits, Model, State, Trajectory};
 use scenarios::{
     Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario,
-    Simulation, Trajectory, Vehicle, VerdictLimits, Waypoint, World,
+    Simulation, Vehicle, VerdictLimits, Waypoint, World,
 };
-use sim::{Flight, Sample, VehicleLog};
+use sim::{Actuation, Commanded, Flight, Sample, VehicleLog};
 
 pub const SPEED_MPS: f64 = 35.0;
 pub const END_S: f64 = 20.0;
@@ -51,7 +51,7 @@ impl Case {
     }
 
     pub fn trajectory(&mut self, vehicle: usize) -> &mut Trajectory {
-        &mut self.plan.trajectories[vehicle]
+        fixed_wing(&mut self.plan.trajectories[vehicle])
     }
 
     pub fn flight(&mut self) -> &mut Flight {
@@ -68,7 +68,7 @@ pub fn check(verdict: &Verdict, name: &str) -> Check {
 }
 
 fn vehicle(index: usize, y_m: f64) -> Vehicle {
-    let at = |x_m| Waypoint { x_m, y_m, z_m: ALTITUDE_M, speed_mps: SPEED_MPS, heading_deg: 0.0, flight_path_deg: 0.0 };
+    let at = |x_m| Waypoint { speed_mps: SPEED_MPS, ..Waypoint::at_rest([x_m, y_m, ALTITUDE_M]) };
     let (start, goal) = (at(0.0), at(SPEED_MPS * END_S));
     Vehicle { name: format!("uav-{}", index + 1), model: "paper".to_owned(), start, goal }
 }
@@ -76,12 +76,13 @@ fn vehicle(index: usize, y_m: f64) -> Vehicle {
 fn scenario(vehicles: Vec<Vehicle>, step_s: f64) -> Scenario {
     let pillar = Cylinder { name: "pillar".to_owned(), center_m: [350.0, -500.0], radius_m: 400.0 };
     let wide = Range::new(-1e5, 1e5);
+    let map = Map { x_m: wide, y_m: wide, z_m: Range::new(0.0, 1000.0) };
     Scenario {
         name: "abreast".to_owned(),
         description: "Straight flight side by side.".to_owned(),
         tags: Vec::new(),
-        world: World { map: Map { x_m: wide, y_m: wide, z_m: Range::new(0.0, 1000.0) }, cylinders: vec![pillar] },
-        models: Models { fixed_wing: [("paper".to_owned(), model())].into() },
+        world: World { cylinders: vec![pillar], ..World::empty(map) },
+        models: Models { fixed_wing: [("paper".to_owned(), model())].into(), ..Models::default() },
         vehicles,
         fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true },
         planner: PlannerSettings { name: "by-hand".to_owned(), ..Default::default() },
@@ -116,7 +117,7 @@ fn plan(trajectories: Vec<Trajectory>) -> Plan {
         status: PlanStatus::Solved,
         reason: None,
         objective: Some(END_S),
-        trajectories,
+        trajectories: trajectories.into_iter().map(Into::into).collect(),
         history: Vec::new(),
         timings: PlanTimings::default(),
     }
@@ -141,7 +142,19 @@ fn logged(vehicle: &Vehicle, step_s: f64) -> VehicleLog {
         let t_s = step as f64 * step_s;
         sample(t_s, [start.x_m + SPEED_MPS * t_s, start.y_m, start.z_m], [SPEED_MPS, 0.0, 0.0])
     };
-    VehicleLog { vehicle: vehicle.name.clone(), samples: (0..=steps).map(sample).collect() }
+    VehicleLog { vehicle: vehicle.name.clone(), samples: (0..=steps).map(sample).collect(), loads: Vec::new() }
+}
+
+/// The trajectory of a fixed wing, to change it.
+pub fn fixed_wing(trajectory: &mut scenarios::Trajectory) -> &mut Trajectory {
+    let scenarios::Trajectory::FixedWing(trajectory) = trajectory else { panic!("not that of a fixed wing") };
+    trajectory
+}
+
+/// The load factors of a sample, to change them.
+pub fn factors(sample: &mut Sample) -> &mut Commanded<Control> {
+    let Actuation::LoadFactors(factors) = &mut sample.actuation else { panic!("not that of a fixed wing") };
+    factors
 }
 
 /// A vehicle exactly where the plan wants it, in still air.
@@ -156,8 +169,7 @@ pub fn sample(t_s: f64, position_m: [f64; 3], velocity_mps: [f64; 3]) -> Sample 
         measured_velocity_mps: velocity_mps,
         reference_position_m: position_m,
         reference_velocity_mps: velocity_mps,
-        command: Control::CRUISE,
-        control: Control::CRUISE,
+        actuation: Actuation::LoadFactors(Commanded { command: Control::CRUISE, control: Control::CRUISE }),
     }
 }
 

@@ -4,7 +4,7 @@ use harness::metrics::{Metrics, clearance_over_time, measure, separation_over_ti
 use harness::verdict::{Flown, Outcome, Status, Verdict};
 use scenarios::PlanStatus;
 
-use crate::fleet::{Case, check};
+use crate::fleet::{Case, check, factors};
 
 #[test]
 fn what_does_not_apply_is_skipped_with_the_reason() {
@@ -154,7 +154,7 @@ fn what_happens_while_coasting_after_the_arrival_does_not_count() {
     for sample in case.samples(1) {
         sample.position_m[0] -= 10.0;
     }
-    case.samples(1).iter_mut().filter(|sample| sample.t_s > 20.1).for_each(|sample| sample.control.n_y = 0.9);
+    case.samples(1).iter_mut().filter(|sample| sample.t_s > 20.1).for_each(|sample| factors(sample).control.n_y = 0.9);
     assert_eq!(case.status("flight.control_limits"), Status::Fail);
 }
 

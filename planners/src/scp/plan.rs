@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use scenarios::fixed_wing::{Control, State};
-use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario, Trajectory};
+use scenarios::fixed_wing::{Control, State, Trajectory};
+use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
 
 use super::iterate::Iterate;
 
@@ -41,7 +41,9 @@ pub fn assemble(
         status,
         reason,
         objective: Some(objective),
-        trajectories: named.map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate))).collect(),
+        trajectories: named
+            .map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate)).into())
+            .collect(),
         history,
         timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
     }

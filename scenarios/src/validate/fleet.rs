@@ -41,5 +41,5 @@ fn too_close(
 
 /// Zero if the model is unknown, which is reported with the vehicle.
 fn body_radius_m(scenario: &Scenario, vehicle: &Vehicle) -> f64 {
-    scenario.models.fixed_wing.get(&vehicle.model).map_or(0.0, |model| model.body_radius_m)
+    scenario.models.get(&vehicle.model).map_or(0.0, |model| model.body_radius_m())
 }

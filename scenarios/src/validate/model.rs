@@ -1,45 +1,33 @@
-//! Vehicle models: each limit in itself, and the planning limits inside the physical ones.
+//! Vehicle models: their names here, the rest by family.
 
-use super::identifier::entity_name;
-use super::quantity::{ordered, positive};
-use crate::fixed_wing::{Limits, Model};
+mod fixed_wing;
+mod slung_load;
+
 use crate::{Models, Problem, Range};
 
 pub(super) fn problems(models: &Models) -> Vec<Problem> {
-    models.fixed_wing.iter().flat_map(|(name, model)| fixed_wing(name, model)).collect()
+    let fixed_wing = models.fixed_wing.iter().flat_map(|(name, model)| fixed_wing::problems(name, model));
+    let slung_load = models.slung_load.iter().flat_map(|(name, model)| slung_load::problems(name, model));
+    fixed_wing.chain(slung_load).chain(names_of_two_families(models)).collect()
 }
 
-fn fixed_wing(name: &str, model: &Model) -> Vec<Problem> {
-    let field = format!("models.fixed-wing.{name}");
-    let mut problems = Vec::new();
-    problems.extend(entity_name(&field, name));
-    problems.extend(positive(&format!("{field}.mass_kg"), model.mass_kg));
-    problems.extend(positive(&format!("{field}.body_radius_m"), model.body_radius_m));
-    problems.extend(limits(&format!("{field}.limits"), &model.limits));
-    problems.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
-    problems.extend(planning_inside_physical(&field, model));
-    problems
+fn names_of_two_families(models: &Models) -> Vec<Problem> {
+    let shared = models.slung_load.keys().filter(|name| models.fixed_wing.contains_key(*name));
+    let problem = |name: &String| {
+        let expected = "a name of its own; a fixed-wing model has this one already";
+        Problem::new(format!("models.slung-load.{name}"), format!("\"{name}\""), expected)
+            .remedy("rename one of the two")
+    };
+    shared.map(problem).collect()
 }
 
-fn limits(field: &str, limits: &Limits) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    for (name, range) in named(limits) {
-        problems.extend(ordered(&format!("{field}.{name}"), range));
-    }
-    if limits.speed_mps.min <= 0.0 {
-        let expected = "a least speed greater than 0: a fixed wing can't hover";
-        problems.push(Problem::new(format!("{field}.speed_mps"), limits.speed_mps.to_string(), expected));
-    }
-    if limits.flight_path_deg.min <= -90.0 || limits.flight_path_deg.max >= 90.0 {
-        let expected = "both ends strictly between -90 and 90 deg";
-        problems.push(Problem::new(format!("{field}.flight_path_deg"), limits.flight_path_deg.to_string(), expected));
-    }
-    problems
-}
-
-fn planning_inside_physical(field: &str, model: &Model) -> Vec<Problem> {
-    let pairs = named(&model.planning_limits).into_iter().zip(named(&model.limits));
-    let outside = pairs.filter(|((_, planning), (_, physical))| {
+/// Ranges of planning limits that reach beyond the physical ones of the same name. What is not in order says nothing.
+fn planning_inside_physical(
+    field: &str,
+    planning: impl IntoIterator<Item = (&'static str, Range)>,
+    physical: impl IntoIterator<Item = (&'static str, Range)>,
+) -> Vec<Problem> {
+    let outside = planning.into_iter().zip(physical).filter(|((_, planning), (_, physical))| {
         physical.min < physical.max && (planning.min < physical.min || planning.max > physical.max)
     });
     let problem = |((name, planning), (_, physical)): ((&str, Range), (&str, Range))| {
@@ -48,15 +36,4 @@ fn planning_inside_physical(field: &str, model: &Model) -> Vec<Problem> {
             .remedy("narrow the planning limits, or widen the physical ones if the vehicle can do more")
     };
     outside.map(problem).collect()
-}
-
-fn named(limits: &Limits) -> [(&'static str, Range); 6] {
-    [
-        ("altitude_m", limits.altitude_m),
-        ("speed_mps", limits.speed_mps),
-        ("flight_path_deg", limits.flight_path_deg),
-        ("n_x", limits.n_x),
-        ("n_y", limits.n_y),
-        ("n_z", limits.n_z),
-    ]
 }

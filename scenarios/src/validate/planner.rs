@@ -1,10 +1,15 @@
 //! The options of a planner, as far as they can be judged without knowing it.
 
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Convergence, PlannerSettings, Problem, TrustRegion};
+use crate::{Collocation, Convergence, Objective, PlannerSettings, Problem, TrustRegion};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
+
+/// Fewest and most segments of a mesh, points of a segment, and phases of the cable.
+const SEGMENTS: std::ops::RangeInclusive<usize> = 1..=1000;
+const POINTS: std::ops::RangeInclusive<usize> = 2..=20;
+const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
 
 pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -20,6 +25,7 @@ pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     problems.extend(settings.time_bound_release.and_then(time_bound_release));
     problems.extend(settings.trust_region.iter().flat_map(trust_region));
     problems.extend(settings.convergence.iter().flat_map(convergence));
+    problems.extend(settings.collocation.iter().flat_map(collocation));
     problems
 }
 
@@ -50,4 +56,31 @@ fn convergence(tolerances: &Convergence) -> Vec<Problem> {
         positive("planner.convergence.flight_path_deg", tolerances.flight_path_deg),
     ];
     problems.into_iter().flatten().collect()
+}
+
+fn collocation(options: &Collocation) -> Vec<Problem> {
+    let counts = [
+        ("segments", options.segments, SEGMENTS),
+        ("points", options.points, POINTS),
+        ("cable", options.cable.as_ref().map(Vec::len), PHASES),
+    ];
+    let out_of_range = counts.into_iter().filter_map(|(name, count, range)| {
+        let count = count.filter(|count| !range.contains(count))?;
+        let expected = format!("a whole number from {} to {}", range.start(), range.end());
+        Some(Problem::new(format!("planner.collocation.{name}"), count.to_string(), expected))
+    });
+    let quantities = [
+        positive_if_given("planner.collocation.flight_time_s", options.flight_time_s),
+        options.mesh_tolerance.and_then(|value| not_negative("planner.collocation.mesh_tolerance", value)),
+        positive_if_given("planner.collocation.impact_ns", options.impact_ns),
+    ];
+    let no_time = (options.objective == Some(Objective::Effort) && options.flight_time_s.is_none()).then(|| {
+        Problem::new(
+            "planner.collocation.flight_time_s",
+            "nothing",
+            "a duration: the objective `effort` leaves it open",
+        )
+        .remedy("add `flight_time_s`, or minimise `time`")
+    });
+    out_of_range.chain(quantities.into_iter().flatten()).chain(no_time).collect()
 }

@@ -1,7 +1,7 @@
 //! The simulation: step, duration, tracker, and disturbances.
 
 use super::quantity::{above_up_to, not_negative, positive};
-use crate::{Gusts, Problem, Simulation};
+use crate::{GustPulse, Gusts, Problem, Simulation};
 
 /// Longest step that the simulator takes, s.
 const LONGEST_STEP_S: f64 = 0.1;
@@ -16,10 +16,22 @@ pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
         positive("simulation.tracker.damping_ratio", tracker.damping_ratio),
         not_negative("simulation.sensors.position_noise_m", simulation.sensors.position_noise_m),
         not_negative("simulation.sensors.velocity_noise_mps", simulation.sensors.velocity_noise_mps),
+        not_negative("simulation.sensors.attitude_noise_deg", simulation.sensors.attitude_noise_deg),
+        not_negative("simulation.sensors.rate_noise_degps", simulation.sensors.rate_noise_degps),
+        not_negative("simulation.sensors.load_position_noise_m", simulation.sensors.load_position_noise_m),
+        not_negative("simulation.sensors.load_velocity_noise_mps", simulation.sensors.load_velocity_noise_mps),
         positive("simulation.mismatch.mass_ratio", simulation.mismatch.mass_ratio),
+        positive("simulation.mismatch.load_mass_ratio", simulation.mismatch.load_mass_ratio),
     ];
     let gusts = simulation.wind.iter().flat_map(|wind| &wind.gusts).flat_map(gusts);
-    rules.into_iter().flatten().chain(gusts).collect()
+    let pulses = simulation.wind.iter().flat_map(|wind| wind.pulses.iter().enumerate()).flat_map(pulse);
+    rules.into_iter().flatten().chain(gusts).chain(pulses).collect()
+}
+
+fn pulse((index, pulse): (usize, &GustPulse)) -> Vec<Problem> {
+    let field = format!("simulation.wind.pulses[{index}]");
+    let start = not_negative(&format!("{field}.start_s"), pulse.start_s);
+    start.into_iter().chain(positive(&format!("{field}.duration_s"), pulse.duration_s)).collect()
 }
 
 fn gusts(gusts: &Gusts) -> Vec<Problem> {

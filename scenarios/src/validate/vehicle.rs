@@ -1,31 +1,50 @@
 //! Each vehicle by itself: its name, its model, and its start and goal against map, obstacles and limits.
 
+mod fixed_wing;
+mod slung_load;
+
 use super::identifier::entity_names;
 use super::quantity::inside;
-use crate::fixed_wing::Limits;
-use crate::{Problem, Scenario, Vehicle, Waypoint, World, nearest};
+use crate::{Model, Problem, Scenario, Vehicle, World, nearest};
 
 pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
     if scenario.vehicles.is_empty() {
         return vec![Problem::new("vehicles", "none", "one vehicle at least").remedy("add a `[[vehicles]]` table")];
     }
     let mut problems = entity_names("vehicles", scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()));
+    problems.extend(of_another_family(scenario));
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         problems.extend(unknown_model(scenario, index, vehicle));
         for (end, waypoint) in [("start", &vehicle.start), ("goal", &vehicle.goal)] {
             let field = format!("vehicles[{index}].{end}");
-            problems.extend(outside_map(&scenario.world, &field, waypoint));
-            problems.extend(inside_obstacle(&scenario.world, &field, waypoint));
-            if let Some(model) = scenario.models.fixed_wing.get(&vehicle.model) {
-                problems.extend(outside_planning_limits(&model.planning_limits, &field, waypoint));
-            }
+            problems.extend(outside_map(&scenario.world, &field, waypoint.position_m()));
+            problems.extend(inside_obstacle(&scenario.world, &field, waypoint.position_m()));
+            problems.extend(match scenario.models.get(&vehicle.model) {
+                Some(Model::FixedWing(model)) => fixed_wing::problems(model, &field, waypoint),
+                Some(Model::SlungLoad(model)) => slung_load::problems(model, &scenario.world, &field, waypoint),
+                None => Vec::new(),
+            });
         }
     }
     problems
 }
 
+/// Simulation and verdict are for one family at a time.
+fn of_another_family(scenario: &Scenario) -> Option<Problem> {
+    let mut families = scenario
+        .vehicles
+        .iter()
+        .enumerate()
+        .filter_map(|(index, vehicle)| Some((index, vehicle, scenario.models.get(&vehicle.model)?.family())));
+    let (_, first, family) = families.next()?;
+    let (index, other, other_family) = families.find(|(_, _, other)| *other != family)?;
+    let found = format!("\"{}\", a {other_family}", other.model);
+    let expected = format!("a {family} like `{}`: all vehicles of a scenario are of one family", first.name);
+    Some(Problem::new(format!("vehicles[{index}].model"), found, expected).remedy("make it a scenario of its own"))
+}
+
 fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option<Problem> {
-    let names: Vec<&str> = scenario.models.fixed_wing.keys().map(String::as_str).collect();
+    let names: Vec<&str> = scenario.models.names().collect();
     if names.contains(&vehicle.model.as_str()) {
         return None;
     }
@@ -35,38 +54,25 @@ fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option
     };
     let remedy = match nearest(&vehicle.model, names) {
         Some(name) => format!("did you mean \"{name}\"?"),
-        None => format!("define it in a table [models.fixed-wing.{}]", vehicle.model),
+        None => format!("define it in a table [models.FAMILY.{}]", vehicle.model),
     };
     Some(Problem::new(format!("vehicles[{index}].model"), format!("\"{}\"", vehicle.model), expected).remedy(remedy))
 }
 
-fn outside_map(world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
-    let axes = ["x_m", "y_m", "z_m"].into_iter().zip(waypoint.position_m()).zip(world.map.axes());
+fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Problem> {
+    let axes = ["x_m", "y_m", "z_m"].into_iter().zip(position_m).zip(world.map.axes());
     axes.filter_map(|((axis, value), range)| inside(&format!("{field}.{axis}"), value, range, "the map")).collect()
 }
 
-fn inside_obstacle(world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
-    let depth = |cylinder: &crate::Cylinder| -cylinder.signed_distance_m(waypoint.x_m, waypoint.y_m);
-    let hit = world.cylinders.iter().filter(|cylinder| depth(cylinder) > 0.0);
-    let problem = |cylinder: &crate::Cylinder| {
-        let found =
-            format!("({}, {}) m, {:.3} m inside `{}`", waypoint.x_m, waypoint.y_m, depth(cylinder), cylinder.name);
+fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Problem> {
+    let cylinders =
+        world.cylinders.iter().map(|cylinder| (cylinder.name.clone(), cylinder.signed_distance_m(x_m, y_m)));
+    let at_height =
+        world.flat_obstacles().into_iter().filter(|prism| prism.z_m.is_none_or(|range| range.contains(z_m)));
+    let prisms = at_height.map(|prism| (prism.name.clone(), prism.signed_distance_m([x_m, y_m])));
+    let problem = |(name, distance_m): (String, f64)| {
+        let found = format!("({x_m}, {y_m}) m, {:.3} m inside `{name}`", -distance_m);
         Problem::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
     };
-    hit.map(problem).collect()
-}
-
-fn outside_planning_limits(limits: &Limits, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
-    let quantities = [
-        ("z_m", waypoint.z_m, limits.altitude_m, "the planning limits of altitude, m"),
-        ("speed_mps", waypoint.speed_mps, limits.speed_mps, "the planning limits of speed, m/s"),
-        (
-            "flight_path_deg",
-            waypoint.flight_path_deg,
-            limits.flight_path_deg,
-            "the planning limits of climb angle, deg",
-        ),
-    ];
-    let check = |(name, value, range, of)| inside(&format!("{field}.{name}"), value, range, of);
-    quantities.into_iter().filter_map(check).collect()
+    cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(problem).collect()
 }

@@ -1,20 +1,26 @@
 //! The limits of the verdict, and the checks that it names.
 
-use super::quantity::positive;
+use super::quantity::{not_negative, positive_if_given};
 use crate::{CHECK_NAMES, Problem, VerdictLimits, nearest};
 
 pub(super) fn problems(limits: &VerdictLimits) -> Vec<Problem> {
-    let rules = [
-        positive("verdict.tracking_max_m", limits.tracking_max_m),
-        positive("verdict.tracking_rms_m", limits.tracking_rms_m),
-        positive("verdict.arrival_spread_s", limits.arrival_spread_s),
-        positive("verdict.goal_m", limits.goal_m),
-        positive("verdict.dynamics_m", limits.dynamics_m),
-        positive("verdict.rollout_m", limits.rollout_m),
-        share("verdict.saturation", limits.saturation),
+    let positive_ones = [
+        ("tracking_max_m", limits.tracking_max_m),
+        ("tracking_rms_m", limits.tracking_rms_m),
+        ("arrival_spread_s", limits.arrival_spread_s),
+        ("goal_m", limits.goal_m),
+        ("rest_mps", limits.rest_mps),
+        ("dynamics_m", limits.dynamics_m),
+        ("rollout_m", limits.rollout_m),
+        ("switch_s", limits.switch_s),
+    ];
+    let rules = positive_ones.into_iter().map(|(name, value)| positive_if_given(&format!("verdict.{name}"), value));
+    let others = [
+        limits.envelope_m.and_then(|value| not_negative("verdict.envelope_m", value)),
+        limits.saturation.and_then(|value| share("verdict.saturation", value)),
     ];
     let names = unknown_checks("verdict.advisory", &limits.advisory);
-    rules.into_iter().flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
+    rules.chain(others).flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
 }
 
 fn share(field: &str, value: f64) -> Option<Problem> {

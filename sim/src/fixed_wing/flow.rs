@@ -1,6 +1,8 @@
 use nalgebra::{Vector3, Vector6};
-use scenarios::fixed_wing::{Control, State};
-use scenarios::{Interpolation, Trajectory};
+use scenarios::Interpolation;
+use scenarios::fixed_wing::{Control, State, Trajectory};
+
+use crate::runge_kutta;
 
 use super::acceleration_mps2;
 
@@ -79,20 +81,6 @@ pub(super) fn first_order_hold([first, last]: [Control; 2], share: f64) -> Contr
 #[derive(Clone, Copy)]
 struct Motion(Vector6<f64>);
 
-/// Butcher's method of order 6 with 7 stages.        [Butcher 1964, On Runge-Kutta processes of high order, J. Aust. Math. Soc. 4]
-const STAGES: usize = 7;
-const NODES: [f64; STAGES] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 2.0, 1.0 / 2.0, 1.0];
-const WEIGHTS: [f64; STAGES] = [11.0 / 120.0, 0.0, 27.0 / 40.0, 27.0 / 40.0, -4.0 / 15.0, -4.0 / 15.0, 11.0 / 120.0];
-const COUPLING: [&[f64]; STAGES] = [
-    &[],
-    &[1.0 / 3.0],
-    &[0.0, 2.0 / 3.0],
-    &[1.0 / 12.0, 1.0 / 3.0, -1.0 / 12.0],
-    &[-1.0 / 16.0, 9.0 / 8.0, -3.0 / 16.0, -3.0 / 8.0],
-    &[0.0, 9.0 / 8.0, -3.0 / 8.0, -3.0 / 4.0, 1.0 / 2.0],
-    &[9.0 / 44.0, -9.0 / 11.0, 63.0 / 44.0, 18.0 / 11.0, 0.0, -16.0 / 11.0],
-];
-
 impl Motion {
     fn of(knot: &Knot) -> Self {
         let mut vector = Vector6::zeros();
@@ -118,15 +106,6 @@ impl Motion {
 
     /// One Runge-Kutta step; `control` gives the controls at a share of the step in [0, 1].
     fn advanced(&self, control: impl Fn(f64) -> Control, step_s: f64) -> Self {
-        let mut rates = [Vector6::zeros(); STAGES];
-        for stage in 0..STAGES {
-            let increment = weighted_sum(COUPLING[stage], &rates);
-            rates[stage] = Self(self.0 + increment * step_s).rate(control(NODES[stage]));
-        }
-        Self(self.0 + weighted_sum(&WEIGHTS, &rates) * step_s)
+        Self(runge_kutta::advanced(&self.0, step_s, |motion, share| Self(*motion).rate(control(share))))
     }
-}
-
-fn weighted_sum(weights: &[f64], rates: &[Vector6<f64>; STAGES]) -> Vector6<f64> {
-    weights.iter().zip(rates).fold(Vector6::zeros(), |sum, (weight, rate)| sum + rate * *weight)
 }

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
-use scenarios::fixed_wing::Control;
-use scenarios::{Interpolation, Trajectory};
+use scenarios::Interpolation;
+use scenarios::fixed_wing::{Control, Trajectory};
 
 use super::flow::{Knot, first_order_hold, flow};
 use super::quintic::{Jet, Quintic};

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
-use scenarios::fixed_wing::{Control, Limits, Model, State};
+use scenarios::fixed_wing::{Control, Limits, Model, State, Trajectory};
 use scenarios::{
     Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario,
-    Simulation, Trajectory, Vehicle, VerdictLimits, Waypoint, World,
+    Simulation, Vehicle, VerdictLimits, Waypoint, World,
 };
 use sim::Sample;
 
@@ -25,8 +25,8 @@ pub fn scenario(vehicles: usize) -> Scenario {
         name: "arena".into(),
         description: "Built in code.".into(),
         tags: vec![],
-        world: World { map: Map { x_m: wide, y_m: wide, z_m: Range::new(0.0, 2000.0) }, cylinders: vec![] },
-        models: Models { fixed_wing: BTreeMap::from([("plane".into(), model())]) },
+        world: World::empty(Map { x_m: wide, y_m: wide, z_m: Range::new(0.0, 2000.0) }),
+        models: Models { fixed_wing: BTreeMap::from([("plane".into(), model())]), ..Models::default() },
         vehicles: (1..=vehicles).map(vehicle).collect(),
         fleet: FleetRules::default(),
         planner: PlannerSettings::default(),
@@ -48,7 +48,7 @@ fn model() -> Model {
 }
 
 fn vehicle(number: usize) -> Vehicle {
-    let nowhere = Waypoint { x_m: 0.0, y_m: 0.0, z_m: 400.0, speed_mps: 35.0, heading_deg: 0.0, flight_path_deg: 0.0 };
+    let nowhere = Waypoint { speed_mps: 35.0, ..Waypoint::at_rest([0.0, 0.0, 400.0]) };
     Vehicle { name: format!("uav-{number}"), model: "plane".into(), start: nowhere, goal: nowhere }
 }
 
@@ -69,7 +69,7 @@ pub fn plan(mut trajectories: Vec<Trajectory>) -> Plan {
         status: PlanStatus::Solved,
         reason: None,
         objective: None,
-        trajectories,
+        trajectories: trajectories.into_iter().map(Into::into).collect(),
         history: vec![],
         timings: PlanTimings::default(),
     }

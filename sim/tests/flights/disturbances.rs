@@ -84,6 +84,6 @@ fn what_acts_is_the_load_factors_in_the_air_that_is_logged() {
         let mean_air = (Vector3::from(pair[0].air_velocity_mps()) + Vector3::from(pair[1].air_velocity_mps())) / 2.0;
         let felt = (arena::velocity(&pair[1]) - arena::velocity(&pair[0])) / 0.01 + Vector3::z() * G;
         let expected = felt.dot(&mean_air.normalize()) / G;
-        assert!((expected - pair[0].control.n_x).abs() < 1e-4, "at {} s", pair[0].t_s);
+        assert!((expected - pair[0].load_factors().control.n_x).abs() < 1e-4, "at {} s", pair[0].t_s);
     }
 }

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
-use scenarios::Trajectory;
 use scenarios::fixed_wing::Control;
+use scenarios::fixed_wing::Trajectory;
 use sim::fixed_wing::{Reference, rollout};
 
 use crate::arena;

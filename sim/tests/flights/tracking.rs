@@ -49,7 +49,7 @@ fn what_acts_stays_inside_the_limits_and_saturation_is_reported() {
     let limits = scenario.models.fixed_wing["plane"].limits.controls();
     let samples = &flight.vehicles[0].samples;
     for sample in samples {
-        for (value, range) in sample.control.to_array().into_iter().zip(limits) {
+        for (value, range) in sample.load_factors().control.to_array().into_iter().zip(limits) {
             assert!(range.contains(value), "{value} at {} s", sample.t_s);
         }
     }
@@ -84,6 +84,6 @@ fn the_attitude_carries_the_lift_and_points_along_the_air_path() {
         let forward = attitude * Vector3::x();
         assert!((forward - Vector3::from(sample.air_velocity_mps()).normalize()).norm() < 1e-12);
         let bank = -attitude.euler_angles().0;
-        assert!((bank.tan() - sample.control.n_y / sample.control.n_z).abs() < 1e-9);
+        assert!((bank.tan() - sample.load_factors().control.n_y / sample.load_factors().control.n_z).abs() < 1e-9);
     }
 }

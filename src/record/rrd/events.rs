@@ -1,6 +1,7 @@
 //! What happened, as a text log on `sim_time`.
 
 use rerun::{RecordingStream, TextLog, TextLogLevel};
+use scenarios::{Family, Scenario};
 use sim::{Event, EventKind, Flight};
 
 use super::document::is_telling;
@@ -20,7 +21,7 @@ pub fn log(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     let mut lines: Vec<Line> = run.verdict.checks.iter().filter_map(|check| about_check(check, end_s)).collect();
     if let Some(flight) = run.flight {
         lines.extend(flight.events.iter().map(about_event));
-        lines.extend(about_phases(flight));
+        lines.extend(about_phases(run.scenario, flight));
     }
     lines.retain(|line| line.t_s.is_finite());
     lines.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
@@ -34,10 +35,13 @@ pub fn log(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     Ok(())
 }
 
-fn about_phases(flight: &Flight) -> [Line; 2] {
+fn about_phases(scenario: &Scenario, flight: &Flight) -> [Line; 2] {
     let count = flight.vehicles.len();
     let start = Line { t_s: 0.0, level: TextLogLevel::INFO, text: format!("start of {count} vehicles") };
-    let text = "the plan ends, the vehicles fly straight on".to_owned();
+    let text = match scenario.family() {
+        Family::FixedWing => "the plan ends, the vehicles fly straight on".to_owned(),
+        Family::SlungLoad => "the plan ends, the vehicle hovers".to_owned(),
+    };
     [start, Line { t_s: flight.plan_end_s, level: TextLogLevel::INFO, text }]
 }
 
@@ -50,6 +54,10 @@ fn about_event(event: &Event) -> Line {
         EventKind::Crash { obstacle: None } => (TextLogLevel::CRITICAL, format!("crash: {who}")),
         EventKind::SaturationBegan => (TextLogLevel::WARN, format!("{who}: command cut off at the vehicle's limits")),
         EventKind::SaturationEnded => (TextLogLevel::INFO, format!("{who}: command inside its limits again")),
+        EventKind::CableTaut { impulse_ns } => {
+            (TextLogLevel::INFO, format!("{who}: cable taut, with an impulse of {}", quantity(*impulse_ns, "N s")))
+        }
+        EventKind::CableSlack => (TextLogLevel::INFO, format!("{who}: cable slack")),
     };
     Line { t_s: event.t_s, level, text }
 }

@@ -2,11 +2,11 @@
 
 use rerun::{LineStrips3D, RecordingStream};
 use scenarios::Trajectory;
-use scenarios::fixed_wing::State;
 use sim::{Flight, Sample};
 
 use super::world::pixels;
 use super::{Logged, Run, entity, is_drawable, palette, sim_times, to_f32};
+use crate::verdict::Knot;
 
 /// Points of a planned path between two nodes.
 const POINTS_PER_INTERVAL: usize = 8;
@@ -24,7 +24,7 @@ pub fn log_planned(stream: &RecordingStream, run: &Run<'_>) -> Logged {
         let line = LineStrips3D::new([planned_points(trajectory)])
             .with_colors([palette::opaque(palette::dimmed(palette::vehicle(index, count)))])
             .with_radii([pixels(0.5)]);
-        stream.log_static(entity("world/planned", &trajectory.vehicle), &line)?;
+        stream.log_static(entity("world/planned", trajectory.vehicle()), &line)?;
     }
     Ok(())
 }
@@ -78,12 +78,17 @@ pub fn spaced(samples: &[Sample], interval_s: f64) -> Vec<Sample> {
 }
 
 fn planned_points(trajectory: &Trajectory) -> Vec<[f32; 3]> {
-    let nodes: Vec<(f64, &State)> = trajectory.times_s.iter().copied().zip(&trajectory.states).collect();
+    let node = |node: usize| Knot {
+        t_s: trajectory.times_s()[node],
+        position_m: trajectory.nodes().position_m(node),
+        velocity_mps: trajectory.nodes().velocity_mps(node),
+    };
+    let nodes: Vec<Knot> = (0..trajectory.node_count()).map(node).collect();
     let curve = nodes.windows(2).flat_map(|pair| {
-        let ((t0_s, from), (t1_s, to)) = (pair[0], pair[1]);
-        (0..POINTS_PER_INTERVAL).map(move |i| hermite(from, to, t1_s - t0_s, i as f64 / POINTS_PER_INTERVAL as f64))
+        let (from, to) = (pair[0], pair[1]);
+        (0..POINTS_PER_INTERVAL).map(move |i| hermite(&from, &to, i as f64 / POINTS_PER_INTERVAL as f64))
     });
-    let end = nodes.last().map(|(_, state)| state.position_m());
+    let end = nodes.last().map(|node| node.position_m);
     curve.chain(end).filter(|point| point.iter().all(|x| x.is_finite())).map(to_f32).collect()
 }
 
@@ -92,9 +97,10 @@ fn planned_points(trajectory: &Trajectory) -> Vec<[f32; 3]> {
 /// ```text
 /// p(s) = (2s³ - 3s² + 1) p0 + (s³ - 2s² + s) dt v0 + (3s² - 2s³) p1 + (s³ - s²) dt v1
 /// ```
-fn hermite(from: &State, to: &State, dt_s: f64, s: f64) -> [f64; 3] {
+fn hermite(from: &Knot, to: &Knot, s: f64) -> [f64; 3] {
+    let dt_s = to.t_s - from.t_s;
     let (s2, s3) = (s * s, s * s * s);
-    let (p0, v0, p1, v1) = (from.position_m(), from.velocity_mps(), to.position_m(), to.velocity_mps());
+    let (p0, v0, p1, v1) = (from.position_m, from.velocity_mps, to.position_m, to.velocity_mps);
     std::array::from_fn(|i| {
         (2.0 * s3 - 3.0 * s2 + 1.0) * p0[i]
             + (s3 - 2.0 * s2 + s) * dt_s * v0[i]
@@ -111,17 +117,15 @@ mod tests {
     #[test]
     fn planned_path_follows_a_turn_between_its_nodes() {
         let (speed_mps, rate_radps, dt_s) = (35.0, 0.05, 5.0);
-        let at = |t_s: f64| State {
-            x_m: speed_mps / rate_radps * (rate_radps * t_s).sin(),
-            y_m: -speed_mps / rate_radps * (rate_radps * t_s).cos(),
-            z_m: 400.0,
-            speed_mps,
-            heading_rad: rate_radps * t_s,
-            flight_path_rad: 0.0,
+        let radius_m = speed_mps / rate_radps;
+        let at = |t_s: f64| {
+            let (sin, cos) = (rate_radps * t_s).sin_cos();
+            let position_m = [radius_m * sin, -radius_m * cos, 400.0];
+            Knot { t_s, position_m, velocity_mps: [speed_mps * cos, speed_mps * sin, 0.0] }
         };
         for i in 0..=10 {
             let s = f64::from(i) / 10.0;
-            let (cubic, truth) = (hermite(&at(0.0), &at(dt_s), dt_s, s), at(s * dt_s).position_m());
+            let (cubic, truth) = (hermite(&at(0.0), &at(dt_s), s), at(s * dt_s).position_m);
             let error_m = (cubic[0] - truth[0]).hypot(cubic[1] - truth[1]);
             assert!(error_m < speed_mps * rate_radps.powi(3) * dt_s.powi(4) / 384.0 * 1.1, "{error_m} m at {s}");
         }

@@ -62,9 +62,9 @@ impl Quantity {
     pub fn of(self, sample: &Sample) -> f64 {
         match self {
             Self::Tracking => norm(std::array::from_fn(|i| sample.position_m[i] - sample.reference_position_m[i])),
-            Self::Nx => sample.control.n_x,
-            Self::Ny => sample.control.n_y,
-            Self::Nz => sample.control.n_z,
+            Self::Nx => sample.load_factors().control.n_x,
+            Self::Ny => sample.load_factors().control.n_y,
+            Self::Nz => sample.load_factors().control.n_z,
             Self::Airspeed => norm(sample.air_velocity_mps()),
             Self::Altitude => sample.position_m[2],
         }
@@ -73,7 +73,7 @@ impl Quantity {
     /// What it is held against, with a name: the scenario's limit, or the bounds of every model that flies.
     pub fn limits(self, scenario: &Scenario) -> Vec<(String, f64)> {
         if self == Self::Tracking {
-            return vec![("limit".to_owned(), scenario.verdict.tracking_max_m)];
+            return vec![("limit".to_owned(), scenario.limits().tracking_max_m)];
         }
         let mut models: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.model.as_str()).collect();
         models.sort_unstable();

@@ -13,7 +13,7 @@ use scenarios::PlanStatus;
 use super::*;
 use crate::record::record;
 use crate::verdict::{Outcome, Verdict};
-use synthetic::Synthetic;
+use synthetic::{Synthetic, factors};
 
 /// Records into a fresh folder, in which nothing else may be left; the folder, and the size of the file in bytes.
 fn recorded(run: &Run<'_>) -> (tempfile::TempDir, u64) {
@@ -79,7 +79,7 @@ fn the_worst_instant_survives_thinning() {
     let check = made_up.verdict.checks.iter_mut().find(|check| check.name == "flight.separation").unwrap();
     (check.at_s, check.value) = (Some(31.4159), Some(2.5));
     let spiked = &mut made_up.flight.vehicles[1].samples[1234];
-    spiked.control.n_z = 7.5;
+    factors(spiked).control.n_z = 7.5;
     let (folder, _) = recorded(&made_up.run());
     let store = read(folder.path());
     let lowest = scalars(&store, "/plots/separation/fleet").into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
@@ -135,13 +135,13 @@ fn no_number_is_too_bad_to_be_recorded() {
     for (vehicle, bad) in [(0, f64::NAN), (1, f64::INFINITY)] {
         for sample in &mut made_up.flight.vehicles[vehicle].samples[500..] {
             (sample.position_m, sample.world_from_body, sample.wind_mps) = ([bad; 3], [bad; 4], [bad; 3]);
-            (sample.t_s, sample.control.n_y) = (bad, bad);
+            (sample.t_s, factors(sample).control.n_y) = (bad, bad);
         }
-        made_up.plan.trajectories[vehicle].states[20].x_m = bad;
+        made_up.trajectory(vehicle).states[20].x_m = bad;
         made_up.plan.history[vehicle].defect_m = bad;
     }
     made_up.flight.vehicles[2].samples.clear();
-    made_up.plan.trajectories[3].states.clear();
+    made_up.trajectory(3).states.clear();
     made_up.flight.events[0].t_s = f64::NAN;
     for check in &mut made_up.verdict.checks {
         (check.value, check.margin, check.at_s) = (Some(f64::NAN), Some(f64::NAN), Some(f64::NAN));

@@ -1,11 +1,11 @@
 //! A made-up run to record: aircraft in line abreast that weave between cylinders, with a known closest approach.
 
-use scenarios::fixed_wing::{Control, Limits, Model, State};
+use scenarios::fixed_wing::{self, Control, Limits, Model, State};
 use scenarios::{
     Cylinder, FleetRules, Interpolation, Iteration, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range,
     Scenario, Simulation, Trajectory, Vehicle, VerdictLimits, Waypoint, World,
 };
-use sim::{Event, EventKind, Flight, Sample, VehicleLog};
+use sim::{Actuation, Commanded, Event, EventKind, Flight, Sample, VehicleLog};
 
 use crate::verdict::{Check, Outcome, Status, Verdict};
 
@@ -33,6 +33,19 @@ impl Synthetic {
     pub fn run(&self) -> super::Run<'_> {
         super::Run { scenario: &self.scenario, plan: &self.plan, flight: Some(&self.flight), verdict: &self.verdict }
     }
+
+    pub fn trajectory(&mut self, vehicle: usize) -> &mut fixed_wing::Trajectory {
+        let Trajectory::FixedWing(trajectory) = &mut self.plan.trajectories[vehicle] else {
+            panic!("not a fixed wing")
+        };
+        trajectory
+    }
+}
+
+/// The load factors of a sample, to change them.
+pub fn factors(sample: &mut Sample) -> &mut Commanded<Control> {
+    let Actuation::LoadFactors(factors) = &mut sample.actuation else { panic!("not that of a fixed wing") };
+    factors
 }
 
 /// Lateral position (amplitude shrinks in the middle, so that neighbours close in) and its rate, m and m/s.
@@ -71,6 +84,7 @@ fn scenario(count: usize, duration_s: f64) -> Scenario {
             speed_mps: state.speed_mps,
             heading_deg: state.heading_rad.to_degrees(),
             flight_path_deg: state.flight_path_rad.to_degrees(),
+            load: None,
         }
     };
     let vehicle = |index| Vehicle {
@@ -85,19 +99,17 @@ fn scenario(count: usize, duration_s: f64) -> Scenario {
         center_m: [f64::from(k) * 1100.0, f64::from(k % 2) * 900.0 + 150.0],
         radius_m: 400.0,
     };
+    let map = Map {
+        x_m: Range::new(-half_m, half_m),
+        y_m: Range::new(-0.6 * half_m, 0.6 * half_m),
+        z_m: Range::new(0.0, 600.0),
+    };
     Scenario {
         name: "made-up".to_owned(),
         description: "Aircraft in line abreast weave between cylinders and close in on each other half way.".to_owned(),
         tags: Vec::new(),
-        world: World {
-            map: Map {
-                x_m: Range::new(-half_m, half_m),
-                y_m: Range::new(-0.6 * half_m, 0.6 * half_m),
-                z_m: Range::new(0.0, 600.0),
-            },
-            cylinders: (-2..=2).map(cylinder).collect(),
-        },
-        models: Models { fixed_wing: [("scout".to_owned(), model())].into() },
+        world: World { cylinders: (-2..=2).map(cylinder).collect(), ..World::empty(map) },
+        models: Models { fixed_wing: [("scout".to_owned(), model())].into(), ..Models::default() },
         vehicles: (0..count).map(vehicle).collect(),
         fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true },
         planner: PlannerSettings { name: "by-hand".to_owned(), ..PlannerSettings::default() },
@@ -121,12 +133,14 @@ fn model() -> Model {
 fn plan(scenario: &Scenario, duration_s: f64) -> Plan {
     let count = scenario.vehicles.len();
     let times_s: Vec<f64> = (0..=40).map(|k| duration_s * f64::from(k) / 40.0).collect();
-    let trajectory = |(index, vehicle): (usize, &Vehicle)| Trajectory {
-        vehicle: vehicle.name.clone(),
-        interpolation: Interpolation::FirstOrderHold,
-        states: times_s.iter().map(|t_s| state(index, count, *t_s, duration_s)).collect(),
-        controls: times_s.iter().map(|_| Control::CRUISE).collect(),
-        times_s: times_s.clone(),
+    let trajectory = |(index, vehicle): (usize, &Vehicle)| {
+        Trajectory::FixedWing(fixed_wing::Trajectory {
+            vehicle: vehicle.name.clone(),
+            interpolation: Interpolation::FirstOrderHold,
+            states: times_s.iter().map(|t_s| state(index, count, *t_s, duration_s)).collect(),
+            controls: times_s.iter().map(|_| Control::CRUISE).collect(),
+            times_s: times_s.clone(),
+        })
     };
     let iteration = |k: i32| Iteration {
         objective: duration_s + 40.0 * 0.6_f64.powi(k),
@@ -162,6 +176,7 @@ fn flight(scenario: &Scenario, duration_s: f64) -> Flight {
     let log = |(index, vehicle): (usize, &Vehicle)| VehicleLog {
         vehicle: vehicle.name.clone(),
         samples: (0..=steps).map(|k| sample(index, count, k as f64 * STEP_S, duration_s)).collect(),
+        loads: Vec::new(),
     };
     Flight {
         step_s: STEP_S,
@@ -192,8 +207,7 @@ fn sample(index: usize, count: usize, t_s: f64, duration_s: f64) -> Sample {
         measured_velocity_mps: state.velocity_mps(),
         reference_position_m: position_m,
         reference_velocity_mps: state.velocity_mps(),
-        command: control,
-        control,
+        actuation: Actuation::LoadFactors(Commanded { command: control, control }),
     }
 }
 

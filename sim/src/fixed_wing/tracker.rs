@@ -1,6 +1,6 @@
 use scenarios::fixed_wing::{Control, Limits};
 
-use crate::fixed_wing::{AirPath, ReferencePoint, acceleration_mps2, gravity_mps2};
+use super::{AirPath, ReferencePoint, acceleration_mps2, gravity_mps2};
 use crate::sensors::Measurement;
 
 /// Follows a reference from measurements: feed-forward of the planned load factors, feedback on position and velocity.

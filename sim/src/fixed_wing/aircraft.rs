@@ -1,13 +1,13 @@
 use nalgebra::Vector3;
-use scenarios::fixed_wing::{Control, Model};
-use scenarios::{Scenario, Trajectory, Vehicle};
+use scenarios::fixed_wing::{Control, Model, Trajectory};
+use scenarios::{Scenario, Vehicle};
 
+use super::tracker::{Tracker, saturated};
+use super::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
 use crate::air::Air;
-use crate::fixed_wing::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
 use crate::saturation::SaturationWatch;
 use crate::sensors::{Measurement, Sensors};
-use crate::tracker::{Tracker, saturated};
-use crate::{EventKind, Pilot, Sample, VehicleLog};
+use crate::{Actuation, Commanded, EventKind, Pilot, Sample, VehicleLog};
 
 /// One aircraft of the fleet: everything about it but its body.
 pub(crate) struct Aircraft {
@@ -49,7 +49,11 @@ impl Aircraft {
             control: Control::CRUISE,
             wind_mps: Vector3::zeros(),
             saturation: SaturationWatch::default(),
-            log: VehicleLog { vehicle: vehicle.name.clone(), samples: Vec::with_capacity(steps + 1) },
+            log: VehicleLog {
+                vehicle: vehicle.name.clone(),
+                samples: Vec::with_capacity(steps + 1),
+                loads: Vec::new(),
+            },
         }
     }
 
@@ -82,8 +86,7 @@ impl Aircraft {
             measured_velocity_mps: measured.velocity_mps.into(),
             reference_position_m: reference.position_m.into(),
             reference_velocity_mps: reference.velocity_mps.into(),
-            command,
-            control: self.control,
+            actuation: Actuation::LoadFactors(Commanded { command, control: self.control }),
         };
         self.log.samples.push(sample);
         self.saturation.observe(t_s, sample.is_saturated())

@@ -1,0 +1,110 @@
+use serde::{Deserialize, Serialize};
+
+use super::{Cable, Control, State};
+use crate::{Interpolation, Nodes};
+
+/// Columns of a slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI, radians;
+/// `cable` is `taut` or `slack`, from this node to the next.
+pub const CSV_COLUMNS: [&str; 25] = [
+    "vehicle",
+    "t_s",
+    "x_m",
+    "y_m",
+    "z_m",
+    "vx_mps",
+    "vy_mps",
+    "vz_mps",
+    "roll_rad",
+    "pitch_rad",
+    "yaw_rad",
+    "rate_x_radps",
+    "rate_y_radps",
+    "rate_z_radps",
+    "load_x_m",
+    "load_y_m",
+    "load_z_m",
+    "load_vx_mps",
+    "load_vy_mps",
+    "load_vz_mps",
+    "thrust_1_n",
+    "thrust_2_n",
+    "thrust_3_n",
+    "thrust_4_n",
+    "cable",
+];
+
+/// The planned motion of a quadrotor with a load, given at nodes.
+///
+/// Two nodes may share a time: before and after the impact with which a slack cable becomes taut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Trajectory {
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// Controls between the nodes.
+    pub interpolation: Interpolation,
+    /// Times of the nodes, s, from 0, never decreasing.
+    pub times_s: Vec<f64>,
+    /// States at the nodes.
+    pub states: Vec<State>,
+    /// Controls at the nodes.
+    pub controls: Vec<Control>,
+    /// What the cable does from each node to the next; the last one's says what it does after the end.
+    pub cable: Vec<Cable>,
+    /// The nodes at which the planner's own constraints stood, by index, where the trajectory is sampled more densely than
+    /// that: `nodes.*` looks at these. Empty: all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub planner_nodes: Vec<usize>,
+}
+
+impl Trajectory {
+    /// The nodes at which the planner's own constraints stood, by index.
+    pub fn planner_nodes(&self) -> Vec<usize> {
+        let count = self.times_s.len();
+        match self.planner_nodes.as_slice() {
+            [] => (0..count).collect(),
+            own => own.iter().copied().filter(|node| *node < count).collect(),
+        }
+    }
+}
+
+impl Nodes for Trajectory {
+    fn vehicle(&self) -> &str {
+        &self.vehicle
+    }
+
+    fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    fn counts(&self) -> Vec<(&'static str, usize)> {
+        vec![("states", self.states.len()), ("controls", self.controls.len()), ("cable modes", self.cable.len())]
+    }
+
+    fn position_m(&self, node: usize) -> [f64; 3] {
+        self.states[node].position_m
+    }
+
+    fn velocity_mps(&self, node: usize) -> [f64; 3] {
+        self.states[node].velocity_mps
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        let states = self.states.iter().flat_map(|state| state.to_array());
+        let controls = self.controls.iter().flat_map(|control| control.thrust_n);
+        self.times_s.iter().copied().chain(states).chain(controls).collect()
+    }
+
+    fn csv_columns(&self) -> &'static [&'static str] {
+        &CSV_COLUMNS
+    }
+
+    fn csv_cells(&self, node: usize) -> Vec<String> {
+        let numbers = self.states[node].to_array().into_iter().chain(self.controls[node].thrust_n);
+        let cable = match self.cable[node] {
+            Cable::Taut => "taut",
+            Cable::Slack => "slack",
+        };
+        numbers.map(|number| format!("{number:?}")).chain([cable.to_owned()]).collect()
+    }
+}

@@ -1,0 +1,35 @@
+//! What simulator and judge do not know for a family is refused, so that nothing is overlooked in silence.
+
+use crate::{Family, Problem, Scenario};
+
+pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
+    let first = scenario.vehicles.first().and_then(|vehicle| scenario.models.get(&vehicle.model));
+    match first.map(|model| model.family()) {
+        None => Vec::new(),
+        Some(Family::FixedWing) => among_cylinders(scenario),
+        Some(Family::SlungLoad) => alone_among_flat_obstacles(scenario),
+    }
+}
+
+fn among_cylinders(scenario: &Scenario) -> Vec<Problem> {
+    let (boxes, prisms) = (scenario.world.boxes.len(), scenario.world.prisms.len());
+    let counts = [("world.boxes", boxes), ("world.prisms", prisms)].into_iter().filter(|(_, count)| *count > 0);
+    let problem = |(field, count): (&str, usize)| {
+        Problem::new(field, format!("{count} of them"), "none: fixed wings fly among cylinders")
+            .remedy("put cylinders round them")
+    };
+    counts.map(problem).collect()
+}
+
+fn alone_among_flat_obstacles(scenario: &Scenario) -> Vec<Problem> {
+    let (cylinders, vehicles) = (scenario.world.cylinders.len(), scenario.vehicles.len());
+    let cylinders = (cylinders > 0).then(|| {
+        let expected = "none: slung loads fly among boxes and prisms";
+        Problem::new("world.cylinders", format!("{cylinders} of them"), expected).remedy("put prisms round them")
+    });
+    let fleet = (vehicles > 1).then(|| {
+        Problem::new("vehicles", format!("{vehicles} of them"), "one: slung loads fly alone")
+            .remedy("make a scenario of each")
+    });
+    cylinders.into_iter().chain(fleet).collect()
+}

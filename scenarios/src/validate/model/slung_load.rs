@@ -1,0 +1,67 @@
+//! Models of quadrotors with slung loads: what is positive, limits in order, room to hover.
+
+use crate::slung_load::{Limits, Model};
+use crate::validate::identifier::entity_name;
+use crate::validate::quantity::{not_negative, ordered, positive, positive_if_given};
+use crate::{Problem, Range};
+
+use super::planning_inside_physical;
+
+pub(super) fn problems(name: &str, model: &Model) -> Vec<Problem> {
+    let field = format!("models.slung-load.{name}");
+    let mut problems: Vec<Problem> = entity_name(&field, name).into_iter().collect();
+    problems.extend(quantities(&field, model));
+    problems.extend(limits(&format!("{field}.limits"), &model.limits));
+    problems.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
+    problems.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
+    problems.extend(room_to_hover(&field, model));
+    problems
+}
+
+fn quantities(field: &str, model: &Model) -> Vec<Problem> {
+    let positive_ones = [
+        ("mass_kg", model.mass_kg),
+        ("inertia_kgm2[0]", model.inertia_kgm2[0]),
+        ("inertia_kgm2[1]", model.inertia_kgm2[1]),
+        ("inertia_kgm2[2]", model.inertia_kgm2[2]),
+        ("arm_m", model.arm_m),
+        ("torque_per_thrust_m", model.torque_per_thrust_m),
+        ("propeller_radius_m", model.propeller_radius_m),
+        ("load_mass_kg", model.load_mass_kg),
+        ("load_radius_m", model.load_radius_m),
+        ("cable_length_m", model.cable_length_m),
+    ];
+    let drag = [("drag_area_m2", model.drag_area_m2), ("load_drag_area_m2", model.load_drag_area_m2)];
+    let positive_ones =
+        positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
+    let drag = drag.into_iter().filter_map(|(name, value)| not_negative(&format!("{field}.{name}"), value));
+    let lag = positive_if_given(&format!("{field}.rotor_time_constant_s"), model.rotor_time_constant_s);
+    positive_ones.chain(drag).chain(lag).collect()
+}
+
+fn limits(field: &str, limits: &Limits) -> Vec<Problem> {
+    let mut problems: Vec<Problem> =
+        named(limits).into_iter().filter_map(|(name, range)| ordered(&format!("{field}.{name}"), range)).collect();
+    problems.extend(positive(&format!("{field}.tension_n"), limits.tension_n));
+    problems.extend(not_negative(&format!("{field}.thrust_n"), limits.thrust_n.min).map(|problem| {
+        Problem::new(problem.field, limits.thrust_n.to_string(), "a least thrust of 0 or more: rotors do not pull down")
+    }));
+    if limits.attitude_deg.min <= -90.0 || limits.attitude_deg.max >= 90.0 {
+        let expected = "both ends strictly between -90 and 90 deg";
+        problems.push(Problem::new(format!("{field}.attitude_deg"), limits.attitude_deg.to_string(), expected));
+    }
+    problems
+}
+
+fn room_to_hover(field: &str, model: &Model) -> Option<Problem> {
+    let (hover_n, thrust_n) = (model.hover_thrust_n(), model.planning_limits.thrust_n);
+    (thrust_n.min < thrust_n.max && !(thrust_n.min < hover_n && hover_n < thrust_n.max)).then(|| {
+        let expected = format!("a range around {hover_n:.3} N, with which each rotor holds quadrotor and load still");
+        Problem::new(format!("{field}.planning_limits.thrust_n"), thrust_n.to_string(), expected)
+            .remedy("give the rotors more thrust, or the vehicle less mass")
+    })
+}
+
+fn named(limits: &Limits) -> [(&'static str, Range); 3] {
+    [("thrust_n", limits.thrust_n), ("attitude_deg", limits.attitude_deg), ("cable_deg", limits.cable_deg)]
+}

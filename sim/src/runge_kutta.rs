@@ -1,0 +1,36 @@
+//! Butcher's method of order 6 with 7 stages.        [Butcher 1964, On Runge-Kutta processes of high order, J. Aust. Math. Soc. 4]
+
+use nalgebra::SVector;
+
+const STAGES: usize = 7;
+const NODES: [f64; STAGES] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 2.0, 1.0 / 2.0, 1.0];
+const WEIGHTS: [f64; STAGES] = [11.0 / 120.0, 0.0, 27.0 / 40.0, 27.0 / 40.0, -4.0 / 15.0, -4.0 / 15.0, 11.0 / 120.0];
+const COUPLING: [&[f64]; STAGES] = [
+    &[],
+    &[1.0 / 3.0],
+    &[0.0, 2.0 / 3.0],
+    &[1.0 / 12.0, 1.0 / 3.0, -1.0 / 12.0],
+    &[-1.0 / 16.0, 9.0 / 8.0, -3.0 / 16.0, -3.0 / 8.0],
+    &[0.0, 9.0 / 8.0, -3.0 / 8.0, -3.0 / 4.0, 1.0 / 2.0],
+    &[9.0 / 44.0, -9.0 / 11.0, 63.0 / 44.0, 18.0 / 11.0, 0.0, -16.0 / 11.0],
+];
+
+/// The state after a step.
+///
+/// - `rate`: derivative of a state at a share of the step in [0, 1]
+pub(crate) fn advanced<const N: usize>(
+    state: &SVector<f64, N>,
+    step_s: f64,
+    rate: impl Fn(&SVector<f64, N>, f64) -> SVector<f64, N>,
+) -> SVector<f64, N> {
+    let mut rates = [SVector::zeros(); STAGES];
+    for stage in 0..STAGES {
+        let increment = weighted_sum(COUPLING[stage], &rates);
+        rates[stage] = rate(&(state + increment * step_s), NODES[stage]);
+    }
+    state + weighted_sum(&WEIGHTS, &rates) * step_s
+}
+
+fn weighted_sum<const N: usize>(weights: &[f64], rates: &[SVector<f64, N>; STAGES]) -> SVector<f64, N> {
+    weights.iter().zip(rates).fold(SVector::zeros(), |sum, (weight, rate)| sum + rate * *weight)
+}

@@ -1,0 +1,144 @@
+use nalgebra::{Quaternion, Vector3, Vector4};
+use scenarios::slung_load::{Cable, GRAVITY_MPS2, Model};
+
+use super::body::{Body, Numbers};
+
+/// A load this close above the height at which it rests, m, and this slow, m/s, lies on the ground.
+const RESTING_M: f64 = 1e-6;
+const RESTING_MPS: f64 = 1e-6;
+
+/// What the equations of motion need to know of a quadrotor and its load.
+///
+/// ```text
+/// m_Q p_Q'' = F R e_3 - m_Q g e_3 + λ d          I ω' = τ - ω × I ω
+/// m_L p_L'' =         - m_L g e_3 - λ d          R' = R [ω]×
+/// d = (p_L - p_Q) / |p_L - p_Q|,   0 <= λ,   |p_L - p_Q| <= l_0
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plant {
+    /// Mass of the quadrotor m_Q, kg.
+    pub mass_kg: f64,
+    /// Moments of inertia about the body axes I, kg m².
+    pub inertia_kgm2: Vector3<f64>,
+    /// Mass of the load m_L, kg.
+    pub load_mass_kg: f64,
+    /// Length of the taut cable l_0, m.
+    pub cable_length_m: f64,
+    /// Lever arm of the rotors about x and y, m.
+    pub arm_m: f64,
+    /// Torque about z for each newton of a rotor's thrust, m.
+    pub torque_per_thrust_m: f64,
+    /// Height of the load's centre when it lies on the ground, m; -∞ without ground.
+    pub resting_height_m: f64,
+}
+
+impl Plant {
+    /// The nominal plant of a model, above a ground at this height if there is one, m.
+    pub fn nominal(model: &Model, ground_m: Option<f64>) -> Self {
+        Self {
+            mass_kg: model.mass_kg,
+            inertia_kgm2: model.inertia_kgm2.into(),
+            load_mass_kg: model.load_mass_kg,
+            cable_length_m: model.cable_length_m,
+            arm_m: model.arm_m,
+            torque_per_thrust_m: model.torque_per_thrust_m,
+            resting_height_m: ground_m.map_or(f64::NEG_INFINITY, |ground_m| ground_m + model.load_radius_m),
+        }
+    }
+
+    /// Total thrust, N, and torque in body axes, N m, of four rotors with these thrusts, N.        [Kang 2020, eq. 5]
+    pub fn wrench(&self, thrust_n: &Vector4<f64>) -> (f64, Vector3<f64>) {
+        let [f1, f2, f3, f4] = [thrust_n[0], thrust_n[1], thrust_n[2], thrust_n[3]];
+        let torque_nm = Vector3::new(
+            self.arm_m * (-f1 + f2 + f3 - f4),
+            self.arm_m * (-f1 - f2 + f3 + f4),
+            self.torque_per_thrust_m * (f1 - f2 + f3 - f4),
+        );
+        (thrust_n.sum(), torque_nm)
+    }
+
+    /// Tension of a taut cable, N, for which its length stays what it is; negative where it would have to push.
+    ///
+    /// ```text
+    /// λ (1/m_Q + 1/m_L) = |p_L' - p_Q'|²/l - (F/m_Q) d·R e_3
+    /// ```
+    ///
+    /// of the velocity the part across the cable; gravity pulls at both ends alike, and drops out.
+    pub fn tension_n(&self, body: &Body, thrust_n: f64) -> f64 {
+        let cable_m = body.cable_m();
+        let (length_m, d) = (cable_m.norm(), cable_m.normalize());
+        let relative_mps = body.load_relative_mps();
+        let across_mps = relative_mps - d * d.dot(&relative_mps);
+        let pull_mps2 = across_mps.norm_squared() / length_m - thrust_n / self.mass_kg * d.dot(&body.thrust_axis());
+        pull_mps2 * self.reduced_mass_kg()
+    }
+
+    /// m_Q m_L / (m_Q + m_L), kg.
+    pub fn reduced_mass_kg(&self) -> f64 {
+        self.mass_kg * self.load_mass_kg / (self.mass_kg + self.load_mass_kg)
+    }
+
+    /// Accelerations of quadrotor and load, world frame, m/s².
+    pub fn accelerations_mps2(&self, body: &Body, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
+        let gravity = Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
+        let free = body.thrust_axis() * (thrust_n / self.mass_kg) + gravity;
+        match cable {
+            Cable::Slack if self.is_resting(body) => [free, Vector3::zeros()],
+            Cable::Slack => [free, gravity],
+            Cable::Taut => {
+                let pull_n = body.cable_m().normalize() * self.tension_n(body, thrust_n);
+                [free + pull_n / self.mass_kg, gravity - pull_n / self.load_mass_kg]
+            }
+        }
+    }
+
+    /// Angular acceleration in body axes, rad/s².
+    pub fn angular_acceleration_radps2(
+        &self,
+        body_rate_radps: &Vector3<f64>,
+        torque_nm: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        let momentum = self.inertia_kgm2.component_mul(body_rate_radps);
+        (torque_nm - body_rate_radps.cross(&momentum)).component_div(&self.inertia_kgm2)
+    }
+
+    /// Does the load lie on the ground?
+    pub fn is_resting(&self, body: &Body) -> bool {
+        body.load_position_m.z <= self.resting_height_m + RESTING_M && body.load_velocity_mps.norm() <= RESTING_MPS
+    }
+
+    /// Derivative of a motion under four thrusts, N.
+    pub(super) fn rate(&self, numbers: &Numbers, thrust_n: &Vector4<f64>, cable: Cable) -> Numbers {
+        let body = Body::from_numbers(numbers);
+        let (thrust_n, torque_nm) = self.wrench(thrust_n);
+        let [acceleration, load_acceleration] = self.accelerations_mps2(&body, thrust_n, cable);
+        let quaternion = Quaternion::from(numbers.fixed_rows::<4>(6).into_owned());
+        let spin = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
+        let mut rate = Numbers::zeros();
+        rate.fixed_rows_mut::<3>(0).copy_from(&body.velocity_mps);
+        rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
+        rate.fixed_rows_mut::<4>(6).copy_from(&spin.coords);
+        rate.fixed_rows_mut::<3>(10).copy_from(&self.angular_acceleration_radps2(&body.body_rate_radps, &torque_nm));
+        rate.fixed_rows_mut::<3>(13).copy_from(&body.load_velocity_mps);
+        rate.fixed_rows_mut::<3>(16).copy_from(&load_acceleration);
+        rate
+    }
+}
+
+/// A slack cable becomes taut: the inelastic impact that takes the speed at which its ends part.
+///
+/// ```text
+/// Λ = ρ' m_Q m_L / (m_Q + m_L),   p_Q' + Λ d/m_Q,   p_L' - Λ d/m_L
+/// ```
+///
+/// Returns the motion after it, and the impulse Λ, N s: 0 if the ends do not part.
+pub fn impact(plant: &Plant, before: &Body) -> (Body, f64) {
+    let d = before.cable_m().normalize();
+    let impulse_ns = (d.dot(&before.load_relative_mps()) * plant.reduced_mass_kg()).max(0.0);
+    let after = Body {
+        velocity_mps: before.velocity_mps + d * (impulse_ns / plant.mass_kg),
+        load_velocity_mps: before.load_velocity_mps - d * (impulse_ns / plant.load_mass_kg),
+        ..*before
+    };
+    (after, impulse_ns)
+}

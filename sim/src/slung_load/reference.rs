@@ -1,0 +1,168 @@
+use nalgebra::{UnitQuaternion, Vector3, Vector4};
+use scenarios::Interpolation;
+use scenarios::slung_load::{Cable, Trajectory};
+
+use super::body::Body;
+use super::dynamics::Plant;
+use super::flow::{Knot, flow};
+
+/// Distance between the reference's points, s: between them it is followed to better than 1e-6 m.
+const PIECE_S: f64 = 0.005;
+
+/// A plan as a continuous motion, for a tracker to follow.
+///
+/// On each interval it is the flow of the nonlinear equations from the interval's first node under the planned thrusts,
+/// plus a smooth correction that takes up the interval's defect, so that it meets every node. At an impact it jumps, as the
+/// plan does. After the last node it hovers there.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    plant: Plant,
+    points: Vec<ReferencePoint>,
+}
+
+/// What the plan asks for at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferencePoint {
+    /// Time, s.
+    pub t_s: f64,
+    /// Motion.
+    pub body: Body,
+    /// Planned thrusts, N.
+    pub thrust_n: Vector4<f64>,
+    /// What the cable does from here on.
+    pub cable: Cable,
+}
+
+impl Reference {
+    /// The reference of a trajectory with at least two nodes, for a plant as the plan knows it.
+    pub fn new(trajectory: &Trajectory, plant: &Plant) -> Self {
+        let last = trajectory.times_s.len() - 1;
+        let points = (0..last).flat_map(|interval| interval_points(trajectory, plant, interval)).collect();
+        Self { plant: *plant, points }
+    }
+
+    /// Time of the last node, s.
+    pub fn end_s(&self) -> f64 {
+        self.points[self.points.len() - 1].t_s
+    }
+
+    /// Its points in the order of time; two of them share a time where a node does, the later one is what comes after it.
+    pub fn points(&self) -> &[ReferencePoint] {
+        &self.points
+    }
+
+    /// What the plan asks for at `t_s`, s: any time from the first node's on. At a jump, what comes after it.
+    pub fn at(&self, t_s: f64) -> ReferencePoint {
+        let after = self.points.partition_point(|point| point.t_s <= t_s);
+        match self.points.get(after) {
+            None => self.hover(t_s),
+            Some(next) => between(&self.points[after.max(1) - 1], next, t_s),
+        }
+    }
+
+    /// At rest where the plan ends.
+    fn hover(&self, t_s: f64) -> ReferencePoint {
+        let end = &self.points[self.points.len() - 1];
+        let yaw = end.body.attitude.euler_angles().2;
+        let carried_kg = if end.cable == Cable::Taut { self.plant.load_mass_kg } else { 0.0 };
+        let thrust_n = (self.plant.mass_kg + carried_kg) * scenarios::slung_load::GRAVITY_MPS2 / 4.0;
+        let load_position_m = match end.cable {
+            Cable::Taut => end.body.position_m - Vector3::z() * self.plant.cable_length_m,
+            Cable::Slack => end.body.load_position_m,
+        };
+        let body = Body {
+            velocity_mps: Vector3::zeros(),
+            attitude: UnitQuaternion::from_euler_angles(0.0, 0.0, yaw),
+            body_rate_radps: Vector3::zeros(),
+            load_position_m,
+            load_velocity_mps: Vector3::zeros(),
+            ..end.body
+        };
+        ReferencePoint { t_s, body, thrust_n: Vector4::repeat(thrust_n), cable: end.cable }
+    }
+}
+
+/// The flow of an interval, bent so that it ends at the next node; nothing for an interval without length.
+fn interval_points(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<ReferencePoint> {
+    let Interpolation::FirstOrderHold = trajectory.interpolation;
+    let times_s = [trajectory.times_s[interval], trajectory.times_s[interval + 1]];
+    if times_s[0] >= times_s[1] {
+        return Vec::new();
+    }
+    let controls = [&trajectory.controls[interval], &trajectory.controls[interval + 1]];
+    let cable = trajectory.cable[interval];
+    let start = Body::from(&trajectory.states[interval]);
+    let knots = flow(plant, &start, controls, cable, times_s, PIECE_S);
+    let defect = Defect::between(&knots[knots.len() - 1].body, &Body::from(&trajectory.states[interval + 1]));
+    let point = |knot: &Knot| {
+        let share = (knot.t_s - times_s[0]) / (times_s[1] - times_s[0]);
+        let body = defect.taken_up(&knot.body, share);
+        ReferencePoint { t_s: knot.t_s, body, thrust_n: knot.thrust_n, cable }
+    };
+    knots.iter().map(point).collect()
+}
+
+/// What an interval's end lacks to the next node.
+struct Defect {
+    position_m: Vector3<f64>,
+    velocity_mps: Vector3<f64>,
+    /// In body axes, rad.
+    turn: Vector3<f64>,
+    body_rate_radps: Vector3<f64>,
+    load_position_m: Vector3<f64>,
+    load_velocity_mps: Vector3<f64>,
+}
+
+impl Defect {
+    fn between(flown: &Body, planned: &Body) -> Self {
+        Self {
+            position_m: planned.position_m - flown.position_m,
+            velocity_mps: planned.velocity_mps - flown.velocity_mps,
+            turn: (flown.attitude.inverse() * planned.attitude).scaled_axis(),
+            body_rate_radps: planned.body_rate_radps - flown.body_rate_radps,
+            load_position_m: planned.load_position_m - flown.load_position_m,
+            load_velocity_mps: planned.load_velocity_mps - flown.load_velocity_mps,
+        }
+    }
+
+    /// The motion with so much of the defect taken up as fits the share of the interval, in [0, 1]: s²(3 - 2s).
+    fn taken_up(&self, body: &Body, share: f64) -> Body {
+        let weight = share * share * (3.0 - 2.0 * share);
+        Body {
+            position_m: body.position_m + self.position_m * weight,
+            velocity_mps: body.velocity_mps + self.velocity_mps * weight,
+            attitude: body.attitude * UnitQuaternion::from_scaled_axis(self.turn * weight),
+            body_rate_radps: body.body_rate_radps + self.body_rate_radps * weight,
+            load_position_m: body.load_position_m + self.load_position_m * weight,
+            load_velocity_mps: body.load_velocity_mps + self.load_velocity_mps * weight,
+        }
+    }
+}
+
+/// Positions by the cubic with the ends' velocities, the rest linearly.
+fn between(from: &ReferencePoint, to: &ReferencePoint, t_s: f64) -> ReferencePoint {
+    let duration_s = to.t_s - from.t_s;
+    if duration_s <= 0.0 {
+        return *to;
+    }
+    let s = (t_s - from.t_s) / duration_s;
+    let linear = |a: &Vector3<f64>, b: &Vector3<f64>| a + (b - a) * s;
+    let cubic = |p0: &Vector3<f64>, v0: &Vector3<f64>, p1: &Vector3<f64>, v1: &Vector3<f64>| {
+        let (s2, s3) = (s * s, s * s * s);
+        p0 * (2.0 * s3 - 3.0 * s2 + 1.0)
+            + v0 * ((s3 - 2.0 * s2 + s) * duration_s)
+            + p1 * (3.0 * s2 - 2.0 * s3)
+            + v1 * ((s3 - s2) * duration_s)
+    };
+    let (a, b) = (&from.body, &to.body);
+    let body = Body {
+        position_m: cubic(&a.position_m, &a.velocity_mps, &b.position_m, &b.velocity_mps),
+        velocity_mps: linear(&a.velocity_mps, &b.velocity_mps),
+        attitude: a.attitude.nlerp(&b.attitude, s),
+        body_rate_radps: linear(&a.body_rate_radps, &b.body_rate_radps),
+        load_position_m: cubic(&a.load_position_m, &a.load_velocity_mps, &b.load_position_m, &b.load_velocity_mps),
+        load_velocity_mps: linear(&a.load_velocity_mps, &b.load_velocity_mps),
+    };
+    let thrust_n = from.thrust_n + (to.thrust_n - from.thrust_n) * s;
+    ReferencePoint { t_s, body, thrust_n, cable: from.cable }
+}

@@ -1,0 +1,97 @@
+//! Body, cable and load as shapes, and their signed distance to the obstacles.
+
+mod distance;
+
+use scenarios::Prism;
+use scenarios::slung_load::Model;
+
+use self::distance::{Flat, point_to_prism_m, to_prism_m};
+use super::body::Body;
+
+/// What the ground is called where an obstacle has a name.
+pub const GROUND: &str = "ground";
+
+/// A part of a quadrotor with a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The disc over the rotors.
+    Body,
+    /// The straight line between its ends.
+    Cable,
+    /// The ball about the load.
+    Load,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Body, Self::Cable, Self::Load];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Body => "body",
+            Self::Cable => "cable",
+            Self::Load => "load",
+        }
+    }
+}
+
+/// The parts of one vehicle.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts {
+    body_radius_m: f64,
+    load_radius_m: f64,
+}
+
+impl Parts {
+    /// The parts of a vehicle of this model.
+    pub fn of(model: &Model) -> Self {
+        Self { body_radius_m: model.body_radius_m(), load_radius_m: model.load_radius_m }
+    }
+
+    /// Signed distance between a part and an obstacle with its corners counterclockwise, m: negative when they overlap.
+    pub fn distance_m(&self, part: Part, body: &Body, obstacle: &Prism) -> f64 {
+        match part {
+            Part::Body => {
+                let disc =
+                    Flat::Disc { center_m: body.position_m, axis: body.thrust_axis(), radius_m: self.body_radius_m };
+                to_prism_m(&disc, obstacle)
+            }
+            Part::Cable => to_prism_m(&Flat::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
+            Part::Load => point_to_prism_m(&body.load_position_m, obstacle) - self.load_radius_m,
+        }
+    }
+
+    /// A bound of that distance from below that costs little, m: by the ball about the part.
+    pub fn at_least_m(&self, part: Part, body: &Body, obstacle: &Prism) -> f64 {
+        match part {
+            Part::Body => point_to_prism_m(&body.position_m, obstacle) - self.body_radius_m,
+            Part::Cable => {
+                let middle_m = (body.position_m + body.load_position_m) / 2.0;
+                point_to_prism_m(&middle_m, obstacle) - body.cable_m().norm() / 2.0
+            }
+            Part::Load => self.distance_m(part, body, obstacle),
+        }
+    }
+
+    /// Signed distance in the plane between the envelope circle and an obstacle at whatever height, m.        [Kang 2020, eq. 14]
+    pub fn envelope_distance_m(&self, body: &Body, obstacle: &Prism) -> f64 {
+        obstacle.signed_distance_m([body.position_m.x, body.position_m.y]) - self.envelope_radius_m(body)
+    }
+
+    /// Altitude of the lowest point of the body, m.
+    pub fn height_m(&self, body: &Body) -> f64 {
+        let upright = body.thrust_axis().z;
+        body.position_m.z - self.body_radius_m * (1.0 - upright * upright).max(0.0).sqrt()
+    }
+
+    /// Radius of the envelope circle: that of the body, or the horizontal reach of the load, whichever is larger, m.
+    pub fn envelope_radius_m(&self, body: &Body) -> f64 {
+        body.cable_m().xy().norm().max(self.body_radius_m)
+    }
+
+    /// Radius of the body's disc, m.
+    pub fn body_radius_m(&self) -> f64 {
+        self.body_radius_m
+    }
+}

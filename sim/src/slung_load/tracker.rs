@@ -1,0 +1,130 @@
+use nalgebra::{UnitQuaternion, Vector3, Vector4};
+use scenarios::Range;
+use scenarios::slung_load::{Cable, GRAVITY_MPS2};
+
+use super::allocation;
+use super::body::Body;
+use super::dynamics::Plant;
+use super::gains::Gains;
+use super::linear::Errors;
+use super::reference::{Reference, ReferencePoint};
+
+/// Natural frequency, rad/s, and damping ratio of the attitude error.
+const ATTITUDE_RADPS: f64 = 25.0;
+const ATTITUDE_DAMPING: f64 = 0.8;
+/// Largest correction of the acceleration, m/s²: beyond it the linear law says nothing.
+const LARGEST_CORRECTION_MPS2: f64 = 6.0;
+/// Largest integral of the position error, m s: what a constant disturbance needs, and no more.
+const LARGEST_INTEGRAL_MS: f64 = 0.3;
+
+/// Follows a reference from measurements, through slack and taut.
+///
+/// ```text
+/// u = a_ref - K(t) (∫e, e, e', e_load, e_load')                 time-varying linear-quadratic regulator
+/// F_des = m_Q (u + g e_3) - λ d                                 λ of the measured cable under u
+/// ω' = ω'_ref - k_R e_R - k_ω e_ω,   τ = I ω' + ω × I ω         attitude towards F_des, geometric
+/// ```
+///
+/// It knows the nominal plant and what the plan says of the cable, not the wind, the true masses or the tension.
+#[derive(Clone, Debug)]
+pub(super) struct Tracker {
+    plant: Plant,
+    gains: Gains,
+    limits: Range,
+    step_s: f64,
+    /// ∫e, m s.
+    integral_ms: Vector3<f64>,
+}
+
+/// Thrusts, N: asked for, and inside the rotors' limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Thrusts {
+    pub command_n: Vector4<f64>,
+    pub limited_n: Vector4<f64>,
+}
+
+impl Tracker {
+    /// For a nominal plant whose rotors have these limits, N; a command is held for `step_s`.
+    pub fn new(reference: &Reference, plant: &Plant, limits: Range, step_s: f64) -> Self {
+        Self { plant: *plant, gains: Gains::about(reference, plant), limits, step_s, integral_ms: Vector3::zeros() }
+    }
+
+    /// Thrusts to hold over the coming step.
+    ///
+    /// - `reference`: now, for the feedback
+    /// - `ahead`: half a step ahead, for the feed-forward
+    pub fn command(&mut self, measured: &Body, reference: &ReferencePoint, ahead: &ReferencePoint) -> Thrusts {
+        let correction_mps2 = self.correction_mps2(measured, reference);
+        let force_n = self.force_n(measured, ahead, &correction_mps2);
+        let torque_nm = self.torque_nm(measured, reference, ahead, &force_n);
+        let total_n = force_n.dot(&measured.thrust_axis());
+        let command_n = allocation::unlimited(&self.plant, total_n, &torque_nm);
+        // Rounding may put a thrust that stands on its limit a little beyond it.
+        let fits =
+            command_n.iter().all(|thrust| (thrust - thrust.clamp(self.limits.min, self.limits.max)).abs() < 1e-9);
+        let limited_n = if fits {
+            command_n.map(|thrust| thrust.clamp(self.limits.min, self.limits.max))
+        } else {
+            allocation::limited(&self.plant, total_n, &torque_nm, self.limits)
+        };
+        Thrusts { command_n: if fits { limited_n } else { command_n }, limited_n }
+    }
+
+    fn correction_mps2(&mut self, measured: &Body, reference: &ReferencePoint) -> Vector3<f64> {
+        let wanted = &reference.body;
+        let error_m = measured.position_m - wanted.position_m;
+        self.integral_ms += error_m * self.step_s;
+        let longest = self.integral_ms.norm().max(LARGEST_INTEGRAL_MS);
+        self.integral_ms *= LARGEST_INTEGRAL_MS / longest;
+        let mut errors = Errors::zeros();
+        errors.fixed_rows_mut::<3>(0).copy_from(&self.integral_ms);
+        errors.fixed_rows_mut::<3>(3).copy_from(&error_m);
+        errors.fixed_rows_mut::<3>(6).copy_from(&(measured.velocity_mps - wanted.velocity_mps));
+        errors.fixed_rows_mut::<3>(9).copy_from(&(measured.load_position_m - wanted.load_position_m));
+        errors.fixed_rows_mut::<3>(12).copy_from(&(measured.load_velocity_mps - wanted.load_velocity_mps));
+        let correction = -(self.gains.at(reference.t_s) * errors);
+        correction * (LARGEST_CORRECTION_MPS2 / correction.norm().max(LARGEST_CORRECTION_MPS2))
+    }
+
+    /// Force of the rotors, world frame, N.
+    fn force_n(&self, measured: &Body, ahead: &ReferencePoint, correction_mps2: &Vector3<f64>) -> Vector3<f64> {
+        let [planned_mps2, _] = self.plant.accelerations_mps2(&ahead.body, ahead.thrust_n.sum(), ahead.cable);
+        let acceleration_mps2 = planned_mps2 + correction_mps2;
+        let weightless = acceleration_mps2 + Vector3::z() * GRAVITY_MPS2;
+        let pull_n = match ahead.cable {
+            Cable::Slack => Vector3::zeros(),
+            Cable::Taut => {
+                // Half a step ahead, as the plan moves on from what is measured now.
+                let moved_m = measured.cable_m() + measured.load_relative_mps() * (self.step_s / 2.0);
+                let (d, relative_mps) = (moved_m.normalize(), measured.load_relative_mps());
+                let across_mps = relative_mps - d * d.dot(&relative_mps);
+                let pull_mps2 = across_mps.norm_squared() / moved_m.norm() - d.dot(&weightless);
+                d * (pull_mps2 * self.plant.load_mass_kg).max(0.0)
+            }
+        };
+        weightless * self.plant.mass_kg - pull_n
+    }
+
+    /// Torque in body axes, N m, that turns the thrust axis towards `force_n` and the rest as the plan has it.
+    fn torque_nm(
+        &self,
+        measured: &Body,
+        reference: &ReferencePoint,
+        ahead: &ReferencePoint,
+        force_n: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        let planned_axis = ahead.body.thrust_axis();
+        let turn = UnitQuaternion::rotation_between(&planned_axis, force_n).unwrap_or_else(UnitQuaternion::identity);
+        let wanted = turn * reference.body.attitude;
+        let body_from_wanted = measured.attitude.inverse() * wanted;
+        let attitude_error = -body_from_wanted.scaled_axis();
+        let rate_error = measured.body_rate_radps - body_from_wanted * reference.body.body_rate_radps;
+        let (_, planned_nm) = self.plant.wrench(&ahead.thrust_n);
+        let planned = self.plant.angular_acceleration_radps2(&ahead.body.body_rate_radps, &planned_nm);
+        let angular_acceleration = body_from_wanted * planned
+            - attitude_error * ATTITUDE_RADPS.powi(2)
+            - rate_error * (2.0 * ATTITUDE_DAMPING * ATTITUDE_RADPS);
+        let momentum = self.plant.inertia_kgm2.component_mul(&measured.body_rate_radps);
+        self.plant.inertia_kgm2.component_mul(&angular_acceleration) + measured.body_rate_radps.cross(&momentum)
+    }
+}

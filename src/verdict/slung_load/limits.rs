@@ -1,0 +1,166 @@
+//! Do states and thrusts stay inside their limits?
+//!
+//! As for fixed wings: the planning limits at the planner's nodes, the physical ones between them and in flight, the map in
+//! all three, for quadrotor and load. Positions are judged over continuous time, the attitude at every instant of the plan
+//! (5 ms apart at most) and at every step of the flight, in Euler angles (Z-Y-X). Thrusts run linearly between the nodes of
+//! a plan, so that they are extreme at nodes; in flight those that the rotors were given are judged.
+
+use nalgebra::{Quaternion, UnitQuaternion};
+use scenarios::slung_load::{Limits, Trajectory};
+use scenarios::{Range, Scenario, Vehicle};
+use sim::slung_load::Body;
+use sim::{Actuation, VehicleLog};
+
+use super::planned::Planned;
+use crate::verdict::Check;
+use crate::verdict::limits::{SOLVER_TOLERANCE, answer, extremes_m};
+use crate::verdict::motion::Motion;
+use crate::verdict::question::{Evidence, Group};
+use crate::verdict::worst::{Quantity, Worst};
+
+/// A vehicle and what it has to stay inside.
+pub struct Limited<'a> {
+    vehicle: &'a str,
+    map: [Range; 3],
+    promised: Limits,
+    physical: Limits,
+}
+
+impl<'a> Limited<'a> {
+    /// A vehicle of the scenario.
+    pub fn of(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
+        let model = scenario.slung_load_model(vehicle);
+        let widened = |range: Range| {
+            let tolerance = SOLVER_TOLERANCE * range.width();
+            Range::new(range.min - tolerance, range.max + tolerance)
+        };
+        let Limits { thrust_n, attitude_deg, cable_deg, tension_n } = model.planning_limits;
+        Self {
+            vehicle: &vehicle.name,
+            map: scenario.world.map.axes(),
+            promised: Limits {
+                thrust_n: widened(thrust_n),
+                attitude_deg: widened(attitude_deg),
+                cable_deg: widened(cable_deg),
+                tension_n,
+            },
+            physical: model.limits.clone(),
+        }
+    }
+
+    /// States at the planner's nodes against the planning limits.
+    pub fn check_node_states(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
+        answer(Group::Nodes, "state_limits", trajectory, |trajectory, worst| {
+            for node in trajectory.planner_nodes() {
+                let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
+                for position_m in [state.position_m, state.load_position_m] {
+                    self.place(worst, position_m, t_s);
+                }
+                self.attitude(worst, &Body::from(state).attitude, self.promised.attitude_deg, t_s);
+                self.cable(worst, &Body::from(state), self.promised.cable_deg, t_s);
+            }
+        })
+    }
+
+    /// States of the continuous plan against the physical limits.
+    pub fn check_planned_states(&self, planned: Evidence<'_, Planned>) -> Check {
+        answer(Group::Plan, "state_limits", planned, |planned, worst| {
+            planned.motions.iter().for_each(|motion| self.path(worst, motion));
+            for knot in &planned.knots {
+                self.attitude(worst, &knot.body.attitude, self.physical.attitude_deg, knot.t_s);
+            }
+        })
+    }
+
+    /// Flown states against the physical limits.
+    pub fn check_flown_states(&self, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+        answer(Group::Flight, "state_limits", flown, |flown, worst| {
+            flown.motions.iter().for_each(|motion| self.path(worst, motion));
+            for sample in &flown.log.samples {
+                let attitude = UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body));
+                self.attitude(worst, &attitude, self.physical.attitude_deg, sample.t_s);
+            }
+        })
+    }
+
+    /// Thrusts at the planner's nodes against the planning limits.
+    pub fn check_node_thrusts(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
+        answer(Group::Nodes, "control_limits", trajectory, |trajectory, worst| {
+            for node in trajectory.planner_nodes() {
+                let thrust_n = trajectory.controls[node].thrust_n;
+                self.thrusts(worst, thrust_n, self.promised.thrust_n, trajectory.times_s[node]);
+            }
+        })
+    }
+
+    /// Thrusts of the continuous plan against the physical limits.
+    pub fn check_planned_thrusts(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
+        answer(Group::Plan, "control_limits", trajectory, |trajectory, worst| {
+            for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
+                self.thrusts(worst, control.thrust_n, self.physical.thrust_n, t_s);
+            }
+        })
+    }
+
+    /// Thrusts that acted in flight against the physical limits.
+    pub fn check_flown_thrusts(&self, log: Evidence<'_, VehicleLog>) -> Check {
+        answer(Group::Flight, "control_limits", log, |log, worst| {
+            for sample in &log.samples {
+                if let Actuation::Thrusts(thrusts) = &sample.actuation {
+                    self.thrusts(worst, thrusts.control.thrust_n, self.physical.thrust_n, sample.t_s);
+                }
+            }
+        })
+    }
+
+    /// Cable angles of the continuous plan against the physical limits.
+    pub fn check_planned_swing(&self, planned: Evidence<'_, Planned>) -> Check {
+        answer(Group::Plan, "swing", planned, |planned, worst| {
+            for knot in &planned.knots {
+                self.cable(worst, &knot.body, self.physical.cable_deg, knot.t_s);
+            }
+        })
+    }
+
+    /// Cable angles in flight against the physical limits.
+    pub fn check_flown_swing(&self, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+        answer(Group::Flight, "swing", flown, |flown, worst| {
+            for instant in flown.course.instants() {
+                self.cable(worst, &instant.body, self.physical.cable_deg, instant.t_s);
+            }
+        })
+    }
+
+    fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
+        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
+            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+        }
+    }
+
+    fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
+        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
+            for (value, t_s) in extremes_m(motion, axis) {
+                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+            }
+        }
+    }
+
+    fn attitude(&self, worst: &mut Worst<'a>, attitude: &UnitQuaternion<f64>, range: Range, t_s: f64) {
+        let (roll, pitch, yaw) = attitude.euler_angles();
+        for (name, angle) in [("roll", roll), ("pitch", pitch), ("yaw", yaw)] {
+            worst.consider(self.vehicle, Quantity { name, unit: "deg", range }, angle.to_degrees(), t_s);
+        }
+    }
+
+    fn cable(&self, worst: &mut Worst<'a>, body: &Body, range: Range, t_s: f64) {
+        for (name, angle) in ["cable angle alpha", "cable angle beta"].into_iter().zip(body.cable_angles_rad()) {
+            worst.consider(self.vehicle, Quantity { name, unit: "deg", range }, angle.to_degrees(), t_s);
+        }
+    }
+
+    fn thrusts(&self, worst: &mut Worst<'a>, thrust_n: [f64; 4], range: Range, t_s: f64) {
+        for (name, value) in ["F_1", "F_2", "F_3", "F_4"].into_iter().zip(thrust_n) {
+            worst.consider(self.vehicle, Quantity { name, unit: "N", range }, value, t_s);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The plan as a continuous motion: its thrusts through the judge's equations, restarted at every node.
+
+use scenarios::slung_load::{Cable, Trajectory};
+use scenarios::{Interpolation, Plan, Scenario};
+use sim::slung_load::{Body, Knot, Plant, flow, impact};
+
+use super::course::{Course, Instant};
+use crate::verdict::compare::exceeds;
+use crate::verdict::motion::{self, Motion};
+
+/// Longest step of the integration, and distance between instants, s.
+const MAX_STEP_S: f64 = 0.005;
+/// A defect is what has gathered over at least this time, s, or to the next switch of the cable: a plan that is sampled
+/// densely is not excused from the equations.
+const WINDOW_S: f64 = 0.1;
+
+/// The motion that a plan's thrusts cause.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// Quadrotor and load. At every node they jump from where the interval before it ends to the node itself.
+    pub course: Course,
+    /// The quadrotor's centre, and the load's.
+    pub motions: [Motion; 2],
+    /// Every instant of it with thrust and tension.
+    pub knots: Vec<Knot>,
+    /// What the plan's nodes lack to where its thrusts lead.
+    pub defects: Vec<Defect>,
+    /// Every impact: when, s, and its impulse, N s.
+    pub impacts: Vec<(f64, f64)>,
+}
+
+/// The difference between a node and where the thrusts lead from an earlier one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defect {
+    /// Time of the node, s.
+    pub t_s: f64,
+    /// The largest of the differences of positions, and of velocities times the time between the nodes (at least the
+    /// window); for the attitude what they make at the end of a rotor's arm, m.
+    pub defect_m: f64,
+}
+
+impl Planned {
+    /// Integrates the flyable plan of the scenario's one vehicle. Refuses one that lasts longer than the scenario allows, or
+    /// whose thrusts lead out of the numbers that can be judged.
+    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {
+        let longest_s = scenario.simulation.max_duration_s;
+        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, longest_s)) {
+            return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
+        }
+        let model = scenario.slung_load_model(&scenario.vehicles[0]);
+        let plant = Plant::nominal(model, scenario.world.ground_m);
+        let trajectory = plan.trajectories[0].slung_load();
+        let intervals = trajectory.times_s.len() - 1;
+        let knots: Vec<Knot> = (0..intervals).flat_map(|interval| flown(trajectory, &plant, interval)).collect();
+        let course = Course::new(knots.iter().map(|knot| Instant { t_s: knot.t_s, body: knot.body }).collect());
+        let motions = motions(&trajectory.vehicle, course.instants())?;
+        let defects = (0..intervals).map(|interval| defect(trajectory, &plant, interval)).collect();
+        let impacts = impacts(trajectory, &plant);
+        Ok(Self { course, motions, knots, defects, impacts })
+    }
+}
+
+/// The motions of quadrotor and load through these instants.
+pub fn motions(vehicle: &str, instants: &[Instant]) -> Result<[Motion; 2], String> {
+    let knot = |t_s: f64, position: nalgebra::Vector3<f64>, velocity: nalgebra::Vector3<f64>| motion::Knot {
+        t_s,
+        position_m: position.into(),
+        velocity_mps: velocity.into(),
+    };
+    let quadrotor = |at: &Instant| knot(at.t_s, at.body.position_m, at.body.velocity_mps);
+    let load = |at: &Instant| knot(at.t_s, at.body.load_position_m, at.body.load_velocity_mps);
+    Ok([
+        Motion::new(vehicle, instants.iter().map(quadrotor).collect())?,
+        Motion::new(&format!("the load of {vehicle}"), instants.iter().map(load).collect())?,
+    ])
+}
+
+/// The motion of one interval; of one without length only the node.
+fn flown(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
+    flown_from(&Body::from(&trajectory.states[interval]), trajectory, plant, interval)
+}
+
+fn flown_from(start: &Body, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
+    let Interpolation::FirstOrderHold = trajectory.interpolation;
+    let controls = [&trajectory.controls[interval], &trajectory.controls[interval + 1]];
+    let times_s = [trajectory.times_s[interval], trajectory.times_s[interval + 1]];
+    flow(plant, start, controls, trajectory.cable[interval], times_s, MAX_STEP_S)
+}
+
+/// What the plan lacks over the window that begins with an interval. Where the cable becomes taut, the impact is part of it.
+fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
+    let (times_s, last) = (&trajectory.times_s, trajectory.times_s.len() - 1);
+    let mut body = Body::from(&trajectory.states[first]);
+    let mut end = first;
+    while end < last {
+        let knots = flown_from(&body, trajectory, plant, end);
+        body = knots[knots.len() - 1].body;
+        end += 1;
+        let switches = trajectory.cable[end] != trajectory.cable[end - 1];
+        if becomes_taut(trajectory, end) {
+            body = impact(plant, &body).0;
+        }
+        if switches || times_s[end] - times_s[first] >= WINDOW_S {
+            break;
+        }
+    }
+    let window_s = (times_s[end] - times_s[first]).max(WINDOW_S);
+    Defect { t_s: times_s[end], defect_m: difference_m(plant, &body, &Body::from(&trajectory.states[end]), window_s) }
+}
+
+fn becomes_taut(trajectory: &Trajectory, node: usize) -> bool {
+    (trajectory.cable[node - 1], trajectory.cable[node]) == (Cable::Slack, Cable::Taut)
+}
+
+fn difference_m(plant: &Plant, a: &Body, b: &Body, window_s: f64) -> f64 {
+    let differences = [
+        (a.position_m - b.position_m).norm(),
+        (a.load_position_m - b.load_position_m).norm(),
+        (a.velocity_mps - b.velocity_mps).norm() * window_s,
+        (a.load_velocity_mps - b.load_velocity_mps).norm() * window_s,
+        a.attitude.angle_to(&b.attitude) * plant.arm_m,
+        (a.body_rate_radps - b.body_rate_radps).norm() * plant.arm_m * window_s,
+    ];
+    differences.into_iter().reduce(|worst, value| if exceeds(value, worst) { value } else { worst }).unwrap_or(f64::NAN)
+}
+
+/// When the plan's cable becomes taut, and the impulse of it by the judge's equations.
+fn impacts(trajectory: &Trajectory, plant: &Plant) -> Vec<(f64, f64)> {
+    let nodes = (1..trajectory.times_s.len()).filter(|node| becomes_taut(trajectory, *node));
+    let impulse = |node: usize| {
+        let knots = flown(trajectory, plant, node - 1);
+        (trajectory.times_s[node], impact(plant, &knots[knots.len() - 1].body).1)
+    };
+    nodes.map(impulse).collect()
+}

@@ -1,0 +1,110 @@
+//! Plans and flights of slung loads that are not what they should be, and motions that cheat between the nodes.
+
+use harness::verdict::{Outcome, Status};
+use scenarios::slung_load::Cable;
+use scenarios::{Prism, Range};
+use sim::{Event, EventKind};
+
+use crate::case::Case;
+
+type Break = (&'static str, fn(&mut Case), &'static str);
+
+/// Each is a way to cheat, and the check that notices.
+const BREAKS: &[Break] = &[
+    ("a state missing", |case| case.trajectory().states.truncate(600), "plan.complete"),
+    ("a cable mode missing", |case| case.trajectory().cable.truncate(600), "plan.complete"),
+    ("time goes back", |case| case.trajectory().times_s[9] = 0.0, "plan.complete"),
+    ("another load at the start", |case| case.trajectory().states[0].load_position_m[0] += 0.02, "plan.complete"),
+    ("NaN in a state", |case| case.trajectory().states[9].load_velocity_mps[1] = f64::NAN, "plan.finite"),
+    ("NaN in a thrust", |case| case.trajectory().controls[9].thrust_n[1] = f64::NAN, "plan.finite"),
+    ("a taut cable called slack", |case| case.trajectory().cable.fill(Cable::Slack), "plan.dynamics"),
+    ("a jump of velocity", |case| jump(case, 0.2), "plan.dynamics"),
+    (
+        "thrusts of another motion",
+        |case| case.trajectory().controls.iter_mut().for_each(|u| u.thrust_n = [3.7; 4]),
+        "plan.dynamics",
+    ),
+    ("no flight", |case| case.flight = None, "flight.complete"),
+    ("NaN in a load", |case| case.loads()[9].position_m[0] = f64::NAN, "flight.clearance"),
+    ("NaN in a tension", |case| case.loads()[9].tension_n = f64::NAN, "flight.tension"),
+    ("no attitude", |case| case.samples()[9].world_from_body = [0.0; 4], "flight.clearance"),
+    ("loads missing", |case| case.loads().clear(), "flight.swing"),
+    ("a switch that was not planned", |case| case.flight().events.push(slack(1.0)), "flight.slack"),
+];
+
+/// At one node, and only there, everything moves faster: densely sampled plans must not hide it.
+fn jump(case: &mut Case, by_mps: f64) {
+    for state in &mut case.trajectory().states[300..=300] {
+        state.velocity_mps[2] += by_mps;
+        state.load_velocity_mps[2] += by_mps;
+    }
+}
+
+fn slack(t_s: f64) -> Event {
+    Event { t_s, kind: EventKind::CableSlack, vehicles: vec!["quad-1".to_owned()] }
+}
+
+#[test]
+fn what_is_not_whole_or_not_true_fails() {
+    for (what, spoil, check) in BREAKS {
+        let mut case = Case::good();
+        spoil(&mut case);
+        assert_ne!(case.judge().outcome, Outcome::Pass, "{what}");
+        assert_eq!(case.status(check), Status::Fail, "{what}: {:?}", case.check(check));
+    }
+}
+
+#[test]
+fn an_impact_that_is_left_out_is_missed() {
+    let mut case = Case::caught();
+    // As if the load had not pulled: the velocities before are taken for those after.
+    case.trajectory().states[2] = case.trajectory().states[1];
+    assert_eq!(case.status("plan.dynamics"), Status::Fail);
+    let mut case = Case::caught();
+    case.flight().events.clear();
+    assert_eq!(case.status("flight.slack"), Status::Fail);
+}
+
+/// A needle that only the cable touches, or only the load, and only for some milliseconds.
+#[test]
+fn what_is_cut_between_two_samples_is_found() {
+    let mut case = Case::good();
+    // Samples every 0.3 s are a legal log at a step of 0.3 s.
+    case.scenario.simulation.step_s = 0.3;
+    case.flight().step_s = 0.3;
+    let thin = |log: &mut sim::VehicleLog| {
+        log.samples = log.samples.iter().step_by(150).copied().collect();
+        log.loads = log.loads.iter().step_by(150).copied().collect();
+    };
+    thin(&mut case.flight().vehicles[0]);
+    let middle = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| f64::midpoint(a[i], b[i])) };
+    let load = middle(case.loads()[9].position_m, case.loads()[10].position_m);
+    let cable = middle(load, middle(case.samples()[9].position_m, case.samples()[10].position_m));
+    for (place, part) in [(load, "load"), (cable, "cable")] {
+        let mut case = case.clone();
+        let half_m = 0.025;
+        let corners = [[-half_m, -half_m], [half_m, -half_m], [half_m, half_m], [-half_m, half_m]];
+        let corners_m = corners.map(|[x, y]| [place[0] + x, place[1] + y]).to_vec();
+        let z_m = Some(Range::new(place[2] - 0.02, place[2] + 0.02));
+        case.scenario.world.prisms.push(Prism { name: "needle".into(), corners_m, z_m });
+        let check = case.check("flight.clearance");
+        assert_eq!(check.status, Status::Fail, "{check:?}");
+        assert!(check.reason.as_ref().is_some_and(|reason| reason.contains(part)), "{check:?}");
+        for step in [9, 10] {
+            let far = case.loads()[step].position_m.iter().zip(place).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            assert!(far > 0.1, "the samples themselves stay clear");
+        }
+    }
+}
+
+#[test]
+fn a_cable_that_would_have_to_push_fails() {
+    let mut case = Case::good();
+    // Rotors that stop let everything fall; a "taut" cable then holds the load back by pushing at a falling quadrotor.
+    for control in &mut case.trajectory().controls[300..310] {
+        control.thrust_n = [-3.0; 4];
+    }
+    let check = case.check("plan.tension");
+    assert_eq!(check.status, Status::Fail, "{check:?}");
+    assert!(check.reason.is_some_and(|reason| reason.contains("push")));
+}

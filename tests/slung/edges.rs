@@ -1,0 +1,165 @@
+//! Every check on slung loads, on both sides of its limit.
+
+use std::collections::BTreeSet;
+
+use harness::verdict::{Outcome, Status};
+use scenarios::slung_load::Cable;
+use scenarios::{Family, check_names};
+use sim::{Event, EventKind};
+
+use crate::case::{Case, thrusts};
+
+/// A check, a way to bring what it measures to a given value, and values just beyond and just inside its limit.
+struct Edge {
+    check: &'static str,
+    apply: fn(&mut Case, f64),
+    fails: f64,
+    passes: f64,
+}
+
+const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes: f64) -> Edge {
+    Edge { check, apply, fails, passes }
+}
+
+const EDGES: &[Edge] = &[
+    edge("nodes.clearance", |case, y_m| grow_wall(case, "nodes.clearance", y_m), -0.001, 0.001),
+    edge("nodes.envelope", |case, y_m| grow_wall(case, "nodes.envelope", y_m), 0.049, 0.051),
+    edge(
+        "nodes.state_limits",
+        |case, deg| case.trajectory().states[9].roll_pitch_yaw_rad[2] = deg.to_radians(),
+        45.01,
+        44.99,
+    ),
+    edge("nodes.control_limits", |case, n| case.trajectory().controls[9].thrust_n[2] = n, 0.999, 1.001),
+    edge("nodes.goal", |case, z_m| case.scenario.vehicles[0].goal.z_m = 1.5 + z_m, 0.0501, 0.0499),
+    edge("plan.finite", |case, value| case.plan.objective = Some(value), f64::NAN, 0.0),
+    edge("plan.complete", |case, rate| case.trajectory().states[0].body_rate_radps[1] = rate, 0.011, 0.009),
+    edge("plan.clearance", |case, y_m| grow_wall(case, "plan.clearance", y_m), -0.001, 0.001),
+    edge("plan.envelope", |case, y_m| grow_wall(case, "plan.envelope", y_m), 0.049, 0.051),
+    edge("plan.state_limits", |case, x_m| case.scenario.world.map.x_m.max = 2.0 + x_m, -0.001, 0.001),
+    edge("plan.control_limits", |case, n| case.trajectory().controls[9].thrust_n[1] = n, 0.199, 0.201),
+    edge("plan.dynamics", |case, x_m| case.trajectory().states[300].load_position_m[0] += x_m, 0.0102, 0.0097),
+    edge("plan.goal", |case, x_m| case.scenario.vehicles[0].goal.x_m = 2.0 + x_m, 0.0501, 0.0499),
+    edge("plan.rest", |case, mps| case.scenario.vehicles[0].goal.speed_mps = mps, 0.1001, 0.0999),
+    edge("plan.duration", |case, t_s| case.scenario.simulation.max_duration_s = t_s, 5.999, 6.001),
+    edge(
+        "plan.tension",
+        |case, n| case.scenario.models.slung_load.get_mut("quad").unwrap().limits.tension_n = n,
+        2.4,
+        2.6,
+    ),
+    edge("plan.slack", lengthen, 0.0101, 0.0099),
+    edge("plan.swing", |case, deg| limit_swing(case, "plan.swing", deg), -0.01, 0.01),
+    edge("flight.finite", |case, value| case.loads()[777].measured_position_m[2] = value, f64::INFINITY, 0.0),
+    edge("flight.complete", |case, steps| case.samples().truncate(steps as usize), 2998.0, 4001.0),
+    edge("flight.crash", crash, 1.0, 0.0),
+    edge("flight.clearance", |case, y_m| shift_to(case, "flight.clearance", y_m), -0.001, 0.001),
+    edge("flight.envelope", |case, y_m| shift_to(case, "flight.envelope", y_m), -0.001, 0.001),
+    edge("flight.state_limits", |case, x_m| case.scenario.world.map.x_m.min = -2.0 - x_m, -0.001, 0.001),
+    edge("flight.control_limits", |case, n| thrusts(&mut case.samples()[400]).control.thrust_n[3] = n, 7.001, 6.999),
+    edge("flight.goal", |case, z_m| case.loads()[3000].position_m[2] += z_m, 0.0501, 0.0499),
+    edge("flight.rest", |case, mps| case.loads()[3000].velocity_mps[0] += mps, 0.1001, 0.0998),
+    edge("flight.duration", |case, t_s| case.scenario.simulation.max_duration_s = t_s, 5.999, 6.001),
+    edge(
+        "flight.tracking_rms",
+        |case, y_m| case.samples().iter_mut().for_each(|s| s.reference_position_m[1] += y_m),
+        0.0301,
+        0.0299,
+    ),
+    edge("flight.tracking_max", |case, z_m| case.samples()[1234].reference_position_m[2] += z_m, 0.0501, 0.0499),
+    edge("flight.saturation", saturate, 151.0, 150.0),
+    edge("flight.tension", |case, n| (1000..1010).for_each(|step| case.loads()[step].tension_n = n), 60.01, 59.99),
+    edge("flight.slack", switch_late, 0.0201, 0.0199),
+    edge("flight.swing", |case, deg| limit_swing(case, "flight.swing", deg), -0.01, 0.01),
+];
+
+/// Moves the south end of the wall so that what the check measures becomes `y_m`.
+fn grow_wall(case: &mut Case, check: &str, y_m: f64) {
+    let now_m = case.check(check).value.unwrap();
+    let wall = &mut case.scenario.world.boxes[0];
+    wall.size_m[1] += now_m - y_m;
+    wall.center_m[1] -= (now_m - y_m) / 2.0;
+}
+
+/// Moves the flight to the north so that what the check measures becomes `y_m`.
+fn shift_to(case: &mut Case, check: &str, y_m: f64) {
+    let by_m = case.check(check).value.unwrap() - y_m;
+    case.samples().iter_mut().for_each(|sample| sample.position_m[1] += by_m);
+    case.loads().iter_mut().for_each(|load| load.position_m[1] += by_m);
+}
+
+/// A cable of the plan that is longer at one node, the quadrotor standing still.
+fn lengthen(case: &mut Case, by_m: f64) {
+    case.trajectory().states[600].load_position_m[2] -= by_m;
+}
+
+/// Physical limits of the cable angles that leave the check this margin.
+fn limit_swing(case: &mut Case, check: &str, margin_deg: f64) {
+    let reached_deg = case.check(check).value.unwrap().abs();
+    let limits = &mut case.scenario.models.slung_load.get_mut("quad").unwrap().limits;
+    limits.cable_deg = scenarios::Range::new(-reached_deg - margin_deg, reached_deg + margin_deg);
+}
+
+fn crash(case: &mut Case, crashes: f64) {
+    let kind = EventKind::Crash { obstacle: Some("wall".to_owned()) };
+    let event = Event { t_s: 3.0, kind, vehicles: vec!["quad-1".to_owned()] };
+    case.flight().events = vec![event; crashes as usize];
+}
+
+/// Cuts off the command during `steps` of the 3001 steps of the plan: 5 % are 150.05.
+fn saturate(case: &mut Case, steps: f64) {
+    for sample in &mut case.samples()[100..100 + steps as usize] {
+        thrusts(sample).command.thrust_n[0] = 7.7;
+    }
+}
+
+/// Plan and flight with a slack phase from 3 s on, in flight later by so much; the rest does not matter here.
+fn switch_late(case: &mut Case, late_s: f64) {
+    case.trajectory().cable[300..350].fill(Cable::Slack);
+    let event = |t_s, kind| Event { t_s, kind, vehicles: vec!["quad-1".to_owned()] };
+    case.flight().events =
+        vec![event(3.0, EventKind::CableSlack), event(3.5 + late_s, EventKind::CableTaut { impulse_ns: 0.1 })];
+}
+
+fn broken(edge: &Edge, amount: f64) -> Case {
+    let mut case = Case::good();
+    (edge.apply)(&mut case, amount);
+    case
+}
+
+#[test]
+fn a_right_flight_passes() {
+    for (what, case) in [("swing", Case::good()), ("catch", Case::caught())] {
+        let verdict = case.judge();
+        let bad: Vec<_> = verdict.checks.iter().filter(|check| check.is_bad()).collect();
+        assert!(bad.is_empty(), "{what}: {bad:#?}");
+        assert_eq!((verdict.outcome, verdict.overclaimed), (Outcome::Pass, false), "{what}");
+        let names: Vec<&str> = verdict.checks.iter().map(|check| check.name.as_str()).collect();
+        assert_eq!(names, check_names(Family::SlungLoad).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn every_check_fails_just_beyond_its_limit_and_passes_just_inside() {
+    for edge in EDGES {
+        let case = broken(edge, edge.fails);
+        assert_eq!(case.status(edge.check), Status::Fail, "beyond: {:#?}", case.check(edge.check));
+        assert_eq!(case.judge().outcome, Outcome::Fail, "{}", edge.check);
+        let check = broken(edge, edge.passes).check(edge.check);
+        assert_eq!(check.status, Status::Pass, "inside: {check:#?}");
+    }
+}
+
+/// One vehicle has nobody to keep apart from or to arrive with, and open loop says nothing.
+const NOT_ASKED: [&str; 6] =
+    ["nodes.separation", "plan.separation", "plan.rollout", "plan.arrival", "flight.separation", "flight.arrival"];
+
+#[test]
+fn there_is_a_red_test_for_every_check_of_a_verdict() {
+    let red: BTreeSet<&str> = EDGES.iter().map(|edge| edge.check).chain(NOT_ASKED).collect();
+    assert_eq!(red, check_names(Family::SlungLoad).collect());
+    let verdict = Case::good().judge();
+    for check in verdict.checks.iter().filter(|check| NOT_ASKED.contains(&check.name.as_str())) {
+        assert_eq!(check.status, Status::Skip, "{check:?}");
+    }
+}
