@@ -5,7 +5,10 @@
 pub mod convex;
 mod planner;
 mod registry;
+pub mod nlp;
+pub mod pseudospectral;
 pub mod scp;
+pub mod slung;
 
 pub use planner::{Planner, Progress};
 pub use registry::{find, registry};

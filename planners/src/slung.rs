@@ -1,0 +1,15 @@
+//! A quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics after Foehn et al. 2017).
+
+mod attitude;
+mod cable;
+mod jet;
+mod model;
+mod polygon;
+mod problem;
+
+pub use model::Model;
+pub use polygon::Polygon;
+pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
+
+#[cfg(test)]
+mod tests;
