@@ -1,42 +1,68 @@
-use planners::nlp::{InteriorPoint, Settings, Start};
-use planners::pseudospectral::{Mesh, Transcription};
-use planners::slung::{Model, Problem};
+//! probe
+use planners::nlp::{InteriorPoint, Settings, Start, Status};
+use planners::pseudospectral::{Duration, Mesh, Tolerances, Transcription, qualities, refine};
+use planners::slung::*;
 use std::time::Instant;
 fn main() {
     let args: Vec<String> = std::env::args().collect();
     let get = |i: usize, d: usize| args.get(i).and_then(|a| a.parse().ok()).unwrap_or(d);
-    let (s, n, reps) = (get(1, 20), get(2, 3), get(3, 1));
-    let problem = Problem::paper();
+    let case = args.get(1).map(String::as_str).unwrap_or("paper");
+    let (s, n, reps, rounds) = (get(2, 20), get(3, 3), get(4, 1), get(5, 0));
+    let verbose = args.iter().any(|a| a == "-v");
+    let paper = Problem::paper();
+    let free = |guess_s: f64| Duration::Free { least_s: 0.05, guess_s, most_s: 2.0 };
+    let stage = |mode, duration, impulse_ns| Stage { mode, duration, impulse_ns };
+    let problem = match case {
+        "lift" | "soft" => Problem {
+            start: Rest { position_m: [-2.0, 0.0, 0.35], length_m: 0.35 },
+            stages: vec![
+                stage(Mode::Parked, free(0.5), (case == "soft").then_some(1e-3)),
+                stage(Mode::Taut, Duration::RestOf(4.0), None),
+            ],
+            ..paper.clone()
+        },
+        "drop" => Problem {
+            start: Rest { position_m: [-2.0, 0.0, 1.3], length_m: 0.35 },
+            stages: vec![stage(Mode::Slack, free(0.25), None), stage(Mode::Taut, Duration::RestOf(4.0), None)],
+            ..paper.clone()
+        },
+        "either" => Problem { stages: vec![stage(Mode::Either { epsilon: 1e-6 }, Duration::Fixed(4.0), None)], ..paper.clone() },
+        _ => paper.clone(),
+    };
     let model = Model::new(&problem);
-    for side in [-1.0, 1.0] {
+    let mesh = if problem.stages.len() == 1 { Mesh::uniform(&[(s, n)]) } else { Mesh::uniform(&[(s.div_ceil(7), n), (s, n)]) };
+    let tolerances = Tolerances { error: 1e-5, violation: 1e-3, overshoot: 0.05, highest_order: 5 };
+    let all = routes([-2.0, 0.0], [2.0, 0.0], &problem.obstacles, problem.limits.clearance_m + problem.body.radius_m, 4);
+    for route in &all {
         let mut best = f64::MAX;
         for rep in 0..reps {
             let t0 = Instant::now();
-            let mut nlp = Transcription::new(&model, Mesh::uniform(&[(s, n)]));
-            let c = [side * -0.4536, side * 2.268];
-            let pts = [[-2.0, 0.0], c, [2.0, 0.0]];
-            let hover = problem.hover_n();
-            let x = nlp.guess(&|_, t, w| {
-                w.fill(0.0);
-                let z = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
-                let l1 = f64::hypot(pts[1][0] - pts[0][0], pts[1][1] - pts[0][1]);
-                let l2 = f64::hypot(pts[2][0] - pts[1][0], pts[2][1] - pts[1][1]);
-                let d = z * (l1 + l2);
-                let (a, b, f) = if d < l1 { (pts[0], pts[1], d / l1) } else { (pts[1], pts[2], (d - l1) / l2) };
-                w[0] = a[0] + f * (b[0] - a[0]);
-                w[1] = a[1] + f * (b[1] - a[1]);
-                w[2] = 1.3 + 0.2 * z;
-                w[16..].fill(hover);
-            });
+            let mut nlp = Transcription::new(&model, mesh.clone());
+            use planners::pseudospectral::Motion;
+            let guess = Guess::new(&problem, route, model.coordinates());
+            let x = nlp.guess(&|p, t, w| guess.write(p, t, w));
             let mut ip = InteriorPoint::new(&nlp, Settings::default());
-            let sol = ip.solve(&mut nlp, &Start::Cold(x));
-            best = best.min(t0.elapsed().as_secs_f64());
-            if rep == 0 {
-                for (i, r) in sol.history.iter().enumerate() {
+            let mut sol = ip.solve(&mut nlp, &Start::Cold(x));
+            let show = |sol: &planners::nlp::Solution, nlp: &Transcription, ip: &InteriorPoint| {
+                if rep > 0 { return; }
+                if verbose { for (i, r) in sol.history.iter().enumerate() {
                     println!("{i:3} f {:12.5} viol {:.2e} err {:.2e} mu {:.1e} delta {:.1e} a {:.2e}", r.objective, r.violation, r.error, r.barrier, r.regularisation, r.step);
-                }
-                println!("side {side}: {:?} {} in {} its", sol.status, sol.objective, sol.iterations);
+                } }
+                let q = qualities(nlp, ip.x()).into_iter().flatten().reduce(|a, b| a.worse(b)).unwrap();
+                println!("{:?} right {:?}: {:?} J {:.4} in {} its; segments {} nodes {} worst {:?}; T0 {:.4}", case, route.on_right, sol.status, sol.objective, sol.iterations, nlp.mesh().segments(), nlp.mesh().nodes(), q, nlp.duration_s(0, ip.x()));
+            };
+            show(&sol, &nlp, &ip);
+            for _ in 0..rounds {
+                if sol.status != Status::Solved { break; }
+                let Some(mesh) = refine(&nlp, ip.x(), &tolerances) else { break };
+                let mut finer = Transcription::new(&model, mesh);
+                let start = nlp.carry_over(&ip.warm_start(), &finer);
+                let mut finer_ip = InteriorPoint::new(&finer, Settings { start: 1e-3, ..Settings::default() });
+                sol = finer_ip.solve(&mut finer, &start);
+                show(&sol, &finer, &finer_ip);
+                (nlp, ip) = (finer, finer_ip);
             }
+            best = best.min(t0.elapsed().as_secs_f64());
         }
         println!("time {:.2} ms", best * 1e3);
     }

@@ -14,8 +14,10 @@ mod condense;
 mod layout;
 mod mesh;
 mod motion;
+mod polynomial;
 mod programme;
 mod radau;
+mod refinement;
 mod segment;
 mod small;
 mod sweep;
@@ -23,5 +25,7 @@ mod transcription;
 
 pub use mesh::{Mesh, Segment};
 pub use motion::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
+pub use polynomial::Place;
 pub use radau::Radau;
+pub use refinement::{Quality, Tolerances, qualities, refine};
 pub use transcription::Transcription;

@@ -2,14 +2,18 @@
 
 mod attitude;
 mod cable;
+mod guess;
 mod jet;
 mod model;
 mod polygon;
 mod problem;
+mod route;
 
+pub use guess::Guess;
 pub use model::Model;
 pub use polygon::Polygon;
 pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
+pub use route::{Route, routes};
 
 #[cfg(test)]
 mod tests;

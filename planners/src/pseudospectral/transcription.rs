@@ -240,13 +240,12 @@ fn bounds(motion: &dyn Motion, layout: &Layout) -> (Vec<f64>, Vec<f64>) {
     let mut upper = vec![f64::INFINITY; layout.variables()];
     for (index, phase) in layout.phases.iter().enumerate() {
         let (low, high) = motion.bounds(index);
-        // the first state is given, and the last one of a phase has the bounds of its states
+        // where phases begin and end, events and links say what the states are: a bound that holds with equality there
+        // would leave no interior
         for k in 0..=phase.nodes {
             let at = layout.node_at(phase, k);
-            let is_given = index == 0 && k == 0;
-            let from = if is_given { layout.states() } else { 0 };
-            let is_goal = index + 1 == layout.phases.len() && k == phase.nodes;
-            let to = if k < phase.nodes { layout.width() } else if is_goal { 0 } else { layout.states() };
+            let from = if k == 0 { layout.states() } else { 0 };
+            let to = if k < phase.nodes { layout.width() } else { 0 };
             if from < to {
                 lower[at + from..at + to].copy_from_slice(&low[from..to]);
                 upper[at + from..at + to].copy_from_slice(&high[from..to]);
