@@ -1,6 +1,6 @@
 //! Where the optimiser begins: along a route with quintic timing, level, in hover.
 
-use super::problem::{Mode, Problem};
+use super::problem::{GRAVITY, Mode, Problem};
 use super::route::Route;
 use crate::pseudospectral::Duration;
 
@@ -47,7 +47,10 @@ impl<'a> Guess<'a> {
         if self.coordinates > 8 {
             node[8] = length_m;
         }
-        node[2 * self.coordinates..2 * self.coordinates + 4].fill(self.problem.hover_n());
+        node[2 * self.coordinates..].fill(self.problem.hover_n());
+        if let Some(tension_n) = node.get_mut(2 * self.coordinates + 4) {
+            *tension_n = self.problem.body.load_kg * GRAVITY;
+        }
     }
 
     /// From the start's length to the full one while the cable is slack for the first time; full from then on.
