@@ -1,7 +1,8 @@
 //! The transcription as a nonlinear programme that solves its own Newton systems.
 
-use super::layout::PhaseLayout;
+use super::layout::{Layout, PhaseLayout};
 use super::small::{add_scaled, dot};
+use super::sweep::{Linearisation, Sweep};
 use super::transcription::Transcription;
 use crate::nlp::{Program, Sizes};
 
@@ -82,11 +83,8 @@ impl Program for Transcription<'_> {
 
     fn factor(&mut self, diagonal: &[f64], weights: &[f64]) -> bool {
         self.weigh(diagonal, weights);
-        let (sweep, layout, point) = (&mut self.sweep, &self.layout, &self.point);
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || sweep.factor(layout, point),
-        )
+        let factor = Factor { sweep: &mut self.sweep, layout: &self.layout, point: &self.point };
+        pulp::Arch::new().dispatch(factor)
     }
 
     fn hessian_times(&self, dx: &[f64], out: &mut [f64]) {
@@ -123,6 +121,22 @@ impl Program for Transcription<'_> {
 
     fn solve(&mut self, x: &mut [f64], y: &mut [f64]) {
         self.sweep.solve(&self.layout, &self.point, x, y);
+    }
+}
+
+/// The factorisation, to be compiled for the widest vector registers that the processor turns out to have.
+struct Factor<'a> {
+    sweep: &'a mut Sweep,
+    layout: &'a Layout,
+    point: &'a Linearisation,
+}
+
+impl pulp::WithSimd for Factor<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> bool {
+        self.sweep.factor(self.layout, self.point)
     }
 }
 

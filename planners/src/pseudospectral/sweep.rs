@@ -83,6 +83,7 @@ impl Sweep {
     }
 
     /// Factors; false if the curvature on the rows' null space is not positive.
+    #[inline(always)]
     pub fn factor(&mut self, layout: &Layout, point: &Linearisation) -> bool {
         let size = self.states + self.parameters;
         let mut after = vec![0.0; size * size];
