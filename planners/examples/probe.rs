@@ -14,7 +14,7 @@ fn main() {
     let stage = |mode, duration, impulse_ns| Stage { mode, duration, impulse_ns };
     let problem = match case {
         "lift" | "soft" => Problem {
-            start: Rest { position_m: [-2.0, 0.0, 0.35], length_m: 0.35 },
+            start: Rest { position_m: [-2.0, 0.0, 0.35], cable: [0.0, 0.0, 0.35] },
             stages: vec![
                 stage(Mode::Parked, free(0.5), (case == "soft").then_some(1e-3)),
                 stage(Mode::Taut, Duration::RestOf(4.0), None),
@@ -22,7 +22,7 @@ fn main() {
             ..paper.clone()
         },
         "drop" => Problem {
-            start: Rest { position_m: [-2.0, 0.0, 1.3], length_m: 0.35 },
+            start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.35] },
             stages: vec![stage(Mode::Slack, free(0.25), None), stage(Mode::Taut, Duration::RestOf(4.0), None)],
             ..paper.clone()
         },

@@ -1,16 +1,22 @@
 //! A quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics after Foehn et al. 2017).
 
+mod answer;
 mod attitude;
 mod cable;
 mod guess;
 mod jet;
 mod model;
+mod optimise;
+mod planner;
 mod polygon;
 mod problem;
+mod question;
 mod route;
 
 pub use guess::Guess;
 pub use model::Model;
+pub use optimise::{Candidate, Options, Round, optimise};
+pub use planner::{PLANNER, candidate_routes};
 pub use polygon::Polygon;
 pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
 pub use route::{Route, routes};

@@ -62,3 +62,13 @@ pub fn angular<const N: usize>(
     let acceleration = [yaw_acceleration, c_roll * b[1] - s_roll * b[2], b[0] + yaw_acceleration * s_pitch];
     Angular { acceleration, inverse }
 }
+
+/// ω of the rates of (ψ, θ, φ), rad/s.
+pub fn body_rate([_, pitch, roll]: [f64; 3], [yaw_rate, pitch_rate, roll_rate]: [f64; 3]) -> [f64; 3] {
+    let ((s_pitch, c_pitch), (s_roll, c_roll)) = (pitch.sin_cos(), roll.sin_cos());
+    [
+        roll_rate - yaw_rate * s_pitch,
+        pitch_rate * c_roll + yaw_rate * c_pitch * s_roll,
+        yaw_rate * c_pitch * c_roll - pitch_rate * s_roll,
+    ]
+}

@@ -29,6 +29,11 @@ impl<'a> Guess<'a> {
         Self { problem, route, durations_s, coordinates }
     }
 
+    /// Durations of the phases, s.
+    pub fn durations_s(&self) -> &[f64] {
+        &self.durations_s
+    }
+
     /// The node vector at a share of a phase.
     pub fn write(&self, phase: usize, share: f64, node: &mut [f64]) {
         let (start, goal) = (&self.problem.start, &self.problem.goal_m);
@@ -42,7 +47,7 @@ impl<'a> Guess<'a> {
         let along = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
         node.fill(0.0);
         node[..2].copy_from_slice(&self.route.at(along));
-        let lifted_m = if (0..=phase).any(is_parked) { length_m - start.length_m } else { 0.0 };
+        let lifted_m = if (0..=phase).any(is_parked) { length_m - start.cable[2] } else { 0.0 };
         node[2] = start.position_m[2] + lifted_m + along * (goal[2] - start.position_m[2] - lifted_m);
         if self.coordinates > 8 {
             node[8] = length_m;
@@ -55,7 +60,7 @@ impl<'a> Guess<'a> {
 
     /// From the start's length to the full one while the cable is slack for the first time; full from then on.
     fn length_m(&self, phase: usize, share: f64) -> f64 {
-        let (from, full) = (self.problem.start.length_m, self.problem.body.cable_m);
+        let (from, full) = (self.problem.start.cable[2], self.problem.body.cable_m);
         let is_slack = |k: usize| self.problem.stages[k].mode != Mode::Taut;
         let first = (0..=phase).all(is_slack);
         if first { from + share * (full - from) } else { full }

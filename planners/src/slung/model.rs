@@ -58,9 +58,8 @@ impl<'a> Model<'a> {
             bounds: Vec::new(),
         };
         model.start[..3].copy_from_slice(&problem.start.position_m);
-        if coordinates > LENGTH {
-            model.start[LENGTH] = problem.start.length_m;
-        }
+        let cable = coordinates - ALPHA;
+        model.start[ALPHA..coordinates].copy_from_slice(&problem.start.cable[..cable]);
         model.bounds = modes.iter().map(|&mode| model.box_of(mode)).collect();
         model
     }
@@ -76,10 +75,13 @@ impl<'a> Model<'a> {
 
     fn box_of(&self, mode: Mode) -> [Vec<f64>; 2] {
         let limits = &self.problem.limits;
+        let mut lower = vec![f64::NEG_INFINITY; self.width()];
         let mut upper = vec![f64::INFINITY; self.width()];
-        upper[EULER..EULER + 3].fill(limits.euler_rad);
-        upper[ALPHA..=BETA].fill(limits.cable_rad);
-        let mut lower: Vec<f64> = upper.iter().map(|bound| -bound).collect();
+        let euler = [limits.euler_rad; 3];
+        let boxes = limits.position_m.iter().chain(&euler).chain([&limits.cable_rad; 2]);
+        for (index, [low, high]) in boxes.enumerate() {
+            (lower[index], upper[index]) = (*low, *high);
+        }
         if self.coordinates > LENGTH && mode != Mode::Taut {
             lower[LENGTH] = SHORTEST * self.problem.body.cable_m;
             upper[LENGTH] = self.problem.body.cable_m;
@@ -88,7 +90,7 @@ impl<'a> Model<'a> {
         lower[thrusts.clone()].fill(limits.thrust_n[0]);
         upper[thrusts.clone()].fill(limits.thrust_n[1]);
         if self.controls > ROTORS {
-            lower[thrusts.end] = 0.0;
+            (lower[thrusts.end], upper[thrusts.end]) = (0.0, limits.tension_n);
         }
         [lower, upper]
     }
@@ -170,7 +172,11 @@ impl<'a> Model<'a> {
 
     /// Rows before those of the obstacles: that of the mode, that of the floor.
     fn row_counts(&self, mode: Mode) -> [usize; 2] {
-        let of_mode = usize::from(matches!(mode, Mode::Taut | Mode::Either { .. }));
+        let of_mode = match mode {
+            Mode::Taut => 1 + usize::from(self.problem.limits.tension_n.is_finite()),
+            Mode::Either { .. } => 1,
+            Mode::Slack | Mode::Parked => 0,
+        };
         [of_mode, usize::from(self.problem.limits.floor_m.is_some() && mode != Mode::Parked)]
     }
 
@@ -465,13 +471,14 @@ impl Model<'_> {
         let rate_used: [bool; 5] = [true, has_length, true, true, has_length];
 
         // weights of the outputs x, y, z, α, β, ρ, λ
+        let has_ceiling = mode == Mode::Taut && self.problem.limits.tension_n.is_finite();
         let mut output_weights = [0.0; 7];
         for (i, weight) in output_weights.iter_mut().enumerate().take(nq - 3) {
             *weight = weights.acceleration[Self::coordinate_of(i)];
         }
         if mode == Mode::Taut {
             output_weights[5] = 0.0;
-            output_weights[6] = weights.rows[0];
+            output_weights[6] = weights.rows[0] - if has_ceiling { weights.rows[1] } else { 0.0 };
         }
         let mut axis = [Jet::<3>::constant(0.0); 3];
         for (i, output) in outputs.iter().enumerate() {
@@ -591,6 +598,12 @@ impl Model<'_> {
                 }
             }
         }
+        if has_ceiling {
+            let (floor, ceiling) = derivatives.rows[..2 * width].split_at_mut(width);
+            for (ceiling, floor) in ceiling.iter_mut().zip(floor) {
+                *ceiling = -*floor;
+            }
+        }
         for i in (0..5).filter(|&i| rate_used[i]) {
             for j in (0..5).filter(|&j| rate_used[j]) {
                 derivatives.hessian[rates_at[i] * width + rates_at[j]] += rate_sum.hessian[i][j];
@@ -604,7 +617,12 @@ impl Model<'_> {
         let length_m = self.length_m(mode, node);
         let [of_mode, of_floor] = self.row_counts(mode);
         match mode {
-            Mode::Taut => rows[0] = tension_n,
+            Mode::Taut => {
+                rows[0] = tension_n;
+                if of_mode > 1 {
+                    rows[1] = limits.tension_n - tension_n;
+                }
+            }
             Mode::Either { epsilon } => {
                 rows[0] = epsilon - self.tension_n(mode, node) * (self.problem.body.cable_m - length_m);
             }

@@ -30,10 +30,14 @@ pub struct Body {
 pub struct Limits {
     /// Thrust of a rotor, N.
     pub thrust_n: [f64; 2],
-    /// Largest yaw, pitch and roll angle, rad.
-    pub euler_rad: f64,
-    /// Largest cable angle, rad.
-    pub cable_rad: f64,
+    /// Yaw, pitch and roll angles, rad.
+    pub euler_rad: [f64; 2],
+    /// Cable angles α and β, rad.
+    pub cable_rad: [f64; 2],
+    /// Largest tension of the taut cable, N.
+    pub tension_n: f64,
+    /// Position of the quadrotor, lowest and highest of each coordinate, m.
+    pub position_m: [[f64; 2]; 3],
     /// Distance r' kept from the obstacles, m.
     pub clearance_m: f64,
     /// Least altitude of the load, m.
@@ -89,8 +93,8 @@ pub struct Stage {
 pub struct Rest {
     /// Position of the quadrotor, m.
     pub position_m: [f64; 3],
-    /// Length of the cable, m.
-    pub length_m: f64,
+    /// From the quadrotor to the load: (α, β, ρ), rad and m.
+    pub cable: [f64; 3],
 }
 
 /// The problem.
@@ -106,7 +110,7 @@ pub struct Problem {
     pub obstacles: Vec<Polygon>,
     /// Start, at rest.
     pub start: Rest,
-    /// Goal, at rest with a taut cable.
+    /// Where the quadrotor comes to rest, the load hanging straight down on the taut cable, m.
     pub goal_m: [f64; 3],
     /// The flight's phases.
     pub stages: Vec<Stage>,
@@ -128,14 +132,16 @@ impl Problem {
             },
             limits: Limits {
                 thrust_n: [1.0, 5.0],
-                euler_rad: half,
-                cable_rad: std::f64::consts::FRAC_PI_3,
+                euler_rad: [-half, half],
+                cable_rad: [-std::f64::consts::FRAC_PI_3, std::f64::consts::FRAC_PI_3],
+                tension_n: f64::INFINITY,
+                position_m: [[f64::NEG_INFINITY, f64::INFINITY]; 3],
                 clearance_m: 0.05,
                 floor_m: None,
             },
             weights: Weights { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 },
             obstacles: vec![Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -half)],
-            start: Rest { position_m: [-2.0, 0.0, 1.3], length_m: 0.65 },
+            start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
             goal_m: [2.0, 0.0, 1.5],
             stages: vec![Stage { mode: Mode::Taut, duration: Duration::Fixed(4.0), impulse_ns: None }],
         }

@@ -3,10 +3,10 @@ use super::problem::{Mode, Problem, Rest, Stage};
 use crate::pseudospectral::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
 
 fn problems() -> Vec<Problem> {
-    let paper = Problem { limits: super::Limits { floor_m: Some(0.0), ..Problem::paper().limits }, ..Problem::paper() };
+    let paper = Problem { limits: super::Limits { floor_m: Some(0.0), tension_n: 9.0, ..Problem::paper().limits }, ..Problem::paper() };
     let stage = |mode| Stage { mode, duration: Duration::Fixed(1.0), impulse_ns: Some(0.1) };
     let phased = Problem {
-        start: Rest { position_m: [-2.0, 0.0, 0.35], length_m: 0.35 },
+        start: Rest { position_m: [-2.0, 0.0, 0.35], cable: [0.0, 0.0, 0.35] },
         stages: [Mode::Parked, Mode::Taut, Mode::Slack, Mode::Taut].map(stage).to_vec(),
         ..paper.clone()
     };

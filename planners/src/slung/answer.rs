@@ -1,0 +1,78 @@
+//! From a solution to a plan: the polynomials, sampled densely enough that thrusts may be taken as linear in between.
+
+use scenarios::slung_load::{Cable, Control, State, Trajectory};
+use scenarios::Interpolation;
+
+use super::attitude::body_rate;
+use super::cable::Cable as Direction;
+use super::jet::Jet;
+use super::model::Model;
+use super::optimise::Candidate;
+use super::problem::{Mode, Problem};
+use crate::pseudospectral::{Motion, Place, Transcription};
+
+/// Longest time between two samples, s.
+const SAMPLE_S: f64 = 0.005;
+
+/// The trajectory of a candidate.
+pub fn trajectory(problem: &Problem, candidate: &Candidate, vehicle: &str) -> Trajectory {
+    let model = Model::new(problem);
+    let programme = Transcription::new(&model, candidate.mesh.clone());
+    let mut trajectory = Trajectory {
+        vehicle: vehicle.to_owned(),
+        interpolation: Interpolation::FirstOrderHold,
+        times_s: Vec::new(),
+        states: Vec::new(),
+        controls: Vec::new(),
+        cable: Vec::new(),
+        planner_nodes: Vec::new(),
+    };
+    let mut node = vec![0.0; model.width()];
+    let mut sample = |time_s: f64, place: Place, is_node: bool| {
+        programme.node(&candidate.x, place, &mut node);
+        if is_node {
+            trajectory.planner_nodes.push(trajectory.times_s.len());
+        }
+        trajectory.times_s.push(time_s);
+        trajectory.states.push(state(problem, place.phase, model.coordinates(), &node));
+        let thrusts = &node[2 * model.coordinates()..];
+        trajectory.controls.push(Control { thrust_n: [thrusts[0], thrusts[1], thrusts[2], thrusts[3]] });
+        trajectory.cable.push(match problem.stages[place.phase].mode {
+            Mode::Taut | Mode::Either { .. } => Cable::Taut,
+            Mode::Slack | Mode::Parked => Cable::Slack,
+        });
+    };
+    let nodes = programme.times_s(&candidate.x);
+    for (k, &(time_s, place)) in nodes.iter().enumerate() {
+        sample(time_s, place, true);
+        let Some(&(next_s, next)) = nodes.get(k + 1).filter(|(_, next)| next.phase == place.phase) else { continue };
+        let count = ((next_s - time_s) / SAMPLE_S).ceil().max(1.0) as usize;
+        let τ_next = if next.segment == place.segment { next.τ } else { 1.0 };
+        for step in 1..count {
+            let share = step as f64 / count as f64;
+            let between = Place { τ: place.τ + share * (τ_next - place.τ), ..place };
+            sample(time_s + share * (next_s - time_s), between, false);
+        }
+    }
+    trajectory
+}
+
+/// A state in world coordinates.
+fn state(problem: &Problem, phase: usize, coordinates: usize, node: &[f64]) -> State {
+    let (q, v) = (&node[..coordinates], &node[coordinates..2 * coordinates]);
+    let is_fixed = coordinates == 8 || problem.stages[phase].mode == Mode::Taut;
+    let (length_m, length_rate) = if is_fixed { (problem.body.cable_m, 0.0) } else { (q[8], v[8]) };
+    let [alpha, beta] = Jet::<2>::variables([q[6], q[7]]);
+    let direction = Direction::at([alpha, beta, Jet::constant(length_m)]).direction;
+    let turning = |k: usize| direction[k].gradient[0] * v[6] + direction[k].gradient[1] * v[7];
+    State {
+        position_m: [q[0], q[1], q[2]],
+        velocity_mps: [v[0], v[1], v[2]],
+        roll_pitch_yaw_rad: [q[5], q[4], q[3]],
+        body_rate_radps: body_rate([q[3], q[4], q[5]], [v[3], v[4], v[5]]),
+        load_position_m: std::array::from_fn(|k| q[k] + length_m * direction[k].value),
+        load_velocity_mps: std::array::from_fn(|k| {
+            v[k] + length_rate * direction[k].value + length_m * turning(k)
+        }),
+    }
+}
