@@ -30,8 +30,9 @@ fn main() {
         _ => paper.clone(),
     };
     let model = Model::new(&problem);
-    let mesh = if problem.stages.len() == 1 { Mesh::uniform(&[(s, n)]) } else { Mesh::uniform(&[(s.div_ceil(7), n), (s, n)]) };
-    let tolerances = Tolerances { error: 1e-5, violation: 1e-3, overshoot: 0.05, highest_order: 5 };
+    let graded = args.iter().any(|a| a == "-g");
+    let mesh = if graded { if problem.stages.len() == 1 { Mesh::graded(&[(s, n)]) } else { Mesh::graded(&[(s.div_ceil(4), n), (s, n)]) } } else if problem.stages.len() == 1 { Mesh::uniform(&[(s, n)]) } else { Mesh::uniform(&[(s.div_ceil(7), n), (s, n)]) };
+    let tolerances = Tolerances { error: 1e-4, violation: 5e-4, overshoot: 0.1, highest_order: get(6, 5) };
     let all = routes([-2.0, 0.0], [2.0, 0.0], &problem.obstacles, problem.limits.clearance_m + problem.body.radius_m, 4);
     for route in &all {
         let mut best = f64::MAX;
@@ -62,6 +63,7 @@ fn main() {
                 show(&sol, &finer, &finer_ip);
                 (nlp, ip) = (finer, finer_ip);
             }
+            if verbose && rep==0 { for (p, segs) in nlp.mesh().phases.iter().enumerate() { let mut t=0.0; for g in segs { print!("{:.3}:{} ", t, g.order); t+=g.share; } println!("phase {p}"); } }
             best = best.min(t0.elapsed().as_secs_f64());
         }
         println!("time {:.2} ms", best * 1e3);

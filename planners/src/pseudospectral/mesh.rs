@@ -21,6 +21,16 @@ impl Mesh {
         Self { phases: phases.iter().map(phase).collect() }
     }
 
+    /// Segments that are short near both ends of a phase, where motions that begin and end at rest change fastest:
+    /// their ends are Chebyshev's points.
+    pub fn graded(phases: &[(usize, usize)]) -> Self {
+        let phase = |&(count, order): &(usize, usize)| {
+            let end = |k: usize| 0.5 - 0.5 * (std::f64::consts::PI * k as f64 / count as f64).cos();
+            (0..count).map(|k| Segment { share: end(k + 1) - end(k), order }).collect()
+        };
+        Self { phases: phases.iter().map(phase).collect() }
+    }
+
     /// Number of segments of all phases.
     pub fn segments(&self) -> usize {
         self.phases.iter().map(Vec::len).sum()

@@ -13,6 +13,9 @@ use super::transcription::Transcription;
 /// Points between the nodes of a segment at which rows and bounds are checked, for every collocation point.
 const SAMPLES: usize = 4;
 
+/// Most parts of a segment that is split.
+const MOST_PARTS: f64 = 4.0;
+
 /// What a mesh has to reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
@@ -86,7 +89,9 @@ fn refined(segment: &Segment, quality: &Quality, tolerances: &Tolerances) -> Vec
     if bounded && segment.order + missing <= tolerances.highest_order {
         return vec![Segment { order: segment.order + missing, ..*segment }];
     }
-    vec![Segment { share: 0.5 * segment.share, ..*segment }; 2]
+    // between its nodes a smooth row is off by the square of their distance
+    let parts = (quality.violation / tolerances.violation).sqrt().ceil().clamp(2.0, MOST_PARTS) as usize;
+    vec![Segment { share: segment.share / parts as f64, ..*segment }; parts]
 }
 
 fn quality(problem: &Transcription, x: &[f64], phase: usize, segment: usize) -> Quality {

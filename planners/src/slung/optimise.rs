@@ -9,16 +9,24 @@ use super::route::Route;
 use crate::nlp::{InteriorPoint, Settings, Solution, Start, Status};
 use crate::pseudospectral::{Mesh, Motion, Quality, Tolerances, Transcription, qualities, refine};
 
+/// Tolerance on meshes that are not expected to be the last.
+const COARSE_TOLERANCE: f64 = 1e-3;
+
+/// Fewest segments of a phase.
+const FEWEST: usize = 4;
+
 /// Barrier parameter from which a solution of a coarser mesh is taken up.
 const WARM_BARRIER: f64 = 1e-4;
 
 /// How a problem is solved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Segments and order of the first mesh, for the whole flight; phases share them by their durations.
+    /// Segments of the first mesh, for the whole flight; phases share them by their durations.
     pub segments: usize,
     /// Collocation points of each of them.
     pub points: usize,
+    /// Whether the segments are shorter near the ends of a phase, or all equal.
+    pub is_graded: bool,
     /// What the mesh must reach; absent, the first mesh stays.
     pub tolerances: Option<Tolerances>,
     /// Most meshes.
@@ -30,11 +38,12 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            segments: 20,
-            points: 3,
-            tolerances: Some(Tolerances { error: 1e-4, violation: 5e-4, overshoot: 0.05, highest_order: 5 }),
+            segments: 16,
+            points: 5,
+            is_graded: true,
+            tolerances: Some(Tolerances { error: 1e-4, violation: 5e-4, overshoot: 0.1, highest_order: 8 }),
             most_meshes: 12,
-            solver: Settings::default(),
+            solver: Settings { tolerance: 1e-6, ..Settings::default() },
         }
     }
 }
@@ -98,10 +107,15 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
     let mut mesh = first_mesh(&guess, options);
     let mut start: Option<(Transcription, Start)> = None;
     let mut rounds = Vec::new();
+    // a mesh that is good enough for a rough solution is solved on once more
+    let mut is_rough = options.tolerances.is_some();
     loop {
         let begin = Instant::now();
         let mut programme = Transcription::new(&model, mesh.clone());
         let mut settings = options.solver;
+        if is_rough {
+            settings.tolerance = settings.tolerance.max(COARSE_TOLERANCE);
+        }
         let from = match &start {
             None => Start::Cold(programme.guess(&|phase, share, node| guess.write(phase, share, node))),
             Some((coarse, solution)) => {
@@ -112,32 +126,31 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
         let mut method = InteriorPoint::new(&programme, settings);
         let solution = method.solve(&mut programme, &from);
         rounds.push(round(&programme, &method, &solution, begin));
-        let next = options.tolerances.filter(|_| solution.status == Status::Solved);
-        let finer = next.and_then(|tolerances| refine(&programme, method.x(), &tolerances));
-        match finer {
-            Some(finer) if rounds.len() < options.most_meshes => {
-                start = Some((programme, method.warm_start()));
-                mesh = finer;
-            }
-            unfinished => {
-                let x = method.x().to_vec();
-                return Candidate { route, rounds, mesh, x, is_refined: unfinished.is_none() };
-            }
+        let solved = options.tolerances.filter(|_| solution.status == Status::Solved);
+        let finer = solved.and_then(|tolerances| refine(&programme, method.x(), &tolerances));
+        let is_last = rounds.len() == options.most_meshes || solution.status != Status::Solved;
+        if is_last || (finer.is_none() && !is_rough) {
+            let is_refined = finer.is_none() && !is_rough && solution.status == Status::Solved;
+            return Candidate { route, rounds, mesh, x: method.x().to_vec(), is_refined };
         }
+        is_rough = false;
+        mesh = finer.unwrap_or(mesh);
+        start = Some((programme, method.warm_start()));
     }
 }
 
-/// Equal segments, shared among the phases by their durations, two at least.
+/// Segments, shared among the phases by their durations.
 fn first_mesh(guess: &Guess, options: &Options) -> Mesh {
     let total_s: f64 = guess.durations_s().iter().sum();
     let count = |duration_s: &f64| {
         let share = (options.segments as f64 * duration_s / total_s).round() as usize;
-        (share.max(2), options.points)
+        (share.max(FEWEST), options.points)
     };
-    if let [_] = guess.durations_s() {
-        return Mesh::uniform(&[(options.segments, options.points)]);
-    }
-    Mesh::uniform(&guess.durations_s().iter().map(count).collect::<Vec<_>>())
+    let phases: Vec<(usize, usize)> = match guess.durations_s() {
+        [_] => vec![(options.segments, options.points)],
+        durations_s => durations_s.iter().map(count).collect(),
+    };
+    if options.is_graded { Mesh::graded(&phases) } else { Mesh::uniform(&phases) }
 }
 
 fn round(programme: &Transcription, method: &InteriorPoint, solution: &Solution, begin: Instant) -> Round {

@@ -20,6 +20,9 @@ const EFFORT_OF_TIME: f64 = 1e-4;
 /// Shortest phase, s.
 const SHORTEST_S: f64 = 0.02;
 
+/// The floor gives way by so little that a load may leave it and still have an interior to be in, m.
+const GROUND_GIVES_M: f64 = 1e-4;
+
 /// A load this much above the ground rests on it, m.
 const TOUCH_M: f64 = 1e-3;
 
@@ -64,7 +67,7 @@ pub fn problem(scenario: &Scenario) -> Problem {
         body: body(model),
         limits: Limits {
             clearance_m: scenario.planner.margin_m.unwrap_or(PAPER_CLEARANCE_M),
-            floor_m: world.ground_m.map(|ground_m| ground_m + model.load_radius_m),
+            floor_m: world.ground_m.map(|ground_m| ground_m + model.load_radius_m - GROUND_GIVES_M),
             position_m: world.map.axes().map(ends),
             ..limits(&model.planning_limits)
         },
@@ -88,6 +91,7 @@ pub fn options(scenario: &Scenario) -> Options {
     let mut options = Options {
         segments: settings.segments.unwrap_or(usual.segments),
         points: settings.points.unwrap_or(usual.points),
+        is_graded: settings.segments.is_none(),
         tolerances,
         ..usual
     };
