@@ -3,6 +3,8 @@
 mod answer;
 mod attitude;
 mod cable;
+mod cost;
+mod ends;
 mod guess;
 mod jet;
 mod model;
@@ -11,7 +13,10 @@ mod planner;
 mod polygon;
 mod problem;
 mod question;
+mod rotation;
 mod route;
+mod rows;
+mod translation;
 
 pub use guess::Guess;
 pub use model::Model;

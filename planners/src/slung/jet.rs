@@ -37,6 +37,16 @@ impl<const N: usize> Jet<N> {
         std::array::from_fn(|i| Self::variable(i, values[i]))
     }
 
+    /// Adds `weight` times the Hessian to a row-major matrix, where the first `count` variables stand in it.
+    #[inline(always)]
+    pub fn scatter(&self, matrix: &mut [f64], width: usize, at: [usize; N], count: usize, weight: f64) {
+        for i in 0..count {
+            for j in 0..count {
+                matrix[at[i] * width + at[j]] += weight * self.hessian[i][j];
+            }
+        }
+    }
+
     /// `f(self)` by the chain rule, from `f`, `f'` and `f''` at the value.
     #[inline(always)]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
