@@ -26,14 +26,23 @@ fn main() {
             stages: vec![stage(Mode::Slack, free(0.25), None), stage(Mode::Taut, Duration::RestOf(4.0), None)],
             ..paper.clone()
         },
-        "either" => Problem { stages: vec![stage(Mode::Either { epsilon: 1e-6 }, Duration::Fixed(4.0), None)], ..paper.clone() },
+        "either" => {
+            Problem { stages: vec![stage(Mode::Either { epsilon: 1e-6 }, Duration::Fixed(4.0), None)], ..paper.clone() }
+        }
         _ => paper.clone(),
     };
     let model = Model::new(&problem);
     let graded = args.iter().any(|a| a == "-g");
-    let mesh = if graded { if problem.stages.len() == 1 { Mesh::graded(&[(s, n)]) } else { Mesh::graded(&[(s.div_ceil(4), n), (s, n)]) } } else if problem.stages.len() == 1 { Mesh::uniform(&[(s, n)]) } else { Mesh::uniform(&[(s.div_ceil(7), n), (s, n)]) };
+    let mesh = if graded {
+        if problem.stages.len() == 1 { Mesh::graded(&[(s, n)]) } else { Mesh::graded(&[(s.div_ceil(4), n), (s, n)]) }
+    } else if problem.stages.len() == 1 {
+        Mesh::uniform(&[(s, n)])
+    } else {
+        Mesh::uniform(&[(s.div_ceil(7), n), (s, n)])
+    };
     let tolerances = Tolerances { error: 1e-4, violation: 5e-4, overshoot: 0.1, highest_order: get(6, 5) };
-    let all = routes([-2.0, 0.0], [2.0, 0.0], &problem.obstacles, problem.limits.clearance_m + problem.body.radius_m, 4);
+    let all =
+        routes([-2.0, 0.0], [2.0, 0.0], &problem.obstacles, problem.limits.clearance_m + problem.body.radius_m, 4);
     for route in &all {
         let mut best = f64::MAX;
         for rep in 0..reps {
@@ -45,16 +54,36 @@ fn main() {
             let mut ip = InteriorPoint::new(&nlp, Settings::default());
             let mut sol = ip.solve(&mut nlp, &Start::Cold(x));
             let show = |sol: &planners::nlp::Solution, nlp: &Transcription, ip: &InteriorPoint| {
-                if rep > 0 { return; }
-                if verbose { for (i, r) in sol.history.iter().enumerate() {
-                    println!("{i:3} f {:12.5} viol {:.2e} err {:.2e} mu {:.1e} delta {:.1e} a {:.2e}", r.objective, r.violation, r.error, r.barrier, r.regularisation, r.step);
-                } }
+                if rep > 0 {
+                    return;
+                }
+                if verbose {
+                    for (i, r) in sol.history.iter().enumerate() {
+                        println!(
+                            "{i:3} f {:12.5} viol {:.2e} err {:.2e} mu {:.1e} delta {:.1e} a {:.2e}",
+                            r.objective, r.violation, r.error, r.barrier, r.regularisation, r.step
+                        );
+                    }
+                }
                 let q = qualities(nlp, ip.x()).into_iter().flatten().reduce(|a, b| a.worse(b)).unwrap();
-                println!("{:?} right {:?}: {:?} J {:.4} in {} its; segments {} nodes {} worst {:?}; T0 {:.4}", case, route.on_right, sol.status, sol.objective, sol.iterations, nlp.mesh().segments(), nlp.mesh().nodes(), q, nlp.duration_s(0, ip.x()));
+                println!(
+                    "{:?} right {:?}: {:?} J {:.4} in {} its; segments {} nodes {} worst {:?}; T0 {:.4}",
+                    case,
+                    route.on_right,
+                    sol.status,
+                    sol.objective,
+                    sol.iterations,
+                    nlp.mesh().segments(),
+                    nlp.mesh().nodes(),
+                    q,
+                    nlp.duration_s(0, ip.x())
+                );
             };
             show(&sol, &nlp, &ip);
             for _ in 0..rounds {
-                if sol.status != Status::Solved { break; }
+                if sol.status != Status::Solved {
+                    break;
+                }
                 let Some(mesh) = refine(&nlp, ip.x(), &tolerances) else { break };
                 let mut finer = Transcription::new(&model, mesh);
                 let start = nlp.carry_over(&ip.warm_start(), &finer);
@@ -63,7 +92,16 @@ fn main() {
                 show(&sol, &finer, &finer_ip);
                 (nlp, ip) = (finer, finer_ip);
             }
-            if verbose && rep==0 { for (p, segs) in nlp.mesh().phases.iter().enumerate() { let mut t=0.0; for g in segs { print!("{:.3}:{} ", t, g.order); t+=g.share; } println!("phase {p}"); } }
+            if verbose && rep == 0 {
+                for (p, segs) in nlp.mesh().phases.iter().enumerate() {
+                    let mut t = 0.0;
+                    for g in segs {
+                        print!("{:.3}:{} ", t, g.order);
+                        t += g.share;
+                    }
+                    println!("phase {p}");
+                }
+            }
             best = best.min(t0.elapsed().as_secs_f64());
         }
         println!("time {:.2} ms", best * 1e3);

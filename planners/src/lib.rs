@@ -3,10 +3,10 @@
 #![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
 
 pub mod convex;
-mod planner;
-mod registry;
 pub mod nlp;
+mod planner;
 pub mod pseudospectral;
+mod registry;
 pub mod scp;
 pub mod slung;
 

@@ -23,6 +23,11 @@ mod newton;
 mod program;
 mod solution;
 
+#[cfg(test)]
+mod dense;
+#[cfg(test)]
+mod tests;
+
 pub use interior_point::InteriorPoint;
 pub use iterate::Start;
 pub use program::{Program, Sizes};

@@ -23,6 +23,9 @@ mod small;
 mod sweep;
 mod transcription;
 
+#[cfg(test)]
+mod tests;
+
 pub use mesh::{Mesh, Segment};
 pub use motion::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
 pub use polynomial::Place;

@@ -27,4 +27,6 @@ pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
 pub use route::{Route, routes};
 
 #[cfg(test)]
+mod programme_tests;
+#[cfg(test)]
 mod tests;

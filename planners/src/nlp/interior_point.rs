@@ -218,8 +218,7 @@ impl InteriorPoint {
                 if θ <= 1e-4 && is_switching(α) { armijo(φ_t) } else { Filter::improves((θ, φ), (θ_t, φ_t)) }
             };
             let accepted = self.filter.accepts(θ_trial, φ_trial) && judge(θ_trial, φ_trial);
-            let accepted =
-                accepted || (first && θ_trial >= θ && self.correct(program, α, θ_trial, &judge));
+            let accepted = accepted || (first && θ_trial >= θ && self.correct(program, α, θ_trial, &judge));
             if accepted {
                 let (_, φ_new) = (0, barrier::merit(self.trial_values.objective, &self.trial.slack, self.μ));
                 if !(is_switching(α) && armijo(φ_new)) {
@@ -256,11 +255,7 @@ impl InteriorPoint {
     /// Second-order corrections (ibid., section 2.4): the rows' curvature along the step is taken out with the factors at
     /// hand. True if one of them is accepted.
     fn correct(
-        &mut self,
-        program: &mut impl Program,
-        α: f64,
-        θ_trial: f64,
-        judge: &dyn Fn(f64, f64) -> bool,
+        &mut self, program: &mut impl Program, α: f64, θ_trial: f64, judge: &dyn Fn(f64, f64) -> bool
     ) -> bool {
         let bounds = self.sides.0.len();
         let (mut α, mut θ_last) = (α, θ_trial);

@@ -46,9 +46,8 @@ impl Sides {
     /// Those of `program`.
     pub fn of(program: &impl Program) -> Self {
         let (lower, upper) = program.bounds();
-        let side = |sign: f64| {
-            move |(index, &bound): (usize, &f64)| bound.is_finite().then_some(Side { index, sign, bound })
-        };
+        let side =
+            |sign: f64| move |(index, &bound): (usize, &f64)| bound.is_finite().then_some(Side { index, sign, bound });
         let lower = lower.iter().enumerate().filter_map(side(1.0));
         Self(lower.chain(upper.iter().enumerate().filter_map(side(-1.0))).collect())
     }
@@ -152,7 +151,8 @@ fn on_path(slack: f64, dual: f64, μ: f64) -> f64 {
 /// `x` moved into the box, off its faces.
 fn interior(x: f64, lower: f64, upper: f64) -> f64 {
     let width = upper - lower;
-    let margin = |bound: f64| (PUSH * bound.abs().max(1.0)).min(if width.is_finite() { PUSH * width } else { f64::MAX });
+    let margin =
+        |bound: f64| (PUSH * bound.abs().max(1.0)).min(if width.is_finite() { PUSH * width } else { f64::MAX });
     let x = if lower.is_finite() { x.max(lower + margin(lower)) } else { x };
     if upper.is_finite() { x.min(upper - margin(upper)) } else { x }
 }

@@ -70,7 +70,9 @@ impl Newton {
             self.diagonal[side.index] += dual / slack;
         }
         let bounds = sides.0.len();
-        for (weight, (dual, slack)) in self.weights.iter_mut().zip(point.dual[bounds..].iter().zip(&point.slack[bounds..])) {
+        for (weight, (dual, slack)) in
+            self.weights.iter_mut().zip(point.dual[bounds..].iter().zip(&point.slack[bounds..]))
+        {
             *weight = dual / slack;
         }
         program.factor(&self.diagonal, &self.weights)

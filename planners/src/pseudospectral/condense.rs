@@ -10,7 +10,7 @@
 //! Only the accelerations of the stages 2..N are implicit, and of these only the coordinates that are not ignorable.
 
 use super::radau::Radau;
-use super::small::{Lu, add_scaled, dot};
+use super::small::{Lu, add_scaled};
 
 /// Dimensions of a segment's stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -272,14 +272,4 @@ impl Stages {
         let states = self.dimensions.states();
         (0..self.dimensions.order).map(|k| self.unit_weight(i, k) * residuals[k * states + component]).sum()
     }
-
-    /// Dimensions.
-    pub fn dimensions(&self) -> Dimensions {
-        self.dimensions
-    }
-}
-
-/// `H z` for a symmetric block, one column.
-pub fn times(hessian: &[f64], stride: usize, z: &[f64], row: usize) -> f64 {
-    dot(&hessian[row * stride..][..z.len()], z)
 }

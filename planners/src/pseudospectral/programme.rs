@@ -99,9 +99,10 @@ impl Program for Transcription<'_> {
                     let z = &dx[from..from + width];
                     let cross = &self.point.cross[k * width..][..width];
                     let gain = |gain: &f64| 0.5 * segment.share * gain;
-                    let half_length: f64 =
-                        phase.duration.gains.iter().zip(parameters).map(|(g, p)| gain(g) * p).sum();
-                    for (a, hessian) in self.point.weighted[k * width * width..].chunks_exact(width).take(width).enumerate() {
+                    let half_length: f64 = phase.duration.gains.iter().zip(parameters).map(|(g, p)| gain(g) * p).sum();
+                    for (a, hessian) in
+                        self.point.weighted[k * width * width..].chunks_exact(width).take(width).enumerate()
+                    {
                         out[from + a] = dot(hessian, z) + half_length * cross[a];
                     }
                     for (out, g) in out[at..].iter_mut().zip(&phase.duration.gains) {
@@ -141,14 +142,7 @@ impl pulp::WithSimd for Factor<'_> {
 }
 
 impl Transcription<'_> {
-    fn segment_linearise(
-        &mut self,
-        (index, k): (usize, usize),
-        x: &[f64],
-        y: &[f64],
-        v: &[f64],
-        gradient: &mut [f64],
-    ) {
+    fn segment_linearise(&mut self, (index, k): (usize, usize), x: &[f64], y: &[f64], v: &[f64], gradient: &mut [f64]) {
         let phase = &self.layout.phases[index];
         let (first, order) = (phase.segments[k].first, phase.segments[k].order);
         let η = self.half_length(phase, k, x);

@@ -204,7 +204,8 @@ impl Segment {
         let count = self.active.len();
         let total = count + d.controls;
         for (k, &a) in self.active.iter().enumerate() {
-            let from = if a < nq { &self.q[((stage - 1) * nq + a) * w..] } else { &self.v[((stage - 1) * nq + a - nq) * w..] };
+            let from =
+                if a < nq { &self.q[((stage - 1) * nq + a) * w..] } else { &self.v[((stage - 1) * nq + a - nq) * w..] };
             self.left[k * w..(k + 1) * w].copy_from_slice(&from[..w]);
         }
         for (k, a) in self.active.iter().copied().chain(states..node_width).enumerate() {

@@ -220,7 +220,8 @@ impl Sweep {
         let (n, count, size) = (self.states, self.parameters, self.states + self.parameters);
         let width = padded(count);
         let begin = &self.begins[0];
-        let rhs = |i: usize| -(gradient[at + i] + begin.vector[n + i] + dot(&begin.matrix[(n + i) * size..][..n], state));
+        let rhs =
+            |i: usize| -(gradient[at + i] + begin.vector[n + i] + dot(&begin.matrix[(n + i) * size..][..n], state));
         let mut p: Vec<f64> = (0..count).map(rhs).collect();
         for i in 0..count {
             let known: f64 = (0..i).map(|k| self.root[k * width + i] * p[k]).sum();
@@ -275,13 +276,7 @@ fn congruence(g: &[f64], p: &[f64], n: usize, size: usize, to: &mut [f64]) {
 }
 
 /// The part of a linearisation that belongs to a segment.
-fn nodes<'a>(
-    layout: &Layout,
-    phase: usize,
-    segment: usize,
-    point: &'a Linearisation,
-    gains: &'a [f64],
-) -> Nodes<'a> {
+fn nodes<'a>(layout: &Layout, phase: usize, segment: usize, point: &'a Linearisation, gains: &'a [f64]) -> Nodes<'a> {
     let phase = &layout.phases[phase];
     let segment = &phase.segments[segment];
     let (width, nq) = (layout.width(), layout.coordinates);

@@ -29,11 +29,7 @@ impl<'a> Transcription<'a> {
         let rules: Vec<Radau> = (0..=highest).map(|order| Radau::new(order.max(1))).collect();
         let (lower, upper) = bounds(motion, &layout);
         let sweep = Sweep::new(motion, &layout, &rules);
-        let end = EndValues {
-            events: Vec::new(),
-            rows: Vec::new(),
-            next: vec![0.0; layout.states()],
-        };
+        let end = EndValues { events: Vec::new(), rows: Vec::new(), next: vec![0.0; layout.states()] };
         Self {
             motion,
             mesh,
@@ -184,11 +180,8 @@ impl<'a> Transcription<'a> {
         for (to, v) in row_weights.iter_mut().zip(&v[row_offset..row_offset + phase.rows]) {
             *to = -v;
         }
-        let weights = NodeWeights {
-            cost: η * weight,
-            acceleration: &acceleration[..nq],
-            rows: &row_weights[..phase.rows],
-        };
+        let weights =
+            NodeWeights { cost: η * weight, acceleration: &acceleration[..nq], rows: &row_weights[..phase.rows] };
         self.cost_gradient.fill(0.0);
         let point = &mut self.point;
         let jacobian = &mut point.jacobians[k * nq * width..][..nq * width];
@@ -197,8 +190,7 @@ impl<'a> Transcription<'a> {
         jacobian.fill(0.0);
         rows.fill(0.0);
         hessian.fill(0.0);
-        let derivatives =
-            NodeDerivatives { acceleration: jacobian, cost: &mut self.cost_gradient, rows, hessian };
+        let derivatives = NodeDerivatives { acceleration: jacobian, cost: &mut self.cost_gradient, rows, hessian };
         self.motion.differentiate(index, &x[at..at + width], weights, derivatives);
         add_scaled(&mut gradient[at..at + width], η * weight, &self.cost_gradient);
         if self.layout.parameters > 0 {

@@ -1,7 +1,7 @@
 //! From a solution to a plan: the polynomials, sampled densely enough that thrusts may be taken as linear in between.
 
-use scenarios::slung_load::{Cable, Control, State, Trajectory};
 use scenarios::Interpolation;
+use scenarios::slung_load::{Cable, Control, State, Trajectory};
 
 use super::attitude::body_rate;
 use super::cable::Cable as Direction;
@@ -71,8 +71,6 @@ fn state(problem: &Problem, phase: usize, coordinates: usize, node: &[f64]) -> S
         roll_pitch_yaw_rad: [q[5], q[4], q[3]],
         body_rate_radps: body_rate([q[3], q[4], q[5]], [v[3], v[4], v[5]]),
         load_position_m: std::array::from_fn(|k| q[k] + length_m * direction[k].value),
-        load_velocity_mps: std::array::from_fn(|k| {
-            v[k] + length_rate * direction[k].value + length_m * turning(k)
-        }),
+        load_velocity_mps: std::array::from_fn(|k| v[k] + length_rate * direction[k].value + length_m * turning(k)),
     }
 }

@@ -37,22 +37,16 @@ pub fn angular<const N: usize>(
 ) -> Angular<N> {
     let ((s_pitch, c_pitch), (s_roll, c_roll)) = (pitch.sin_cos(), roll.sin_cos());
     let level = yaw_rate * c_pitch;
-    let ω = [
-        roll_rate - yaw_rate * s_pitch,
-        pitch_rate * c_roll + level * s_roll,
-        level * c_roll - pitch_rate * s_roll,
-    ];
+    let ω =
+        [roll_rate - yaw_rate * s_pitch, pitch_rate * c_roll + level * s_roll, level * c_roll - pitch_rate * s_roll];
     let gyroscopic = |i: usize| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         ω[j] * ω[k] * ((inertia[j] - inertia[k]) / inertia[i])
     };
     // W' η', by the product rule: (ψ' cos θ)' at constant rates is -ψ' θ' sin θ
     let level_change = -(yaw_rate * pitch_rate * s_pitch);
-    let turning = [
-        -(pitch_rate * level),
-        roll_rate * ω[2] + level_change * s_roll,
-        level_change * c_roll - roll_rate * ω[1],
-    ];
+    let turning =
+        [-(pitch_rate * level), roll_rate * ω[2] + level_change * s_roll, level_change * c_roll - roll_rate * ω[1]];
     let b: [Jet<N>; 3] = std::array::from_fn(|i| gyroscopic(i) + Jet::constant(angular[i]) - turning[i]);
     let secant = c_pitch.recip();
     let zero = Jet::constant(0.0);

@@ -67,7 +67,13 @@ impl Polygon {
                 deepest = Some(line);
             }
             if height > 0.0 || along < 0.0 {
-                let candidate = if along < 0.0 { from_corner(to_point) } else if along <= length { line } else { continue };
+                let candidate = if along < 0.0 {
+                    from_corner(to_point)
+                } else if along <= length {
+                    line
+                } else {
+                    continue;
+                };
                 if nearest.is_none_or(|nearest| candidate.value < nearest.value) {
                     nearest = Some(candidate);
                 }

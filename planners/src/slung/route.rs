@@ -189,7 +189,8 @@ fn distance_to_leg(polygon: &Polygon, a: [f64; 2], b: [f64; 2]) -> f64 {
 
 fn point_to_leg(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     let (leg, to_point) = (minus(b, a), minus(point, a));
-    let share = (leg[0] * to_point[0] + leg[1] * to_point[1]) / (leg[0] * leg[0] + leg[1] * leg[1]).max(f64::MIN_POSITIVE);
+    let share =
+        (leg[0] * to_point[0] + leg[1] * to_point[1]) / (leg[0] * leg[0] + leg[1] * leg[1]).max(f64::MIN_POSITIVE);
     let share = share.clamp(0.0, 1.0);
     length(minus(to_point, [share * leg[0], share * leg[1]]))
 }
@@ -223,7 +224,9 @@ mod tests {
         assert_eq!(routes.len(), 2, "{routes:?}");
         let right = routes.iter().find(|route| route.on_right == [true]).expect("one on the right");
         let left = routes.iter().find(|route| route.on_right == [false]).expect("one on the left");
-        assert!(right.points_m.iter().all(|point| point[1] <= 0.5) && left.points_m.iter().all(|point| point[1] >= -0.5));
+        assert!(
+            right.points_m.iter().all(|point| point[1] <= 0.5) && left.points_m.iter().all(|point| point[1] >= -0.5)
+        );
         assert!((right.length_m() - left.length_m()).abs() < 1e-9, "the case is symmetric about the origin");
     }
 

@@ -86,9 +86,7 @@ pub fn differentiate(model: &Model, mode: Mode, node: &[f64], weights: &[f64], d
     let mut reach_weights = [0.0; 2];
     let first = of_mode + of_floor;
     let rows = derivatives.rows[first * width..].chunks_exact_mut(ENVELOPE * width);
-    for ((rows, weights), obstacle) in
-        rows.zip(weights[first..].chunks_exact(ENVELOPE)).zip(&model.problem.obstacles)
-    {
+    for ((rows, weights), obstacle) in rows.zip(weights[first..].chunks_exact(ENVELOPE)).zip(&model.problem.obstacles) {
         let distance = obstacle.distance([node[0], node[1]]);
         for row in rows.chunks_exact_mut(width) {
             row[..2].copy_from_slice(&distance.gradient);

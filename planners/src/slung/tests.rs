@@ -2,8 +2,11 @@ use super::model::Model;
 use super::problem::{Mode, Problem, Rest, Stage};
 use crate::pseudospectral::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
 
-fn problems() -> Vec<Problem> {
-    let paper = Problem { limits: super::Limits { floor_m: Some(0.0), tension_n: 9.0, ..Problem::paper().limits }, ..Problem::paper() };
+pub fn problems() -> Vec<Problem> {
+    let paper = Problem {
+        limits: super::Limits { floor_m: Some(0.0), tension_n: 9.0, ..Problem::paper().limits },
+        ..Problem::paper()
+    };
     let stage = |mode| Stage { mode, duration: Duration::Fixed(1.0), impulse_ns: Some(0.1) };
     let phased = Problem {
         start: Rest { position_m: [-2.0, 0.0, 0.35], cable: [0.0, 0.0, 0.35] },
@@ -14,7 +17,7 @@ fn problems() -> Vec<Problem> {
     vec![paper, phased, either]
 }
 
-fn noise(seed: usize, i: usize) -> f64 {
+pub fn noise(seed: usize, i: usize) -> f64 {
     ((seed * 37 + i * 101 + 13) as f64).sin()
 }
 
@@ -114,8 +117,7 @@ fn derivatives_of_the_ends_agree_with_differences() {
             let derivatives = |at: &[f64]| {
                 let [mut a, mut b, mut c] = [events, rows, links].map(|count| vec![0.0; count * n]);
                 let mut hessian = vec![0.0; n * n];
-                let into =
-                    EndDerivatives { events: &mut a, rows: &mut b, next: &mut c, hessian: &mut hessian };
+                let into = EndDerivatives { events: &mut a, rows: &mut b, next: &mut c, hessian: &mut hessian };
                 model.end_differentiate(phase, at, EndWeights { events: &e, rows: &r, next: &l }, into);
                 ([a, b, c].concat(), hessian)
             };
@@ -133,8 +135,11 @@ fn derivatives_of_the_ends_agree_with_differences() {
                 }
                 let (ahead, behind) = (derivatives(&moved(1.0)).0, derivatives(&moved(-1.0)).0);
                 for i in 0..n {
-                    let difference: f64 =
-                        weights.iter().enumerate().map(|(k, w)| w * (ahead[k * n + i] - behind[k * n + i]) / (2.0 * h)).sum();
+                    let difference: f64 = weights
+                        .iter()
+                        .enumerate()
+                        .map(|(k, w)| w * (ahead[k * n + i] - behind[k * n + i]) / (2.0 * h))
+                        .sum();
                     assert!((hessian[i * n + j] - difference).abs() < 1e-5);
                 }
             }
