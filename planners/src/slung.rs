@@ -5,6 +5,7 @@ mod attitude;
 mod cable;
 mod cost;
 mod ends;
+mod envelope;
 mod guess;
 mod jet;
 mod model;
@@ -18,6 +19,7 @@ mod route;
 mod rows;
 mod translation;
 
+pub use envelope::{Envelope, envelope};
 pub use guess::Guess;
 pub use model::Model;
 pub use optimise::{Candidate, Options, Round, optimise};

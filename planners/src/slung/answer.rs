@@ -1,7 +1,7 @@
 //! From a solution to a plan: the polynomials, sampled densely enough that thrusts may be taken as linear in between.
 
-use scenarios::Interpolation;
 use scenarios::slung_load::{Cable, Control, State, Trajectory};
+use scenarios::{Interpolation, PlannedEvent};
 
 use super::attitude::body_rate;
 use super::cable::Cable as Direction;
@@ -55,6 +55,38 @@ pub fn trajectory(problem: &Problem, candidate: &Candidate, vehicle: &str) -> Tr
         }
     }
     trajectory
+}
+
+/// Where the cable switches, and the impulses of its impacts.
+pub fn switches(problem: &Problem, candidate: &Candidate) -> Vec<PlannedEvent> {
+    let model = Model::new(problem);
+    let programme = Transcription::new(&model, candidate.mesh.clone());
+    let mut node = vec![0.0; model.width()];
+    let mut at_s = 0.0;
+    let mut events = Vec::new();
+    for (phase, pair) in problem.stages.windows(2).enumerate() {
+        at_s += programme.duration_s(phase, &candidate.x);
+        if pair[1].mode == Mode::Taut {
+            programme.node(&candidate.x, programme.place(phase, 1.0), &mut node);
+            let impulse_ns = model.reduced_kg() * node[model.coordinates() + 8];
+            events.push(PlannedEvent { at_s, what: format!("the cable becomes taut with {impulse_ns:.3} N s") });
+        } else {
+            events.push(PlannedEvent { at_s, what: "the cable becomes slack".to_owned() });
+        }
+    }
+    events
+}
+
+/// The quadrotor's path at the nodes, m.
+pub fn path_m(problem: &Problem, candidate: &Candidate) -> Vec<[f64; 3]> {
+    let model = Model::new(problem);
+    let programme = Transcription::new(&model, candidate.mesh.clone());
+    let mut node = vec![0.0; model.width()];
+    let mut position = |(_, place): (f64, Place)| {
+        programme.node(&candidate.x, place, &mut node);
+        [node[0], node[1], node[2]]
+    };
+    programme.times_s(&candidate.x).into_iter().map(&mut position).collect()
 }
 
 /// A state in world coordinates.

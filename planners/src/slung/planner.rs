@@ -3,9 +3,10 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use scenarios::{Iteration, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent, Scenario};
 
 use super::answer;
+use super::envelope::envelope;
 use super::optimise::{Candidate, Round, optimise};
 use super::problem::Problem;
 use super::question;
@@ -59,8 +60,44 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         objective: Some(best.last().objective),
         trajectories: vec![trajectory.into()],
         history,
+        account: account(&problem, best, &candidates),
         timings: timings(elapsed),
     }
+}
+
+/// When the envelope and the cable switch, and the ways that were not taken.
+fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Account {
+    let mut events: Vec<PlannedEvent> = envelope(problem, best)
+        .switches
+        .into_iter()
+        .map(|(at_s, is_load)| {
+            let what = if is_load {
+                "the load swings out of the body's circle"
+            } else {
+                "the load is back inside the body's circle"
+            };
+            PlannedEvent { at_s, what: what.to_owned() }
+        })
+        .collect();
+    events.extend(answer::switches(problem, best));
+    events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
+    let others = candidates.iter().filter(|candidate| !std::ptr::eq(*candidate, best));
+    let alternative = |candidate: &Candidate| Alternative {
+        name: name(candidate.route, &problem.obstacle_names),
+        status: status(candidate).0,
+        objective: Some(candidate.last().objective),
+        path_m: answer::path_m(problem, candidate),
+    };
+    Account { events, alternatives: others.map(alternative).collect() }
+}
+
+/// `left of block, right of box`.
+fn name(route: &Route, obstacles: &[String]) -> String {
+    let side = |(obstacle, on_right): (&usize, &bool)| {
+        format!("{} of {}", if *on_right { "right" } else { "left" }, obstacles[*obstacle])
+    };
+    let sides: Vec<String> = route.obstacles.iter().zip(&route.on_right).map(side).collect();
+    if sides.is_empty() { "straight".to_owned() } else { sides.join(", ") }
 }
 
 /// The cheapest of those that were solved; if none was, the one that violates its rows least.
@@ -116,6 +153,7 @@ fn without_trajectory(scenario: &Scenario, seed: u64, reason: String, elapsed: D
         objective: None,
         trajectories: Vec::new(),
         history: Vec::new(),
+        account: Account::default(),
         timings: timings(elapsed),
     }
 }

@@ -108,6 +108,8 @@ pub struct Problem {
     pub weights: Weights,
     /// Vertical prisms, by their sections.
     pub obstacles: Vec<Polygon>,
+    /// Their names.
+    pub obstacle_names: Vec<String>,
     /// Start, at rest.
     pub start: Rest,
     /// Where the quadrotor comes to rest, the load hanging straight down on the taut cable, m.
@@ -141,6 +143,7 @@ impl Problem {
             },
             weights: Weights { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 },
             obstacles: vec![Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -half)],
+            obstacle_names: vec!["block".to_owned()],
             start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
             goal_m: [2.0, 0.0, 1.5],
             stages: vec![Stage { mode: Mode::Taut, duration: Duration::Fixed(4.0), impulse_ns: None }],

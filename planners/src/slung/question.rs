@@ -72,6 +72,7 @@ pub fn problem(scenario: &Scenario) -> Problem {
             ..limits(&model.planning_limits)
         },
         weights: weights(settings.objective.unwrap_or(Objective::Effort)),
+        obstacle_names: world.flat_obstacles().into_iter().map(|prism| prism.name).collect(),
         obstacles: world.flat_obstacles().into_iter().map(|prism| Polygon::new(prism.corners_m)).collect(),
         start: rest(scenario),
         goal_m: vehicle.goal.position_m(),

@@ -23,8 +23,9 @@ const MOST_SIDES: usize = 6;
 pub struct Route {
     /// Its corners, m, start and goal included.
     pub points_m: Vec<[f64; 2]>,
-    /// Obstacle by obstacle, whether it is passed on the right of the straight line from start to goal; for those that
-    /// tell routes apart.
+    /// The obstacles that tell routes apart, by index, nearest to the straight line first.
+    pub obstacles: Vec<usize>,
+    /// For each of them, whether it is passed on the right, seen along the straight line from start to goal.
     pub on_right: Vec<bool>,
 }
 
@@ -59,7 +60,8 @@ pub fn routes(start: [f64; 2], goal: [f64; 2], obstacles: &[Polygon], distance_m
 struct Graph<'a> {
     vertices: Vec<[f64; 2]>,
     obstacles: &'a [Polygon],
-    rays: Vec<([f64; 2], [f64; 2])>,
+    /// Obstacles by index, and a ray from each.
+    rays: Vec<(usize, [f64; 2], [f64; 2])>,
     clear_m: Vec<f64>,
 }
 
@@ -72,9 +74,10 @@ impl<'a> Graph<'a> {
         let ahead = minus(goal, start);
         let right = [ahead[1], -ahead[0]];
         let nearness = |obstacle: &Polygon| distance_to_leg(obstacle, start, goal);
-        let mut by_nearness: Vec<&Polygon> = obstacles.iter().collect();
-        by_nearness.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
-        let rays = by_nearness.into_iter().take(MOST_SIDES).map(|obstacle| (middle(obstacle), right)).collect();
+        let mut by_nearness: Vec<usize> = (0..obstacles.len()).collect();
+        by_nearness.sort_by(|&a, &b| nearness(&obstacles[a]).total_cmp(&nearness(&obstacles[b])));
+        let ray = |index: usize| (index, middle(&obstacles[index]), right);
+        let rays = by_nearness.into_iter().take(MOST_SIDES).map(ray).collect();
         // a start close to an obstacle must still be able to leave it
         let ends = |obstacle: &Polygon| [start, goal].map(|point| obstacle.distance(point).value);
         let clear = |obstacle: &Polygon| ends(obstacle).into_iter().fold(distance_m, f64::min) * LEG;
@@ -86,7 +89,7 @@ impl<'a> Graph<'a> {
     }
 
     fn crossings(&self, a: [f64; 2], b: [f64; 2]) -> u32 {
-        let crosses = |(from, along): &([f64; 2], [f64; 2])| {
+        let crosses = |(_, from, along): &(usize, [f64; 2], [f64; 2])| {
             let side = |point: [f64; 2]| cross(*along, minus(point, *from)) > 0.0;
             // where the leg meets the ray's line, ahead of its beginning or behind
             let leg = minus(b, a);
@@ -135,7 +138,8 @@ impl<'a> Graph<'a> {
             points_m.push(self.vertices[key.0]);
         }
         points_m.reverse();
-        Route { points_m, on_right: (0..self.rays.len()).map(|bit| sides >> bit & 1 == 1).collect() }
+        let obstacles = self.rays.iter().map(|ray| ray.0).collect();
+        Route { points_m, obstacles, on_right: (0..self.rays.len()).map(|bit| sides >> bit & 1 == 1).collect() }
     }
 }
 
