@@ -23,9 +23,10 @@ pub use envelope::{Envelope, envelope};
 pub use guess::Guess;
 pub use model::Model;
 pub use optimise::{Candidate, Options, Round, optimise};
-pub use planner::{PLANNER, candidate_routes};
+pub use planner::{PLANNER, candidate_routes, name_of};
 pub use polygon::Polygon;
 pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
+pub use question::{options, problem};
 pub use route::{Route, routes};
 
 #[cfg(test)]

@@ -83,7 +83,7 @@ fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Acc
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
     let others = candidates.iter().filter(|candidate| !std::ptr::eq(*candidate, best));
     let alternative = |candidate: &Candidate| Alternative {
-        name: name(candidate.route, &problem.obstacle_names),
+        name: name_of(candidate.route, problem),
         status: status(candidate).0,
         objective: Some(candidate.last().objective),
         path_m: answer::path_m(problem, candidate),
@@ -92,9 +92,9 @@ fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Acc
 }
 
 /// `left of block, right of box`.
-fn name(route: &Route, obstacles: &[String]) -> String {
-    let side = |(obstacle, on_right): (&usize, &bool)| {
-        format!("{} of {}", if *on_right { "right" } else { "left" }, obstacles[*obstacle])
+pub fn name_of(route: &Route, problem: &Problem) -> String {
+    let side = |(&obstacle, &on_right): (&usize, &bool)| {
+        format!("{} of {}", if on_right { "right" } else { "left" }, problem.obstacle_names[obstacle])
     };
     let sides: Vec<String> = route.obstacles.iter().zip(&route.on_right).map(side).collect();
     if sides.is_empty() { "straight".to_owned() } else { sides.join(", ") }
