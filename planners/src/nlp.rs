@@ -19,6 +19,7 @@ mod barrier;
 mod filter;
 mod interior_point;
 mod iterate;
+mod line_search;
 mod newton;
 mod program;
 mod solution;
@@ -29,6 +30,6 @@ mod dense;
 mod tests;
 
 pub use interior_point::InteriorPoint;
-pub use iterate::Start;
+pub use iterate::{Start, Warm};
 pub use program::{Program, Sizes};
 pub use solution::{Record, Settings, Solution, Status};

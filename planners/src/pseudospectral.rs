@@ -11,6 +11,7 @@
 //! it solves its Newton systems segment by segment. No vehicle is named here.
 
 mod condense;
+mod condensed_solve;
 mod layout;
 mod mesh;
 mod motion;

@@ -9,16 +9,20 @@ pub enum Start {
     /// At x, with multipliers that the method makes up.
     Cold(Vec<f64>),
     /// Near the solution of a similar programme.
-    Warm {
-        /// Variables.
-        x: Vec<f64>,
-        /// Multipliers of the equalities.
-        y: Vec<f64>,
-        /// Multipliers of the inequalities.
-        v: Vec<f64>,
-        /// Multipliers of lower and upper bounds, each as long as `x`.
-        z: [Vec<f64>; 2],
-    },
+    Warm(Warm),
+}
+
+/// A point with its multipliers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warm {
+    /// Variables.
+    pub x: Vec<f64>,
+    /// Multipliers of the equalities.
+    pub y: Vec<f64>,
+    /// Multipliers of the inequalities.
+    pub v: Vec<f64>,
+    /// Multipliers of lower and upper bounds, each as long as `x`.
+    pub z: [Vec<f64>; 2],
 }
 
 /// A variable's bound: `slack = sign (x - bound) >= 0`.
@@ -84,7 +88,7 @@ impl Iterate {
         let mut point = Self::zero(program.sizes(), sides);
         match start {
             Start::Cold(x) => point.begin_cold(program, sides, x, μ),
-            Start::Warm { x, y, v, z } => point.begin_warm(program, sides, (x, y, v, z), μ),
+            Start::Warm(warm) => point.begin_warm(program, sides, warm, μ),
         }
         point
     }
@@ -105,13 +109,7 @@ impl Iterate {
     }
 
     /// Of each pair the larger one is kept (in units in which both are of order one), the other follows from μ.
-    fn begin_warm(
-        &mut self,
-        program: &mut impl Program,
-        sides: &Sides,
-        (x, y, v, z): (&[f64], &[f64], &[f64], &[Vec<f64>; 2]),
-        μ: f64,
-    ) {
+    fn begin_warm(&mut self, program: &mut impl Program, sides: &Sides, Warm { x, y, v, z }: &Warm, μ: f64) {
         self.x.copy_from_slice(x);
         self.y.copy_from_slice(y);
         sides.slacks(x, &mut self.slack);

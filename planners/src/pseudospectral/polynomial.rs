@@ -3,7 +3,7 @@
 
 use super::layout::PhaseLayout;
 use super::transcription::Transcription;
-use crate::nlp::Start;
+use crate::nlp::Warm;
 
 /// A place on the mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,11 +76,9 @@ impl Transcription<'_> {
     ///
     /// Multipliers of defects over their quadrature weight are values of a costate, those of rows and bounds over weight
     /// and half-length are densities (Garg et al. 2010): these are carried over, not the multipliers themselves.
-    pub fn carry_over(&self, start: &Start, to: &Transcription) -> Start {
-        let Start::Warm { x, y, v, z } = start else {
-            return start.clone();
-        };
-        let mut carried = Carried {
+    pub fn carry_over(&self, solution: &Warm, to: &Transcription) -> Warm {
+        let Warm { x, y, z, .. } = solution;
+        let mut carried = Warm {
             x: vec![0.0; to.layout.variables()],
             y: vec![0.0; to.layout.equalities],
             v: vec![0.0; to.layout.inequalities],
@@ -93,18 +91,12 @@ impl Transcription<'_> {
             carried[to.layout.parameters_at..].copy_from_slice(&z[self.layout.parameters_at..]);
         }
         for phase in 0..self.layout.phases.len() {
-            self.carry_phase(phase, (x, y, v, z), to, &mut carried);
+            self.carry_phase(phase, solution, to, &mut carried);
         }
-        Start::Warm { x: carried.x, y: carried.y, v: carried.v, z: carried.z }
+        carried
     }
 
-    fn carry_phase(
-        &self,
-        index: usize,
-        (x, y, v, z): (&[f64], &[f64], &[f64], &[Vec<f64>; 2]),
-        to: &Transcription,
-        carried: &mut Carried,
-    ) {
+    fn carry_phase(&self, index: usize, Warm { x, y, v, z }: &Warm, to: &Transcription, carried: &mut Warm) {
         let (states, width) = (self.layout.states(), self.layout.width());
         let (from, into) = (&self.layout.phases[index], &to.layout.phases[index]);
         let mut node = vec![0.0; width];
@@ -160,11 +152,4 @@ impl Transcription<'_> {
         };
         phase.segments.iter().flat_map(of).collect()
     }
-}
-
-struct Carried {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    v: Vec<f64>,
-    z: [Vec<f64>; 2],
 }

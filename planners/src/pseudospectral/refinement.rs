@@ -138,7 +138,7 @@ fn error(problem: &Transcription, x: &[f64], phase: usize, segment: usize) -> f6
         for i in 0..m {
             let integral: f64 = (0..m).map(|j| fine.integration[(i, j)] * slopes[j * n + r]).sum();
             let difference = (nodes[r] + η * integral - nodes[(i + 1) * width + r]).abs() / (1.0 + size);
-            if !(difference <= worst) {
+            if difference.is_nan() || difference > worst {
                 worst = difference;
             }
         }

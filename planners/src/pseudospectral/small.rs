@@ -88,7 +88,7 @@ pub fn eliminate(matrix: &mut [f64], pivots: usize, size: usize, width: usize, l
     for k in 0..pivots {
         let (above, below) = matrix.split_at_mut((k + 1) * width);
         let row = &mut above[k * width..];
-        if !(row[k] > least) {
+        if row[k].is_nan() || row[k] <= least {
             return false;
         }
         let root = row[k].sqrt();
@@ -138,7 +138,7 @@ impl Lu {
             }
             let (above, below) = self.factors.split_at_mut((k + 1) * n);
             let row = &above[k * n..];
-            if !(row[k].abs() > f64::MIN_POSITIVE) {
+            if row[k].is_nan() || row[k].abs() <= f64::MIN_POSITIVE {
                 return false;
             }
             let scale = 1.0 / row[k];

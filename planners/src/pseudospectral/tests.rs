@@ -159,7 +159,7 @@ fn solutions_carry_over() {
     let mut method = InteriorPoint::new(&coarse, Settings::default());
     let cold = method.solve(&mut coarse, &Start::Cold(start));
     let mut fine = Transcription::new(&cart, Mesh::uniform(&[(9, 4)]));
-    let warm_start = coarse.carry_over(&method.warm_start(), &fine);
+    let warm_start = Start::Warm(coarse.carry_over(&method.warm_start(), &fine));
     let mut method = InteriorPoint::new(&fine, Settings { start: 1e-6, ..Settings::default() });
     let warm = method.solve(&mut fine, &warm_start);
     assert_eq!((cold.status, warm.status), (Status::Solved, Status::Solved));

@@ -35,8 +35,14 @@ pub fn trajectory(problem: &Problem, candidate: &Candidate, vehicle: &str) -> Tr
         }
         trajectory.times_s.push(time_s);
         trajectory.states.push(state(problem, place.phase, model.coordinates(), &node));
-        let thrusts = &node[2 * model.coordinates()..];
-        trajectory.controls.push(Control { thrust_n: [thrusts[0], thrusts[1], thrusts[2], thrusts[3]] });
+        let [least_n, most_n] = problem.limits.thrust_n;
+        // no control stands at the end of a phase: the polynomial goes on to there, and may leave its bounds
+        let is_end = place.τ == 1.0 && is_node;
+        let thrust_n = |rotor: usize| {
+            let thrust_n = node[2 * model.coordinates() + rotor];
+            if is_end { thrust_n.clamp(least_n, most_n) } else { thrust_n }
+        };
+        trajectory.controls.push(Control { thrust_n: std::array::from_fn(thrust_n) });
         trajectory.cable.push(match problem.stages[place.phase].mode {
             Mode::Taut | Mode::Either { .. } => Cable::Taut,
             Mode::Slack | Mode::Parked => Cable::Slack,
@@ -97,12 +103,29 @@ fn state(problem: &Problem, phase: usize, coordinates: usize, node: &[f64]) -> S
     let [alpha, beta] = Jet::<2>::variables([q[6], q[7]]);
     let direction = Direction::at([alpha, beta, Jet::constant(length_m)]).direction;
     let turning = |k: usize| direction[k].gradient[0] * v[6] + direction[k].gradient[1] * v[7];
+    let is_parked = problem.stages[phase].mode == Mode::Parked;
     State {
         position_m: [q[0], q[1], q[2]],
         velocity_mps: [v[0], v[1], v[2]],
         roll_pitch_yaw_rad: [q[5], q[4], q[3]],
         body_rate_radps: body_rate([q[3], q[4], q[5]], [v[3], v[4], v[5]]),
-        load_position_m: std::array::from_fn(|k| q[k] + length_m * direction[k].value),
-        load_velocity_mps: std::array::from_fn(|k| v[k] + length_rate * direction[k].value + length_m * turning(k)),
+        load_position_m: if is_parked {
+            parked_m(problem)
+        } else {
+            std::array::from_fn(|k| q[k] + length_m * direction[k].value)
+        },
+        load_velocity_mps: if is_parked {
+            [0.0; 3]
+        } else {
+            std::array::from_fn(|k| v[k] + length_rate * direction[k].value + length_m * turning(k))
+        },
     }
+}
+
+/// Where a load stands that the ground carries, m: in the planner's coordinates it does so to within the collocation's
+/// error.
+fn parked_m(problem: &Problem) -> [f64; 3] {
+    let [_, _, length_m] = problem.start.cable;
+    let direction = Direction::at(problem.start.cable.map(Jet::<0>::constant)).direction;
+    std::array::from_fn(|k| problem.start.position_m[k] + length_m * direction[k].value)
 }

@@ -71,7 +71,13 @@ pub fn values(model: &Model, phase: usize, state: &[f64], values: &mut EndValues
 }
 
 /// Their derivatives.
-pub fn differentiate(model: &Model, phase: usize, state: &[f64], weights: &EndWeights, derivatives: EndDerivatives) {
+pub fn differentiate(
+    model: &Model,
+    phase: usize,
+    state: &[f64],
+    weights: &EndWeights,
+    derivatives: &mut EndDerivatives,
+) {
     let n = 2 * model.coordinates;
     if is_last(model, phase) {
         for (event, index) in goal_indices(model).enumerate() {
@@ -87,7 +93,13 @@ pub fn differentiate(model: &Model, phase: usize, state: &[f64], weights: &EndWe
     }
 }
 
-fn differentiate_impact(model: &Model, phase: usize, state: &[f64], weights: &EndWeights, derivatives: EndDerivatives) {
+fn differentiate_impact(
+    model: &Model,
+    phase: usize,
+    state: &[f64],
+    weights: &EndWeights,
+    derivatives: &mut EndDerivatives,
+) {
     let (nq, n) = (model.coordinates, 2 * model.coordinates);
     let rate = nq + LENGTH;
     let share = model.reduced_kg() / model.problem.body.quadrotor_kg;

@@ -50,13 +50,10 @@ impl<const N: usize> Jet<N> {
     /// `f(self)` by the chain rule, from `f`, `f'` and `f''` at the value.
     #[inline(always)]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
-        let mut hessian = [[0.0; N]; N];
-        for i in 0..N {
-            for j in 0..N {
-                hessian[i][j] = df * self.hessian[i][j] + ddf * self.gradient[i] * self.gradient[j];
-            }
-        }
-        Self { value: f, gradient: self.gradient.map(|g| df * g), hessian }
+        let gradient = self.gradient;
+        let second = |i: usize, j: usize| df * self.hessian[i][j] + ddf * gradient[i] * gradient[j];
+        let hessian = std::array::from_fn(|i| std::array::from_fn(|j| second(i, j)));
+        Self { value: f, gradient: gradient.map(|g| df * g), hessian }
     }
 
     /// Sine and cosine.

@@ -210,7 +210,7 @@ impl Motion for Model<'_> {
         ends::values(self, phase, state, values);
     }
 
-    fn end_differentiate(&self, phase: usize, state: &[f64], weights: EndWeights, derivatives: EndDerivatives) {
-        ends::differentiate(self, phase, state, &weights, derivatives);
+    fn end_differentiate(&self, phase: usize, state: &[f64], weights: EndWeights, mut derivatives: EndDerivatives) {
+        ends::differentiate(self, phase, state, &weights, &mut derivatives);
     }
 }

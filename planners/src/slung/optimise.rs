@@ -6,7 +6,7 @@ use super::guess::Guess;
 use super::model::Model;
 use super::problem::Problem;
 use super::route::Route;
-use crate::nlp::{InteriorPoint, Settings, Solution, Start, Status};
+use crate::nlp::{InteriorPoint, Settings, Solution, Start, Status, Warm};
 use crate::pseudospectral::{Mesh, Motion, Quality, Tolerances, Transcription, qualities, refine};
 
 /// Tolerance on meshes that are not expected to be the last.
@@ -105,7 +105,7 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
     let model = Model::new(problem);
     let guess = Guess::new(problem, route, model.coordinates());
     let mut mesh = first_mesh(&guess, options);
-    let mut start: Option<(Transcription, Start)> = None;
+    let mut start: Option<(Transcription, Warm)> = None;
     let mut rounds = Vec::new();
     // a mesh that is good enough for a rough solution is solved on once more
     let mut is_rough = options.tolerances.is_some();
@@ -120,7 +120,7 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
             None => Start::Cold(programme.guess(&|phase, share, node| guess.write(phase, share, node))),
             Some((coarse, solution)) => {
                 settings.start = WARM_BARRIER;
-                coarse.carry_over(solution, &programme)
+                Start::Warm(coarse.carry_over(solution, &programme))
             }
         };
         let mut method = InteriorPoint::new(&programme, settings);
