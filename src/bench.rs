@@ -1,4 +1,5 @@
 //! What `harness bench` measures: the papers' tables, side by side with the baselines.
 
 pub mod ipm;
+pub mod slung;
 pub mod subproblems;

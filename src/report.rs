@@ -6,7 +6,7 @@ mod summary;
 pub mod table;
 pub mod terminal;
 
-use scenarios::{Plan, PlanStatus};
+use scenarios::{Alternative, Plan, PlanStatus, PlannedEvent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +67,33 @@ pub struct PlanSummary {
     pub flight_time_s: Option<f64>,
     /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
     pub objective: Option<f64>,
+    /// What the plan foresees, in time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<EventSummary>,
+    /// Ways that were tried and not taken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<AlternativeSummary>,
+}
+
+/// An instant that a plan foresees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EventSummary {
+    /// When, s.
+    pub at_s: f64,
+    /// What.
+    pub what: String,
+}
+
+/// A way that was tried and not taken, without its path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AlternativeSummary {
+    /// Which way.
+    pub name: String,
+    /// What the planner says of it.
+    #[schemars(with = "String")]
+    pub status: PlanStatus,
+    /// Value of the planner's objective.
+    pub objective: Option<f64>,
 }
 
 /// Wall time of the stages, s.
@@ -118,6 +145,21 @@ impl PlanSummary {
             distributed_s: plan.timings.distributed_s,
             flight_time_s: plan.flight_time_s(),
             objective: plan.objective,
+            events: plan.account.events.iter().map(EventSummary::new).collect(),
+            alternatives: plan.account.alternatives.iter().map(AlternativeSummary::new).collect(),
         }
+    }
+}
+
+impl EventSummary {
+    fn new(event: &PlannedEvent) -> Self {
+        Self { at_s: event.at_s, what: event.what.clone() }
+    }
+}
+
+impl AlternativeSummary {
+    fn new(alternative: &Alternative) -> Self {
+        let Alternative { name, status, objective, .. } = alternative;
+        Self { name: name.clone(), status: *status, objective: *objective }
     }
 }

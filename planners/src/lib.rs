@@ -3,9 +3,12 @@
 #![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
 
 pub mod convex;
+pub mod nlp;
 mod planner;
+pub mod pseudospectral;
 mod registry;
 pub mod scp;
+pub mod slung;
 
 pub use planner::{Planner, Progress};
 pub use registry::{find, registry};

@@ -1,9 +1,9 @@
 use crate::planner::Planner;
-use crate::scp;
+use crate::{scp, slung};
 
 /// Every planner.
 pub fn registry() -> &'static [Planner] {
-    &[scp::parallel::PLANNER]
+    &[scp::parallel::PLANNER, slung::PLANNER]
 }
 
 /// The planner of that name.

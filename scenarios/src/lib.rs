@@ -34,7 +34,7 @@ pub use fleet::FleetRules;
 pub use load::{Fault, Invalid, LoadError, Source, load, parse};
 pub use models::{Family, Model, Models};
 pub use nearest::nearest;
-pub use plan::{Iteration, Plan, PlanStatus, PlanTimings};
+pub use plan::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
     Collocation, Convergence, Objective, PlannerSettings, Shape, Solver, Transcription, TrustRegion,
 };

@@ -2,6 +2,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::Trajectory;
 
+mod account;
+
+pub use account::{Account, Alternative, PlannedEvent};
+
 /// A planner's answer: one trajectory for every vehicle, and how it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,6 +29,9 @@ pub struct Plan {
     pub trajectories: Vec<Trajectory>,
     /// How the planner got there, one entry per iteration.
     pub history: Vec<Iteration>,
+    /// What the planner tells beyond its trajectories.
+    #[serde(default, skip_serializing_if = "Account::is_empty")]
+    pub account: Account,
     /// Time that planning took.
     pub timings: PlanTimings,
 }

@@ -54,6 +54,7 @@ mod tests {
             objective: None,
             trajectories: vec![trajectory.into()],
             history: Vec::new(),
+            account: crate::Account::default(),
             timings: PlanTimings::default(),
         }
     }

@@ -9,9 +9,14 @@ use std::path::{Path, PathBuf};
 
 use scenarios::Scenario;
 
-/// Every shipped scenario, with its file.
+/// Every shipped scenario of fixed wings, with its file.
 fn shipped() -> Vec<(PathBuf, Scenario)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fixed-wing");
+    shipped_in("scenarios/fixed-wing")
+}
+
+/// Every shipped scenario in a folder, with its file.
+fn shipped_in(folder: &str) -> Vec<(PathBuf, Scenario)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let paths = scenarios::find(&[folder]).expect("the shipped scenarios are there");
     let load = |path: PathBuf| {
         let scenario = scenarios::load(&path).expect("a shipped scenario is valid");

@@ -1,0 +1,270 @@
+//! One segment as a stage of a linear-quadratic problem: columns are its controls, its first state, and the parameters.
+//!
+//! ```text
+//! cost-to-go(x_1, p) = min_U  1/2 [U x_1 p] Q [U x_1 p]^T + cost-to-go of the next segment(x_{N+1}, p)
+//! ```
+
+use super::condense::{Dimensions, Stages};
+use super::radau::Radau;
+use super::small::{add_scaled, add_transposed_product, dot, eliminate, padded, product};
+
+/// Pivots must exceed this for a minimum over the controls.
+const LEAST_PIVOT: f64 = 1e-14;
+
+/// A quadratic function of a state and the parameters, `1/2 z^T matrix z + vector^T z`.
+#[derive(Clone, Debug)]
+pub struct CostToGo {
+    /// Symmetric, full, row-major.
+    pub matrix: Vec<f64>,
+    pub vector: Vec<f64>,
+}
+
+impl CostToGo {
+    /// Zero, for states and parameters together.
+    pub fn zero(size: usize) -> Self {
+        Self { matrix: vec![0.0; size * size], vector: vec![0.0; size] }
+    }
+}
+
+/// What a segment needs of its nodes, node by node.
+#[derive(Clone, Copy, Debug)]
+pub struct Nodes<'a> {
+    /// Half-length η, s, and its derivatives with respect to the parameters.
+    pub half_length: f64,
+    pub half_length_gains: &'a [f64],
+    /// Hessian blocks with the barrier's weights.
+    pub hessians: &'a [f64],
+    /// [A^q A^v B].
+    pub jacobians: &'a [f64],
+    /// a and the node vectors.
+    pub accelerations: &'a [f64],
+    pub variables: &'a [f64],
+    /// Second derivatives with respect to η and the node vector.
+    pub cross: &'a [f64],
+}
+
+/// The condensed segment and its factors.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    pub(super) stages: Stages,
+    pub(super) dimensions: Dimensions,
+    /// Padded number of columns.
+    pub(super) width: usize,
+    /// Rows of q and v at the points 2..N+1.
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) quadratic: Vec<f64>,
+    left: Vec<f64>,
+    right: Vec<f64>,
+    compact: Vec<f64>,
+    active: Vec<usize>,
+    /// Cost-to-go at the segment's end.
+    pub next: CostToGo,
+    /// Forced states at the points 2..N+1 of the last right-hand side.
+    pub(super) offset_q: Vec<f64>,
+    pub(super) offset_v: Vec<f64>,
+    pub(super) vector: Vec<f64>,
+    pub(super) gradient: Vec<f64>,
+}
+
+impl Segment {
+    /// Room for a segment.
+    pub fn new(dimensions: Dimensions, rule: &Radau) -> Self {
+        let (n, nq) = (dimensions.order, dimensions.coordinates);
+        let size = dimensions.all_controls() + dimensions.states() + dimensions.parameters;
+        let width = padded(size);
+        let tall = dimensions.width().max(dimensions.states());
+        Self {
+            stages: Stages::new(dimensions, rule, width),
+            dimensions,
+            width,
+            q: vec![0.0; n * nq * width],
+            v: vec![0.0; n * nq * width],
+            quadratic: vec![0.0; width * width],
+            left: vec![0.0; tall * width],
+            right: vec![0.0; tall * width],
+            compact: vec![0.0; dimensions.width() * dimensions.width()],
+            active: Vec::with_capacity(dimensions.width()),
+            next: CostToGo::zero(dimensions.states() + dimensions.parameters),
+            offset_q: vec![0.0; n * nq],
+            offset_v: vec![0.0; n * nq],
+            vector: vec![0.0; width],
+            gradient: vec![0.0; n * dimensions.states()],
+        }
+    }
+
+    /// Column of a control of a stage, of a first state, of a parameter.
+    fn control(&self, stage: usize) -> usize {
+        stage * self.dimensions.controls
+    }
+    pub(super) fn state(&self) -> usize {
+        self.dimensions.all_controls()
+    }
+    pub(super) fn parameter(&self) -> usize {
+        self.state() + self.dimensions.states()
+    }
+
+    /// Condenses the nodes, adds `next`, eliminates the controls, and writes the cost-to-go at the segment's beginning.
+    /// False if the curvature is wrong.
+    #[inline(always)]
+    pub fn factor(&mut self, nodes: &Nodes, before: &mut [f64]) -> bool {
+        if !self.stages.factor(nodes.half_length, nodes.jacobians) {
+            return false;
+        }
+        self.sensitivities(nodes);
+        self.quadratic.fill(0.0);
+        self.first_stage(nodes);
+        for stage in 1..self.dimensions.order {
+            self.inner_stage(nodes, stage);
+        }
+        self.add_next();
+        let (pivots, columns) = (self.state(), self.parameter() + self.dimensions.parameters);
+        if !eliminate(&mut self.quadratic, pivots, columns, self.width, LEAST_PIVOT) {
+            return false;
+        }
+        let size = self.dimensions.states() + self.dimensions.parameters;
+        for i in 0..size {
+            for j in i..size {
+                let value = self.quadratic[(pivots + i) * self.width + pivots + j];
+                before[i * size + j] = value;
+                before[j * size + i] = value;
+            }
+        }
+        true
+    }
+
+    /// Rows of q and v at the points 2..N+1 as functions of the columns.
+    #[inline(always)]
+    fn sensitivities(&mut self, nodes: &Nodes) {
+        let d = self.dimensions;
+        let (n, nq, w, node_width) = (d.order, d.coordinates, self.width, d.width());
+        let (u, x, p) = (self.control(0), self.state(), self.parameter());
+        self.q.fill(0.0);
+        self.v.fill(0.0);
+        for i in 0..n {
+            let first = self.stages.weight(i, 0);
+            for r in 0..nq {
+                let (q, v) = (&mut self.q[(i * nq + r) * w..][..w], &mut self.v[(i * nq + r) * w..][..w]);
+                q[x + r] += 1.0;
+                q[x + nq + r] += first;
+                v[x + nq + r] += 1.0;
+                let jacobian = &nodes.jacobians[r * node_width..][..node_width];
+                add_scaled(&mut v[x..x + 2 * nq], first, &jacobian[..2 * nq]);
+                add_scaled(&mut v[u..u + d.controls], first, &jacobian[2 * nq..]);
+                for (k, gain) in nodes.half_length_gains.iter().enumerate() {
+                    for j in 0..n {
+                        let weight = gain * self.stages.unit_weight(i, j);
+                        q[p + k] += weight * nodes.variables[j * node_width + nq + r];
+                        v[p + k] += weight * nodes.accelerations[j * nq + r];
+                    }
+                }
+            }
+        }
+        let controls = d.controls;
+        self.stages.close(nodes.jacobians, &mut self.q, &mut self.v, w, |stage, b, row| {
+            add_scaled(&mut row[stage * controls..(stage + 1) * controls], 1.0, b);
+        });
+    }
+
+    /// Stage 1 is the first state itself.
+    #[inline(always)]
+    fn first_stage(&mut self, nodes: &Nodes) {
+        let d = self.dimensions;
+        let (w, states, node_width) = (self.width, d.states(), d.width());
+        let (x, p) = (self.state(), self.parameter());
+        let column = |a: usize| if a < states { x + a } else { a - states };
+        for a in 0..node_width {
+            let hessian = &nodes.hessians[a * node_width..][..node_width];
+            let row = &mut self.quadratic[column(a) * w..][..w];
+            for (b, h) in hessian.iter().enumerate() {
+                row[column(b)] += h;
+            }
+            for (k, gain) in nodes.half_length_gains.iter().enumerate() {
+                row[p + k] += gain * nodes.cross[a];
+            }
+        }
+    }
+
+    /// `Q += Z^T H Z` for the node vector `Z` of a stage, with the terms in the parameters.
+    #[inline(always)]
+    fn inner_stage(&mut self, nodes: &Nodes, stage: usize) {
+        let d = self.dimensions;
+        let (w, nq, states, node_width) = (self.width, d.coordinates, d.states(), d.width());
+        let (u, p) = (self.control(stage), self.parameter());
+        let hessian = &nodes.hessians[stage * node_width * node_width..][..node_width * node_width];
+        let cross = &nodes.cross[stage * node_width..][..node_width];
+        let has_parameters = d.parameters > 0;
+        self.active.clear();
+        for a in 0..states {
+            let row = &hessian[a * node_width..][..node_width];
+            if row.iter().any(|&h| h != 0.0) || (has_parameters && cross[a] != 0.0) {
+                self.active.push(a);
+            }
+        }
+        let count = self.active.len();
+        let total = count + d.controls;
+        for (k, &a) in self.active.iter().enumerate() {
+            let from =
+                if a < nq { &self.q[((stage - 1) * nq + a) * w..] } else { &self.v[((stage - 1) * nq + a - nq) * w..] };
+            self.left[k * w..(k + 1) * w].copy_from_slice(&from[..w]);
+        }
+        for (k, a) in self.active.iter().copied().chain(states..node_width).enumerate() {
+            for (l, &b) in self.active.iter().enumerate() {
+                self.compact[k * count + l] = hessian[a * node_width + b];
+            }
+        }
+        product(&mut self.right, &self.compact, count, &self.left, total, count, w);
+        for (k, a) in self.active.iter().copied().chain(states..node_width).enumerate() {
+            let row = &mut self.right[k * w..(k + 1) * w];
+            add_scaled(&mut row[u..u + d.controls], 1.0, &hessian[a * node_width + states..][..d.controls]);
+            for (l, gain) in nodes.half_length_gains.iter().enumerate() {
+                row[p + l] += gain * cross[a];
+            }
+        }
+        add_transposed_product(&mut self.quadratic, w, w, &self.left, &self.right, count);
+        for k in 0..d.controls {
+            add_scaled(&mut self.quadratic[(u + k) * w..][..w], 1.0, &self.right[(count + k) * w..][..w]);
+        }
+        for (l, gain) in nodes.half_length_gains.iter().enumerate() {
+            let row = &mut self.quadratic[(p + l) * w..][..w];
+            for (k, &a) in self.active.iter().enumerate() {
+                add_scaled(&mut row[p..p + d.parameters], gain * cross[a], &self.left[k * w + p..][..d.parameters]);
+            }
+        }
+    }
+
+    /// `Q += F^T P F` for the cost-to-go P at the last state and the parameters.
+    #[inline(always)]
+    fn add_next(&mut self) {
+        let d = self.dimensions;
+        let (w, nq, states, p) = (self.width, d.coordinates, d.states(), self.parameter());
+        let size = states + d.parameters;
+        let last = (d.order - 1) * nq * w;
+        self.left[..nq * w].copy_from_slice(&self.q[last..last + nq * w]);
+        self.left[nq * w..states * w].copy_from_slice(&self.v[last..last + nq * w]);
+        product(&mut self.right, &self.next.matrix, size, &self.left, states, states, w);
+        for r in 0..states {
+            let next = &self.next.matrix[r * size + states..][..d.parameters];
+            add_scaled(&mut self.right[r * w + p..][..d.parameters], 1.0, next);
+        }
+        add_transposed_product(&mut self.quadratic, w, w, &self.left, &self.right, states);
+        for k in 0..d.parameters {
+            let next = &self.next.matrix[(states + k) * size..][..size];
+            let row = &mut self.quadratic[(p + k) * w + p..][..d.parameters];
+            add_scaled(row, 1.0, &next[states..]);
+            for (r, &next) in next[..states].iter().enumerate() {
+                add_scaled(row, next, &self.left[r * w + p..][..d.parameters]);
+            }
+        }
+    }
+}
+
+/// The negative gradient of a cost-to-go with respect to the state.
+pub fn costate(next: &CostToGo, state: &[f64], parameters: &[f64]) -> Vec<f64> {
+    let (states, size) = (state.len(), next.vector.len());
+    let gradient = |r: usize| {
+        let row = &next.matrix[r * size..][..size];
+        next.vector[r] + dot(&row[..states], state) + dot(&row[states..], parameters)
+    };
+    (0..states).map(|r| -gradient(r)).collect()
+}

@@ -1,0 +1,294 @@
+//! Newton systems of the whole horizon: backward over the segments to factor, backward and forward to solve.
+
+use super::condense::Dimensions;
+use super::layout::{Layout, PhaseLayout};
+use super::motion::Motion;
+use super::radau::Radau;
+use super::segment::{CostToGo, Nodes, Segment, costate};
+use super::small::{add_scaled, dot, eliminate, padded};
+
+/// Weight of the events in the factors, 1/δ_c: they hold after refinement.
+const EVENT_WEIGHT: f64 = 1e8;
+
+/// Derivatives of all nodes and ends at the last point of linearisation, and the barrier's additions.
+#[derive(Clone, Debug)]
+pub struct Linearisation {
+    /// Node by node: Hessians without and with the barrier's terms, [A^q A^v B], a, path rows, the derivatives with
+    /// respect to η and the node vector.
+    pub hessians: Vec<f64>,
+    pub weighted: Vec<f64>,
+    pub jacobians: Vec<f64>,
+    pub accelerations: Vec<f64>,
+    pub rows: Vec<f64>,
+    pub cross: Vec<f64>,
+    /// The point itself.
+    pub variables: Vec<f64>,
+    /// Ends, one per phase.
+    pub ends: Vec<End>,
+    /// Diagonal of the parameters.
+    pub parameter_diagonal: Vec<f64>,
+}
+
+/// Derivatives at the end of a phase, row-major.
+#[derive(Clone, Debug)]
+pub struct End {
+    pub events: Vec<f64>,
+    pub rows: Vec<f64>,
+    pub next: Vec<f64>,
+    pub hessian: Vec<f64>,
+    pub weighted: Vec<f64>,
+}
+
+/// All segments with their factors.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    segments: Vec<Vec<Segment>>,
+    /// Derivatives of the segments' half-lengths with respect to the parameters.
+    gains: Vec<Vec<Vec<f64>>>,
+    /// Costs-to-go at the first state of every phase.
+    begins: Vec<CostToGo>,
+    /// Factors of the parameters' block.
+    root: Vec<f64>,
+    states: usize,
+    parameters: usize,
+}
+
+impl Sweep {
+    /// Room for `motion` on a mesh.
+    pub fn new(motion: &dyn Motion, layout: &Layout, rules: &[Radau]) -> Self {
+        let segment = |order: usize| {
+            let dimensions = Dimensions {
+                coordinates: layout.coordinates,
+                ignorable: motion.ignorable(),
+                controls: layout.controls,
+                parameters: layout.parameters,
+                order,
+            };
+            Segment::new(dimensions, &rules[order])
+        };
+        let phase = |phase: &PhaseLayout| phase.segments.iter().map(|s| segment(s.order)).collect();
+        let gains = |phase: &PhaseLayout| {
+            let of = |share: f64| phase.duration.gains.iter().map(|gain| 0.5 * share * gain).collect();
+            phase.segments.iter().map(|segment| of(segment.share)).collect()
+        };
+        let size = layout.states() + layout.parameters;
+        Self {
+            segments: layout.phases.iter().map(phase).collect(),
+            gains: layout.phases.iter().map(gains).collect(),
+            begins: vec![CostToGo::zero(size); layout.phases.len()],
+            root: vec![0.0; padded(layout.parameters).pow(2)],
+            states: layout.states(),
+            parameters: layout.parameters,
+        }
+    }
+
+    /// Factors; false if the curvature on the rows' null space is not positive.
+    #[inline(always)]
+    pub fn factor(&mut self, layout: &Layout, point: &Linearisation) -> bool {
+        let size = self.states + self.parameters;
+        let mut after = vec![0.0; size * size];
+        let mut before = vec![0.0; size * size];
+        for (index, phase) in layout.phases.iter().enumerate().rev() {
+            self.end_matrix(phase.events, &point.ends[index], &after, &mut before);
+            std::mem::swap(&mut after, &mut before);
+            for k in (0..phase.segments.len()).rev() {
+                let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
+                let segment = &mut self.segments[index][k];
+                segment.next.matrix.copy_from_slice(&after);
+                if !segment.factor(&nodes, &mut before) {
+                    return false;
+                }
+                std::mem::swap(&mut after, &mut before);
+            }
+            self.begins[index].matrix.copy_from_slice(&after);
+        }
+        self.factor_parameters(point)
+    }
+
+    /// Cost-to-go at the last state of a phase: the next phase's through the link, the events', the end's own.
+    fn end_matrix(&self, events: usize, end: &End, after: &[f64], before: &mut [f64]) {
+        let (n, size) = (self.states, self.states + self.parameters);
+        before.fill(0.0);
+        if !end.next.is_empty() {
+            congruence(&end.next, after, n, size, before);
+        }
+        for r in 0..n {
+            add_scaled(&mut before[r * size..r * size + n], 1.0, &end.weighted[r * n..(r + 1) * n]);
+        }
+        for row in end.events.chunks_exact(n).take(events) {
+            for r in (0..n).filter(|&r| row[r] != 0.0) {
+                add_scaled(&mut before[r * size..r * size + n], EVENT_WEIGHT * row[r], row);
+            }
+        }
+    }
+
+    fn factor_parameters(&mut self, point: &Linearisation) -> bool {
+        let (n, count, size) = (self.states, self.parameters, self.states + self.parameters);
+        let width = padded(count);
+        for i in 0..count {
+            for j in 0..count {
+                self.root[i * width + j] = self.begins[0].matrix[(n + i) * size + n + j];
+            }
+            self.root[i * width + i] += point.parameter_diagonal[i];
+        }
+        eliminate(&mut self.root, count, count, width, 0.0)
+    }
+
+    /// Solves in place: `x` from the right-hand side of the variables to their step, `y` from that of the equalities to
+    /// the step of their multipliers.
+    pub fn solve(&mut self, layout: &Layout, point: &Linearisation, x: &mut [f64], y: &mut [f64]) {
+        let gradient: Vec<f64> = x.iter().map(|value| -value).collect();
+        self.backward(layout, point, &gradient, y);
+        self.forward(layout, point, &gradient, x, y);
+    }
+
+    fn backward(&mut self, layout: &Layout, point: &Linearisation, gradient: &[f64], y: &[f64]) {
+        let (n, size) = (self.states, self.states + self.parameters);
+        let mut after = vec![0.0; size];
+        let mut before = vec![0.0; size];
+        for (index, phase) in layout.phases.iter().enumerate().rev() {
+            let end_at = layout.node_at(phase, phase.nodes);
+            self.end_vector(layout, point, index, y, &after, &mut before);
+            add_scaled(&mut before[..n], 1.0, &gradient[end_at..end_at + n]);
+            std::mem::swap(&mut after, &mut before);
+            for k in (0..phase.segments.len()).rev() {
+                let (first, order) = (phase.segments[k].first, phase.segments[k].order);
+                let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
+                let segment = &mut self.segments[index][k];
+                segment.next.vector.copy_from_slice(&after);
+                let gradient = &gradient[layout.node_at(phase, first)..][..order * layout.width()];
+                let residuals = &y[layout.defect_at(phase, first)..][..order * n];
+                segment.backward(&nodes, gradient, residuals, &mut before);
+                std::mem::swap(&mut after, &mut before);
+            }
+            self.begins[index].vector.copy_from_slice(&after);
+        }
+    }
+
+    /// Gradient of the cost-to-go at the last state of a phase.
+    fn end_vector(
+        &self,
+        layout: &Layout,
+        point: &Linearisation,
+        index: usize,
+        y: &[f64],
+        after: &[f64],
+        before: &mut [f64],
+    ) {
+        let (n, size) = (self.states, self.states + self.parameters);
+        let (phase, end) = (&layout.phases[index], &point.ends[index]);
+        before.fill(0.0);
+        if !end.next.is_empty() {
+            let residual = &y[phase.link_at..][..n];
+            let matrix = &self.begins[index + 1].matrix;
+            for r in 0..size {
+                let value = after[r] + dot(&matrix[r * size..][..n], residual);
+                if r < n {
+                    add_scaled(&mut before[..n], value, &end.next[r * n..(r + 1) * n]);
+                } else {
+                    before[r] += value;
+                }
+            }
+        }
+        for (row, residual) in end.events.chunks_exact(n).zip(&y[phase.events_at..][..phase.events]) {
+            add_scaled(&mut before[..n], -EVENT_WEIGHT * residual, row);
+        }
+    }
+
+    fn forward(&mut self, layout: &Layout, point: &Linearisation, gradient: &[f64], x: &mut [f64], y: &mut [f64]) {
+        let (n, width) = (self.states, layout.width());
+        let mut state = y[..n].to_vec();
+        let parameters = self.solve_parameters(gradient, layout.parameters_at, &state);
+        x[layout.parameters_at..].copy_from_slice(&parameters);
+        y[..n].copy_from_slice(&costate(&self.begins[0], &state, &parameters));
+        for (index, phase) in layout.phases.iter().enumerate() {
+            for (k, segment) in phase.segments.iter().enumerate() {
+                let at = layout.node_at(phase, segment.first);
+                let solution = &mut x[at..at + segment.order * width + n];
+                solution[..n].copy_from_slice(&state);
+                let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
+                let multipliers = &mut y[layout.defect_at(phase, segment.first)..][..segment.order * n];
+                let gradient = &gradient[at..at + segment.order * width];
+                self.segments[index][k].forward(&nodes, gradient, &parameters, solution, multipliers);
+                state.copy_from_slice(&solution[segment.order * width..]);
+            }
+            self.end_forward(phase, &point.ends[index], index, &parameters, &mut state, y);
+        }
+    }
+
+    fn solve_parameters(&self, gradient: &[f64], at: usize, state: &[f64]) -> Vec<f64> {
+        let (n, count, size) = (self.states, self.parameters, self.states + self.parameters);
+        let width = padded(count);
+        let begin = &self.begins[0];
+        let rhs =
+            |i: usize| -(gradient[at + i] + begin.vector[n + i] + dot(&begin.matrix[(n + i) * size..][..n], state));
+        let mut p: Vec<f64> = (0..count).map(rhs).collect();
+        for i in 0..count {
+            let known: f64 = (0..i).map(|k| self.root[k * width + i] * p[k]).sum();
+            p[i] = (p[i] - known) / self.root[i * width + i];
+        }
+        for i in (0..count).rev() {
+            let known: f64 = (i + 1..count).map(|k| self.root[i * width + k] * p[k]).sum();
+            p[i] = (p[i] - known) / self.root[i * width + i];
+        }
+        p
+    }
+
+    /// Multipliers of the events and of the link; the state goes on to the next phase.
+    fn end_forward(
+        &self,
+        phase: &PhaseLayout,
+        end: &End,
+        index: usize,
+        parameters: &[f64],
+        state: &mut [f64],
+        y: &mut [f64],
+    ) {
+        let n = self.states;
+        for (row, y) in end.events.chunks_exact(n).zip(&mut y[phase.events_at..][..phase.events]) {
+            *y = EVENT_WEIGHT * (dot(row, state) - *y);
+        }
+        if end.next.is_empty() {
+            return;
+        }
+        let residual = &mut y[phase.link_at..][..n];
+        let next: Vec<f64> = (0..n).map(|r| residual[r] + dot(&end.next[r * n..(r + 1) * n], state)).collect();
+        residual.copy_from_slice(&costate(&self.begins[index + 1], &next, parameters));
+        state.copy_from_slice(&next);
+    }
+}
+
+/// `to = [G 0; 0 1]^T P [G 0; 0 1]` with G of n x n, P of `size` x `size`.
+fn congruence(g: &[f64], p: &[f64], n: usize, size: usize, to: &mut [f64]) {
+    let mut half = vec![0.0; size * size];
+    for (half, p) in half.chunks_exact_mut(size).zip(p.chunks_exact(size)) {
+        for c in 0..n {
+            add_scaled(&mut half[..n], p[c], &g[c * n..(c + 1) * n]);
+        }
+        half[n..].copy_from_slice(&p[n..]);
+    }
+    for c in 0..n {
+        for r in 0..n {
+            add_scaled(&mut to[r * size..(r + 1) * size], g[c * n + r], &half[c * size..(c + 1) * size]);
+        }
+    }
+    to[n * size..].copy_from_slice(&half[n * size..]);
+}
+
+/// The part of a linearisation that belongs to a segment.
+fn nodes<'a>(layout: &Layout, phase: usize, segment: usize, point: &'a Linearisation, gains: &'a [f64]) -> Nodes<'a> {
+    let phase = &layout.phases[phase];
+    let segment = &phase.segments[segment];
+    let (width, nq) = (layout.width(), layout.coordinates);
+    let (node, count) = (phase.first_node + segment.first, segment.order);
+    let parameters = &point.variables[layout.parameters_at..];
+    Nodes {
+        half_length: 0.5 * segment.share * phase.duration.at(parameters),
+        half_length_gains: gains,
+        hessians: &point.weighted[node * width * width..][..count * width * width],
+        jacobians: &point.jacobians[node * nq * width..][..count * nq * width],
+        accelerations: &point.accelerations[node * nq..][..count * nq],
+        variables: &point.variables[layout.node_at(phase, segment.first)..][..count * width],
+        cross: &point.cross[node * width..][..count * width],
+    }
+}

@@ -1,0 +1,68 @@
+//! Where the optimiser begins: along a route with quintic timing, level, in hover.
+
+use super::problem::{GRAVITY, Mode, Problem};
+use super::route::Route;
+use crate::pseudospectral::Duration;
+
+/// A motion to begin with.
+#[derive(Clone, Debug)]
+pub struct Guess<'a> {
+    problem: &'a Problem,
+    route: &'a Route,
+    /// Durations of the phases, s.
+    durations_s: Vec<f64>,
+    coordinates: usize,
+}
+
+impl<'a> Guess<'a> {
+    /// Along `route`, for node vectors with so many coordinates.
+    pub fn new(problem: &'a Problem, route: &'a Route, coordinates: usize) -> Self {
+        let mut durations_s: Vec<f64> = Vec::with_capacity(problem.stages.len());
+        for stage in &problem.stages {
+            let so_far: f64 = durations_s.iter().sum();
+            durations_s.push(match stage.duration {
+                Duration::Fixed(seconds) => seconds,
+                Duration::Free { guess_s, .. } => guess_s,
+                Duration::RestOf(total_s) => total_s - so_far,
+            });
+        }
+        Self { problem, route, durations_s, coordinates }
+    }
+
+    /// Durations of the phases, s.
+    pub fn durations_s(&self) -> &[f64] {
+        &self.durations_s
+    }
+
+    /// The node vector at a share of a phase.
+    pub fn write(&self, phase: usize, share: f64, node: &mut [f64]) {
+        let (start, goal) = (&self.problem.start, &self.problem.goal_m);
+        let length_m = self.length_m(phase, share);
+        let is_parked = |k: usize| self.problem.stages[k].mode == Mode::Parked;
+        let parked_s: f64 = (0..self.durations_s.len()).filter(|&k| is_parked(k)).map(|k| self.durations_s[k]).sum();
+        let before_s: f64 = (0..phase).map(|k| self.durations_s[k]).sum();
+        let flown_s = if is_parked(phase) { 0.0 } else { before_s + share * self.durations_s[phase] - parked_s };
+        let total_s = self.durations_s.iter().sum::<f64>() - parked_s;
+        let t = (flown_s / total_s).clamp(0.0, 1.0);
+        let along = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
+        node.fill(0.0);
+        node[..2].copy_from_slice(&self.route.at(along));
+        let lifted_m = if (0..=phase).any(is_parked) { length_m - start.cable[2] } else { 0.0 };
+        node[2] = start.position_m[2] + lifted_m + along * (goal[2] - start.position_m[2] - lifted_m);
+        if self.coordinates > 8 {
+            node[8] = length_m;
+        }
+        node[2 * self.coordinates..].fill(self.problem.hover_n());
+        if let Some(tension_n) = node.get_mut(2 * self.coordinates + 4) {
+            *tension_n = self.problem.body.load_kg * GRAVITY;
+        }
+    }
+
+    /// From the start's length to the full one while the cable is slack for the first time; full from then on.
+    fn length_m(&self, phase: usize, share: f64) -> f64 {
+        let (from, full) = (self.problem.start.cable[2], self.problem.body.cable_m);
+        let is_slack = |k: usize| self.problem.stages[k].mode != Mode::Taut;
+        let first = (0..=phase).all(is_slack);
+        if first { from + share * (full - from) } else { full }
+    }
+}
