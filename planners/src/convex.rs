@@ -46,6 +46,7 @@ mod paper;
 mod program;
 mod progress;
 mod solution;
+mod ties;
 
 pub use self::backend::Backend;
 pub use self::clarabel::solve as solve_with_clarabel;

@@ -5,10 +5,11 @@ use super::batch::Batch;
 use super::certificate::certified_gap;
 use super::iterate::Iterate;
 use super::lanes::{Lanes, Vector, WIDTH};
-use super::newton::{Measures, Newton, tie};
+use super::newton::Newton;
 use super::program::Program;
 use super::progress::{Progress, Watch};
 use super::solution::{Settings, Solution, Status};
+use super::ties::{Measures, tie};
 
 /// Share of the tolerated gap at which the path's parameter stops falling: going on would only wear out the digits.
 const CENTRE_FLOOR: f64 = 0.4;

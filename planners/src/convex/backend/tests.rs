@@ -11,8 +11,9 @@ use crate::convex::batch::Batch;
 use crate::convex::boxed::Boxed;
 use crate::convex::iterate::Iterate;
 use crate::convex::lanes::{Lanes, WIDTH};
-use crate::convex::newton::{Newton, tie};
+use crate::convex::newton::Newton;
 use crate::convex::program::{LINK, STAGE};
+use crate::convex::ties::tie;
 use crate::scp::parallel::plan_and_inspect;
 
 /// Relative gap down to which directions are compared.
