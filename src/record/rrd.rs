@@ -9,6 +9,7 @@
 //! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | `series` |
 //! | `/planner/NAME` | convergence, on the timeline `planner_iter` | `convergence` |
 //! | `/events` | text log | `events` |
+//! | see there | what a quadrotor with a slung load has of its own | `slung_load` |
 //! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
 //!
 //! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
@@ -26,6 +27,7 @@ mod palette;
 mod paths;
 mod quantity;
 mod series;
+mod slung_load;
 mod thinning;
 mod world;
 
@@ -35,6 +37,7 @@ use std::path::Path;
 
 use rerun::components::Text;
 use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStreamBuilder, TimeColumn};
+use scenarios::Family;
 
 use self::distances::Distances;
 use super::{Recorder, Run};
@@ -67,9 +70,14 @@ impl Recorder for Rrd {
         paths::log_planned(&stream, run)?;
         if let Some(flight) = run.flight {
             paths::log_flown(&stream, flight)?;
-            fleet::log(&stream, run.scenario, flight)?;
             closest::log(&stream, run, flight)?;
-            series::log(&stream, run.scenario, flight, distances)?;
+            match run.scenario.family() {
+                Family::FixedWing => {
+                    fleet::log(&stream, run.scenario, flight)?;
+                    series::log(&stream, run.scenario, flight, distances)?;
+                }
+                Family::SlungLoad => slung_load::log(&stream, run, flight)?,
+            }
         }
         stream.flush_blocking()?;
         Ok(())
