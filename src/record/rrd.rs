@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | `world` |
 //! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | `paths` |
+//! | `/world/alternatives` | ways that were tried and not taken | `paths` |
 //! | `/world/fleet/NAME` | the moving aircraft and its safety volume | `fleet` |
 //! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | `closest` |
 //! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | `series` |
@@ -68,6 +69,7 @@ impl Recorder for Rrd {
         world::log(&stream, run.scenario)?;
         convergence::log(&stream, run.plan)?;
         paths::log_planned(&stream, run)?;
+        paths::log_alternatives(&stream, run)?;
         if let Some(flight) = run.flight {
             paths::log_flown(&stream, flight)?;
             closest::log(&stream, run, flight)?;

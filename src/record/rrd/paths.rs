@@ -33,6 +33,21 @@ pub fn log_planned(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     Ok(())
 }
 
+/// Ways that the planner tried and did not take, thinner still, with what it says of them.
+pub fn log_alternatives(stream: &RecordingStream, run: &Run<'_>) -> Logged {
+    for (index, way) in run.plan.account.alternatives.iter().enumerate() {
+        let objective = way.objective.map(|objective| format!(", objective {objective:.2}")).unwrap_or_default();
+        let points = way.path_m.iter().filter(|point| point.iter().all(|x| x.is_finite())).map(|point| to_f32(*point));
+        let line = LineStrips3D::new([points.collect::<Vec<_>>()])
+            .with_colors([palette::opaque(palette::MAP)])
+            .with_radii([pixels(0.8)])
+            .with_labels([format!("{}{objective}: not taken", way.name)])
+            .with_show_labels(true);
+        stream.log_static(entity("world/alternatives", &format!("{index}")), &line)?;
+    }
+    Ok(())
+}
+
 /// Flown paths, bright, over their whole length, and the trail behind each aircraft, thick.
 pub fn log_flown(stream: &RecordingStream, flight: &Flight) -> Logged {
     for (index, log) in flight.vehicles.iter().enumerate() {
