@@ -4,11 +4,13 @@
 //! |---|---|---|
 //! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | `world` |
 //! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | `paths` |
+//! | `/world/alternatives` | ways that were tried and not taken | `paths` |
 //! | `/world/fleet/NAME` | the moving aircraft and its safety volume | `fleet` |
 //! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | `closest` |
 //! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | `series` |
 //! | `/planner/NAME` | convergence, on the timeline `planner_iter` | `convergence` |
 //! | `/events` | text log | `events` |
+//! | see there | what a quadrotor with a slung load has of its own | `slung_load` |
 //! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
 //!
 //! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
@@ -26,6 +28,7 @@ mod palette;
 mod paths;
 mod quantity;
 mod series;
+mod slung_load;
 mod thinning;
 mod world;
 
@@ -35,6 +38,7 @@ use std::path::Path;
 
 use rerun::components::Text;
 use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStreamBuilder, TimeColumn};
+use scenarios::Family;
 
 use self::distances::Distances;
 use super::{Recorder, Run};
@@ -65,11 +69,17 @@ impl Recorder for Rrd {
         world::log(&stream, run.scenario)?;
         convergence::log(&stream, run.plan)?;
         paths::log_planned(&stream, run)?;
+        paths::log_alternatives(&stream, run)?;
         if let Some(flight) = run.flight {
             paths::log_flown(&stream, flight)?;
-            fleet::log(&stream, run.scenario, flight)?;
             closest::log(&stream, run, flight)?;
-            series::log(&stream, run.scenario, flight, distances)?;
+            match run.scenario.family() {
+                Family::FixedWing => {
+                    fleet::log(&stream, run.scenario, flight)?;
+                    series::log(&stream, run.scenario, flight, distances)?;
+                }
+                Family::SlungLoad => slung_load::log(&stream, run, flight)?,
+            }
         }
         stream.flush_blocking()?;
         Ok(())

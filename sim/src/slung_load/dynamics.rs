@@ -4,8 +4,8 @@ use scenarios::slung_load::{Cable, GRAVITY_MPS2, Model};
 use super::body::{Body, Numbers};
 
 /// A load this close above the height at which it rests, m, and this slow, m/s, lies on the ground.
-const RESTING_M: f64 = 1e-6;
-const RESTING_MPS: f64 = 1e-6;
+const RESTING_M: f64 = 1e-4;
+const RESTING_MPS: f64 = 1e-3;
 
 /// What the equations of motion need to know of a quadrotor and its load.
 ///

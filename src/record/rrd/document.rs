@@ -1,7 +1,7 @@
 //! The verdict as a document: outcome, checks, plan, and how to read the picture.
 
 use rerun::{RecordingStream, TextDocument};
-use scenarios::Scenario;
+use scenarios::{Family, Scenario};
 
 use super::paths::TRAIL_S;
 use super::{Logged, Run, fleet};
@@ -93,7 +93,11 @@ fn plan(run: &Run<'_>) -> String {
         format!("- says of itself: **{}**{reason}, after {} iterations", plan.status, plan.history.len()),
         format!("- flight time {}, objective {}", seconds(plan.flight_time_s()), seconds(plan.objective)),
         format!("- planning time {}{distributed}", quantity(plan.timings.wall_s, "s")),
-        format!("- {} vehicles, {} obstacles", run.scenario.vehicles.len(), run.scenario.world.cylinders.len()),
+        format!(
+            "- {} vehicles, {} obstacles",
+            run.scenario.vehicles.len(),
+            run.scenario.world.obstacle_names().count()
+        ),
     ]
     .join("\n")
 }
@@ -104,6 +108,27 @@ fn seconds(value: Option<f64>) -> String {
 
 /// One line each: the viewer does not wrap lists.
 fn legend(scenario: &Scenario) -> String {
+    match scenario.family() {
+        Family::FixedWing => legend_of_fixed_wings(scenario),
+        Family::SlungLoad => legend_of_a_slung_load(),
+    }
+}
+
+fn legend_of_a_slung_load() -> String {
+    [
+        "## How to read the picture",
+        "- everything is to scale; obstacles without bottom or top end at floor and ceiling of the map",
+        "- red: what must not be touched: obstacles, limits, violations",
+        "- thin dim line: planned; bright line: flown; amber: the load",
+        "- cable: straight while taut, its colour the tension, from green (none) to red (three times the load's weight); \
+         grey and loose while slack",
+        "- blue circle: the envelope, body or horizontal reach of the load, whichever is larger",
+        "- line with a label: where a part came closest to an obstacle, green if the limit was kept",
+    ]
+    .join("\n")
+}
+
+fn legend_of_fixed_wings(scenario: &Scenario) -> String {
     let body_m = scenario.vehicles.iter().filter_map(|vehicle| scenario.models.fixed_wing.get(&vehicle.model));
     let body_m = body_m.map(|model| 2.0 * model.body_radius_m).fold(0.0, f64::max);
     let span_m = fleet::drawn_span_m(scenario);

@@ -6,7 +6,7 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 };
 use rerun::external::re_sdk_types::blueprint::components::{BackgroundKind, Corner2D, TextLogColumn, TimelineColumn};
 use rerun::external::re_sdk_types::blueprint::datatypes::{self, TextLogColumnKind};
-use scenarios::{Map, Scenario};
+use scenarios::{Family, Map, Scenario};
 use sim::Flight;
 
 use super::blueprint::{Blueprint, Part, ViewClass};
@@ -14,7 +14,7 @@ use super::distances::Distances;
 use super::quantity::Quantity;
 use super::series::end_s;
 use super::thinning::Curve;
-use super::{Logged, Run, SIM_TIME, convergence, palette, to_f32};
+use super::{Logged, Run, SIM_TIME, convergence, palette, slung_load, to_f32};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;
 
@@ -33,8 +33,13 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
     let mut tabs = vec![verdict(&layout, run, distances)?];
     if let Some(flight) = run.flight {
         use Quantity::{Airspeed, Altitude, Nx, Ny, Nz};
-        tabs.push(quantities(&layout, run.scenario, flight, "Load factors", &[Nx, Ny, Nz])?);
-        tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
+        match run.scenario.family() {
+            Family::FixedWing => {
+                tabs.push(quantities(&layout, run.scenario, flight, "Load factors", &[Nx, Ny, Nz])?);
+                tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
+            }
+            Family::SlungLoad => tabs.push(slung_load::forces(&layout, flight)?),
+        }
     }
     if !run.plan.history.is_empty() {
         let content = ["/convergence".to_owned()];
@@ -85,7 +90,10 @@ fn events(layout: &Blueprint) -> Result<Part, Error> {
 fn verdict(layout: &Blueprint, run: &Run<'_>, distances: &Distances) -> Result<Part, Error> {
     let document = layout.view(ViewClass::TextDocument, "Verdict", "/verdict", &["/verdict".to_owned()])?;
     let mut rows = vec![(document, 2.2)];
-    if let Some(flight) = run.flight {
+    let slung_load = run.flight.filter(|_| run.scenario.family() == Family::SlungLoad);
+    if let Some(flight) = slung_load {
+        rows.extend(slung_load::verdict_rows(layout, flight)?);
+    } else if let Some(flight) = run.flight {
         let end_s = end_s(flight);
         if let (Some(curve), Some(limit_m)) = (&distances.separation, run.scenario.fleet.separation_m) {
             let view = plot(layout, "separation", "Smallest separation of the fleet, horizontal [m]", end_s, true)?;

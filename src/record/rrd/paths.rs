@@ -4,6 +4,7 @@ use rerun::{LineStrips3D, RecordingStream};
 use scenarios::Trajectory;
 use sim::{Flight, Sample};
 
+use super::series::end_s;
 use super::world::pixels;
 use super::{Logged, Run, entity, is_drawable, palette, sim_times, to_f32};
 use crate::verdict::Knot;
@@ -12,6 +13,9 @@ use crate::verdict::Knot;
 const POINTS_PER_INTERVAL: usize = 8;
 /// Time between the points of a flown path and of a trail, s.
 const POINT_INTERVAL_S: f64 = 0.5;
+/// The same for the path of a flight that is shorter than this, s.
+const SHORT_INTERVAL_S: f64 = 0.02;
+const SHORT_S: f64 = 30.0;
 /// Length of a trail, s.
 pub const TRAIL_S: f64 = 20.0;
 /// Time between two updates of a trail, s.
@@ -29,15 +33,34 @@ pub fn log_planned(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     Ok(())
 }
 
+/// Ways that the planner tried and did not take, thinner still, with what it says of them.
+pub fn log_alternatives(stream: &RecordingStream, run: &Run<'_>) -> Logged {
+    for (index, way) in run.plan.account.alternatives.iter().enumerate() {
+        let objective = way.objective.map(|objective| format!(", objective {objective:.2}")).unwrap_or_default();
+        let points = way.path_m.iter().filter(|point| point.iter().all(|x| x.is_finite())).map(|point| to_f32(*point));
+        let line = LineStrips3D::new([points.collect::<Vec<_>>()])
+            .with_colors([palette::opaque(palette::MAP)])
+            .with_radii([pixels(0.8)])
+            .with_labels([format!("{}{objective}: not taken", way.name)])
+            .with_show_labels(true);
+        stream.log_static(entity("world/alternatives", &format!("{index}")), &line)?;
+    }
+    Ok(())
+}
+
 /// Flown paths, bright, over their whole length, and the trail behind each aircraft, thick.
 pub fn log_flown(stream: &RecordingStream, flight: &Flight) -> Logged {
     for (index, log) in flight.vehicles.iter().enumerate() {
         let colour = palette::opaque(palette::vehicle(index, flight.vehicles.len()));
-        let samples = spaced(&log.samples, POINT_INTERVAL_S);
+        let interval_s = if end_s(flight) < SHORT_S { SHORT_INTERVAL_S } else { POINT_INTERVAL_S };
+        let samples = spaced(&log.samples, interval_s);
         let line = LineStrips3D::new([samples.iter().map(|sample| to_f32(sample.position_m)).collect::<Vec<_>>()]);
         let line = line.with_colors([colour]).with_radii([pixels(1.2)]);
         stream.log_static(entity("world/flown", &log.vehicle), &line)?;
 
+        if interval_s < POINT_INTERVAL_S {
+            continue; // all of it is in view: a trail would only hide it
+        }
         let trail = entity("world/trail", &log.vehicle);
         let style = LineStrips3D::update_fields().with_colors([colour]).with_radii([pixels(2.6)]);
         stream.log_static(trail.clone(), &style)?;

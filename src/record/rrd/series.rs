@@ -68,7 +68,7 @@ fn log_fleet(stream: &RecordingStream, group: &str, name: &str, curve: Curve) ->
 }
 
 /// A horizontal line from the beginning to `end_s`, named with its value.
-fn log_limit(stream: &RecordingStream, group: &str, name: &str, value: f64, unit: &str, end_s: f64) -> Logged {
+pub fn log_limit(stream: &RecordingStream, group: &str, name: &str, value: f64, unit: &str, end_s: f64) -> Logged {
     let title = format!("{name} {}", given_quantity(value, unit));
     let line: Curve = [(0.0, value), (end_s, value)].into_iter().collect();
     log_curve(stream, entity(&format!("limits/{group}"), name), &title, palette::opaque(palette::LIMIT), 1.5, line)

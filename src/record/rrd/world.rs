@@ -2,14 +2,16 @@
 
 use rerun::components::FillMode;
 use rerun::{Boxes3D, Cylinders3D, LineStrips3D, Points3D, Radius, RecordingStream, ViewCoordinates};
-use scenarios::{Map, Range, Scenario, World};
+use scenarios::{Map, Prism, Range, Scenario, World};
 
-use super::{Logged, palette, to_f32};
+use super::{Logged, entity, palette, to_f32};
 
 /// Most lines of the ground grid in one direction: beyond that its spacing grows.
 const MOST_GRID_LINES: f64 = 12.0;
 /// Width of a name as a share of the map's.
 const WIDTH_OF_NAME: f64 = 0.06;
+/// Uprights on the faces of a prism, all together.
+const UPRIGHTS: f64 = 60.0;
 /// Radius of the dots at starts and goals, points of the screen.
 const END_RADIUS: f32 = 4.0;
 
@@ -65,7 +67,47 @@ fn log_obstacles(stream: &RecordingStream, world: &World) -> Logged {
     .with_colors([palette::translucent(palette::OBSTACLE, 0.8)])
     .with_line_radii([pixels(0.8)])
     .with_fill_mode(FillMode::TransparentFillMajorWireframe);
-    Ok(stream.log_static("world/obstacles", &solid)?)
+    stream.log_static("world/obstacles", &solid)?;
+    world.flat_obstacles().iter().try_for_each(|prism| log_prism(stream, prism, z))
+}
+
+/// A prism by its edges and by thin uprights on its faces, through which one sees what flies behind it; from the floor to
+/// the ceiling of the map if it has no bottom or top.
+fn log_prism(stream: &RecordingStream, prism: &Prism, map_z_m: Range) -> Logged {
+    let z = prism.z_m.unwrap_or(map_z_m);
+    let path = entity("world/obstacles", &prism.name);
+    let upright = |[x, y]: [f64; 2]| [[x, y, z.min], [x, y, z.max]].map(to_f32);
+    let ring =
+        |z: f64| prism.corners_m.iter().cycle().take(prism.corners_m.len() + 1).map(move |[x, y]| to_f32([*x, *y, z]));
+    let rings = [z.min, z.max].map(|z| ring(z).collect::<Vec<_>>());
+    let uprights = prism.corners_m.iter().map(|corner| upright(*corner).to_vec());
+    let edges = LineStrips3D::new(rings.into_iter().chain(uprights))
+        .with_colors([palette::opaque(palette::OBSTACLE)])
+        .with_radii([pixels(1.4)])
+        .with_labels([prism.name.as_str()])
+        .with_show_labels(false);
+    stream.log_static(path.clone() / "edges", &edges)?;
+    let faces = LineStrips3D::new(face_points(prism).into_iter().map(upright))
+        .with_colors([palette::opaque(palette::dimmed(palette::OBSTACLE))])
+        .with_radii([pixels(0.4)]);
+    Ok(stream.log_static(path / "faces", &faces)?)
+}
+
+/// Points on the edge of a prism's polygon, about equally far apart.
+fn face_points(prism: &Prism) -> Vec<[f64; 2]> {
+    let n = prism.corners_m.len();
+    let edge = |i: usize| (prism.corners_m[i], prism.corners_m[(i + 1) % n]);
+    let length_m = |(a, b): ([f64; 2], [f64; 2])| (b[0] - a[0]).hypot(b[1] - a[1]);
+    let spacing_m = (0..n).map(|i| length_m(edge(i))).sum::<f64>() / UPRIGHTS;
+    let points = (0..n).flat_map(|i| {
+        let (a, b) = edge(i);
+        let steps = (length_m((a, b)) / spacing_m).round().max(1.0);
+        (1..steps as usize).map(move |k| {
+            let share = k as f64 / steps;
+            [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
+        })
+    });
+    points.collect()
 }
 
 /// Dots at the starts (dim) and at the goals (bright). A start shows its name when it is pointed at: at time 0 the
