@@ -1,42 +1,76 @@
 //! Ways around obstacles, wide enough to be flown.
 
+use std::f64::consts::PI;
+
 use scenarios::Cylinder;
 
 use super::route::Route;
 
 /// Most bumps that a route is given.
-const MOST_BUMPS: usize = 40;
+const MOST_BUMPS: usize = 12;
+
+/// Unfinished routes that are followed side by side.
+const BEAM: usize = 3;
 
 /// Distance by which a bump clears the obstacle, as a share of its radius.
 const BEYOND: f64 = 0.02;
 
-/// The route with bumps around the obstacles that it cuts, the deepest cut first, each to the side on which less is cut
-/// afterwards. What is still cut in the end is left to the subproblems.
+/// Length that a metre of cut is worth, where an unfinished route is compared with another.
+const CUT_COSTS: f64 = 2.0;
+
+/// A route, and how deep it still cuts.
+#[derive(Clone, Debug)]
+struct Candidate {
+    route: Route,
+    cut_m: f64,
+}
+
+/// The shortest route that was found with bumps around the obstacles that `route` cuts; what is still cut in the end is
+/// left to the subproblems.
+///
+/// The deepest cut comes first, and both sides of it are tried; of all unfinished routes only the most promising are
+/// followed.
 ///
 /// A bump A (1 + cos(π s/w)) / 2 has the curvature A π²/(2 w²) at its peak: `turn_radius_m` gives w.
 pub fn around(route: Route, obstacles: &[Cylinder], margin_m: f64, turn_radius_m: f64) -> Route {
-    let mut route = route;
-    let mut depth_m = cut_m(&route, obstacles, margin_m);
+    let cut_m = cut_m(&route, obstacles, margin_m);
+    let mut best = Candidate { route, cut_m };
+    let mut beam = vec![best.clone()];
     for _ in 0..MOST_BUMPS {
-        let Some(cut) = deepest(&route, obstacles, margin_m) else { break };
-        let sides = [1.0, -1.0].map(|side| {
-            let offset_m = side * (cut.wanted_m - side * cut.left_m);
-            let reach_m = std::f64::consts::PI * (0.5 * offset_m.abs() * turn_radius_m).sqrt();
-            let moved = route.bowed(offset_m, cut.along_m, reach_m);
-            (cut_m(&moved, obstacles, margin_m), offset_m.abs(), moved)
-        });
-        let [left, right] = sides;
-        let better = if (left.0, left.1) <= (right.0, right.1) { left } else { right };
-        if better.0 >= depth_m {
-            break;
+        let sides = beam.iter().flat_map(|from| both_sides(from, obstacles, margin_m, turn_radius_m));
+        beam = sides.filter(|candidate| cost_m(candidate) < cost_m(&best) || best.cut_m > 0.0).collect();
+        beam.sort_by(|a, b| cost_m(a).total_cmp(&cost_m(b)));
+        beam.truncate(BEAM);
+        for candidate in &beam {
+            if (candidate.cut_m, cost_m(candidate)) < (best.cut_m, cost_m(&best)) {
+                best = candidate.clone();
+            }
         }
-        (depth_m, route) = (better.0, better.2);
+        beam.retain(|candidate| candidate.cut_m > 0.0);
     }
-    route
+    best.route
+}
+
+fn cost_m(candidate: &Candidate) -> f64 {
+    candidate.route.length_m() + CUT_COSTS * candidate.cut_m
+}
+
+/// A candidate with one more bump, to either side of the obstacle that it cuts deepest.
+fn both_sides(from: &Candidate, obstacles: &[Cylinder], margin_m: f64, turn_radius_m: f64) -> Vec<Candidate> {
+    let Some(cut) = deepest(&from.route, obstacles, margin_m) else { return Vec::new() };
+    let bumped = |side: f64| {
+        let offset_m = side * (cut.wanted_m - side * cut.left_m);
+        let reach_m = PI * (0.5 * offset_m.abs() * turn_radius_m).sqrt();
+        let route = from.route.bowed(offset_m, cut.along_m, reach_m);
+        Candidate { cut_m: cut_m(&route, obstacles, margin_m), route }
+    };
+    [1.0, -1.0].map(bumped).into()
 }
 
 /// Where a route cuts an obstacle deepest.
 struct Cut {
+    /// By how much, m.
+    depth_m: f64,
     /// Way to the place, m.
     along_m: f64,
     /// How far the route passes to the left of the axis, m.
@@ -46,27 +80,50 @@ struct Cut {
 }
 
 fn deepest(route: &Route, obstacles: &[Cylinder], margin_m: f64) -> Option<Cut> {
-    let mut deepest: Option<(f64, Cut)> = None;
-    for cylinder in obstacles {
-        let distance_m = |at: [f64; 2]| (at[0] - cylinder.center_m[0]).hypot(at[1] - cylinder.center_m[1]);
-        let nearest = route.points().map(|(at, along_m)| (distance_m(at), at, along_m)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((nearest_m, at, along_m)) = nearest else { continue };
-        let depth_m = cylinder.radius_m + margin_m - nearest_m;
-        if depth_m > 0.0 && deepest.as_ref().is_none_or(|(deepest_m, _)| depth_m > *deepest_m) {
-            let (sin, cos) = route.at(along_m).heading_rad.sin_cos();
-            let [dx, dy] = [0, 1].map(|axis| at[axis] - cylinder.center_m[axis]);
-            let wanted_m = (1.0 + BEYOND) * cylinder.radius_m + margin_m;
-            deepest = Some((depth_m, Cut { along_m, left_m: dy * cos - dx * sin, wanted_m }));
-        }
-    }
-    deepest.map(|(_, cut)| cut)
+    let cuts = obstacles.iter().filter_map(|cylinder| {
+        let (distance_m, [dx, dy], along_m) = route.nearest(cylinder.center_m);
+        let depth_m = cylinder.radius_m + margin_m - distance_m;
+        let (sin, cos) = route.at(along_m).heading_rad.sin_cos();
+        let wanted_m = (1.0 + BEYOND) * cylinder.radius_m + margin_m;
+        (depth_m > 0.0).then_some(Cut { depth_m, along_m, left_m: dy * cos - dx * sin, wanted_m })
+    });
+    cuts.max_by(|a, b| a.depth_m.total_cmp(&b.depth_m))
 }
 
 /// Depths to which a route cuts obstacles, summed over them, m.
 fn cut_m(route: &Route, obstacles: &[Cylinder], margin_m: f64) -> f64 {
-    let depth_m = |cylinder: &Cylinder| {
-        let distances = route.points().map(|(at, _)| cylinder.signed_distance_m(at[0], at[1]));
-        (margin_m - distances.fold(f64::INFINITY, f64::min)).max(0.0)
-    };
-    obstacles.iter().map(depth_m).sum()
+    let depth_m = |cylinder: &Cylinder| cylinder.radius_m + margin_m - route.nearest(cylinder.center_m).0;
+    obstacles.iter().map(|cylinder| depth_m(cylinder).max(0.0)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pillar(x: f64, y: f64, radius_m: f64) -> Cylinder {
+        Cylinder { name: "threat".into(), center_m: [x, y], radius_m }
+    }
+
+    fn straight() -> Route {
+        Route::through((0..=100).map(|k| [60.0 * f64::from(k), 0.0]).collect(), 0.0)
+    }
+
+    #[test]
+    fn goes_round_on_the_shorter_side_and_nowhere_else() {
+        let threat = [pillar(3000.0, 100.0, 400.0)];
+        let route = around(straight(), &threat, 10.0, 600.0);
+        assert!(cut_m(&route, &threat, 10.0) < 1.0, "cut by {} m", cut_m(&route, &threat, 10.0));
+        assert!(route.at(3000.0).position_m[1] < -300.0);
+        assert!(route.length_m() < 6150.0, "{} m", route.length_m());
+        assert_eq!(around(straight(), &[pillar(3000.0, 900.0, 400.0)], 10.0, 600.0).length_m(), 6000.0);
+    }
+
+    #[test]
+    fn a_gap_that_is_wide_enough_is_found() {
+        let wall: Vec<Cylinder> = [-1500.0, -700.0, 100.0, 1500.0].map(|y| pillar(3000.0, y, 380.0)).into();
+        let route = around(straight(), &wall, 10.0, 600.0);
+        assert!(cut_m(&route, &wall, 10.0) < 1.0);
+        let [_, y_m] = route.at(route.length_m() / 2.0).position_m;
+        assert!((480.0..1120.0).contains(&y_m), "{y_m}");
+    }
 }

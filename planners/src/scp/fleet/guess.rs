@@ -1,5 +1,6 @@
 //! Where the sequence starts: everybody on a shortest way that could be flown, at a speed that brings all there together.
 
+use rayon::prelude::*;
 use scenarios::fixed_wing::{GRAVITY_MPS2, Limits};
 use scenarios::{Scenario, Vehicle};
 
@@ -28,7 +29,7 @@ pub struct Start {
 
 /// Shortest ways, lengthened for those that would arrive before the last although they fly slowly.
 pub fn starts(scenario: &Scenario, margin_m: f64) -> Vec<Start> {
-    let planned = scenario.vehicles.iter().map(|vehicle| {
+    let planned = scenario.vehicles.par_iter().map(|vehicle| {
         let limits = limits(scenario, vehicle);
         let turn_radius_m = EASY_TURN * turn_radius_m(limits, vehicle.start.speed_mps);
         let shortest = Route::shortest(vehicle, turn_radius_m);
@@ -39,10 +40,10 @@ pub fn starts(scenario: &Scenario, margin_m: f64) -> Vec<Start> {
     let mut starts: Vec<Start> = planned.collect();
     if scenario.fleet.simultaneous_arrival {
         let last_s = starts.iter().map(|start| start.flight_time_s).fold(0.0, f64::max);
-        for (start, vehicle) in starts.iter_mut().zip(&scenario.vehicles) {
+        starts.par_iter_mut().zip(&scenario.vehicles).for_each(|(start, vehicle)| {
             start.flight_time_s = last_s;
             stretch(start, vehicle, limits(scenario, vehicle), scenario, margin_m);
-        }
+        });
     }
     starts
 }

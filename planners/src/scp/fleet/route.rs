@@ -5,7 +5,7 @@ use scenarios::Vehicle;
 use super::dubins::{Path, Pose};
 
 /// Points of a route.
-const POINTS: usize = 400;
+const POINTS: usize = 200;
 
 /// A polyline, fine enough to be taken for a smooth curve.
 #[derive(Clone, Debug)]
@@ -29,7 +29,8 @@ impl Route {
         Self::through((0..=POINTS).map(point).collect(), start.heading_rad)
     }
 
-    fn through(points_m: Vec<[f64; 2]>, start_heading_rad: f64) -> Self {
+    /// The polyline through `points_m`.
+    pub fn through(points_m: Vec<[f64; 2]>, start_heading_rad: f64) -> Self {
         let mut along_m = vec![0.0];
         for pair in points_m.windows(2) {
             let last_m = along_m[along_m.len() - 1];
@@ -90,9 +91,17 @@ impl Route {
         bowed(low_m)
     }
 
-    /// The points, with the way to each, m.
-    pub fn points(&self) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
-        self.points_m.iter().copied().zip(self.along_m.iter().copied())
+    /// Distance from `point_m` to the nearest point of the route, m; that point relative to it, m; and the way to it, m.
+    pub fn nearest(&self, point_m: [f64; 2]) -> (f64, [f64; 2], f64) {
+        let mut nearest = (f64::INFINITY, [0.0; 2], 0.0);
+        for (at, &along_m) in self.points_m.iter().zip(&self.along_m) {
+            let away = [at[0] - point_m[0], at[1] - point_m[1]];
+            let squared = away[0] * away[0] + away[1] * away[1];
+            if squared < nearest.0 {
+                nearest = (squared, away, along_m);
+            }
+        }
+        (nearest.0.sqrt(), nearest.1, nearest.2)
     }
 
     /// Heading at the start, as the scenario gives it, rad.
