@@ -112,9 +112,9 @@ fn row(mission: &Scenario, vehicles: usize, solver: Solver, name: &'static str, 
 fn mean(rows: &[Row], mission: &str, solver: &'static str) -> Mean {
     let own: Vec<&Row> = rows.iter().filter(|row| row.mission == mission && row.solver == solver).collect();
     let baseline = |own: &Row| {
-        let other = rows.iter().find(|row| {
-            row.mission == own.mission && row.vehicles == own.vehicles && row.solver == SOLVERS[1].1
-        });
+        let other = rows
+            .iter()
+            .find(|row| row.mission == own.mission && row.vehicles == own.vehicles && row.solver == SOLVERS[1].1);
         other.and_then(|other| Some(other.planning_s? / own.planning_s?))
     };
     Mean {

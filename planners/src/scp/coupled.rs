@@ -88,8 +88,7 @@ fn pairs(fleet: &Fleet, last: &[Iterate], trust_region_m: f64) -> Vec<Pair> {
                 if distance_m >= wanted_m + 2.0 * std::f64::consts::SQRT_2 * trust_region_m {
                     continue;
                 }
-                let normal =
-                    if distance_m > 0.0 { away.map(|a| a / distance_m) } else { fleet.tie_break(i, j) };
+                let normal = if distance_m > 0.0 { away.map(|a| a / distance_m) } else { fleet.tie_break(i, j) };
                 pairs.push(Pair { who: [i, j], stage, normal, room: (distance_m - wanted_m) / POSITION_M });
             }
         }

@@ -219,3 +219,54 @@ impl Rows {
         self.cost.len() - 1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convex::{InteriorPoint, Settings};
+    use crate::scp::decoupled::{Avoidance, Fleet};
+
+    /// The first subproblems of two vehicles.
+    fn programs() -> Vec<Program> {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-2.toml");
+        let scenario = scenarios::load(&path).expect("a shipped scenario");
+        let fleet = Fleet::new(&scenario, 0);
+        let lines = fleet.straight_lines();
+        let trust_region = fleet.options.trust_region;
+        let alone = Avoidance { avoids: &|_, _| false, obstacles: true };
+        let program = |i| fleet.program(i, &lines, fleet.planes(i, &lines, alone, trust_region[0]), trust_region, 0.0);
+        (0..2).map(program).collect()
+    }
+
+    fn objectives(vehicles: &[Program], z: &[Vec<f64>]) -> f64 {
+        vehicles.iter().zip(z).map(|(program, z)| program.objective(z)).sum()
+    }
+
+    #[test]
+    fn without_rows_between_them_everybody_does_as_alone() {
+        let vehicles = programs();
+        let alone =
+            vehicles.iter().map(|program| InteriorPoint::new(program, Settings::default()).solve(program).objective);
+        let alone: f64 = alone.sum();
+        let coupled = CoupledProgram { vehicles, pairs: Vec::new(), shared_time: false };
+        let solution = coupled.solve(1e-8);
+        let together = objectives(&coupled.vehicles, &solution.z);
+        assert!(solution.is_solved && (together - alone).abs() < 1e-5 * alone, "{together} against {alone}");
+    }
+
+    #[test]
+    fn rows_between_two_are_kept_and_cost_something() {
+        let vehicles = programs();
+        let free = CoupledProgram { vehicles: vehicles.clone(), pairs: Vec::new(), shared_time: true }.solve(1e-8);
+        let stage = 20;
+        let apart = |z: &[Vec<f64>]| z[0][STAGE * stage + 1] - z[1][STAGE * stage + 1];
+        // 300 m farther apart in y than they would be
+        let pair = Pair { who: [0, 1], stage, normal: [0.0, 1.0], room: -apart(&free.z) - 0.3 };
+        let coupled = CoupledProgram { vehicles, pairs: vec![pair], shared_time: true };
+        let held = coupled.solve(1e-8);
+        assert!(held.is_solved && apart(&held.z) > apart(&free.z) + 0.3 - 1e-6);
+        assert!(objectives(&coupled.vehicles, &held.z) > objectives(&coupled.vehicles, &free.z) - 1e-6);
+        let [first, second] = [0, 1].map(|i| held.z[i][held.z[i].len() - 1]);
+        assert_eq!(first, second);
+    }
+}

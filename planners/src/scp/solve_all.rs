@@ -9,7 +9,9 @@ use crate::convex::{self, InteriorPoint, Program, Settings, Solution};
 pub fn solve_all_by(solver: Solver, programs: &[Program], tolerance: f64) -> Vec<Solution> {
     match solver {
         Solver::Block => solve_all(programs, &Settings { tolerance, ..Settings::default() }),
-        Solver::Clarabel => programs.par_iter().map(|program| convex::solve_with_clarabel(program, tolerance)).collect(),
+        Solver::Clarabel => {
+            programs.par_iter().map(|program| convex::solve_with_clarabel(program, tolerance)).collect()
+        }
     }
 }
 

@@ -50,7 +50,9 @@ pub fn crossing(vehicles: usize) -> Mission {
     }
     Mission {
         name: format!("crossing-{vehicles}"),
-        description: format!("{vehicles} aircraft cross a circle between random points, all arriving at the same time."),
+        description: format!(
+            "{vehicles} aircraft cross a circle between random points, all arriving at the same time."
+        ),
         tags: "[\"fleet\"]",
         sources: "Ours throughout, but for altitude and speed: Wang, Xu, Long, Acta Automatica Sinica (2020). Written by\n\
                   `cargo run -p scenarios --example generate`.",

@@ -14,7 +14,8 @@ pub fn field(vehicles: usize) -> Mission {
     let mut rng = scenarios::stream(20, "generate/field");
     let mut cylinders: Vec<([f64; 2], f64)> = Vec::new();
     while cylinders.len() < OBSTACLES {
-        let center_m = [900.0 + rng.random::<f64>() * (WIDTH_M - 1800.0), rng.random::<f64>() * HEIGHT_M].map(f64::round);
+        let center_m =
+            [900.0 + rng.random::<f64>() * (WIDTH_M - 1800.0), rng.random::<f64>() * HEIGHT_M].map(f64::round);
         let radius_m = (80.0 + 70.0 * rng.random::<f64>()).round();
         let is_free = |(other_m, other_radius_m): &([f64; 2], f64)| {
             distance_m(center_m, *other_m) > radius_m + other_radius_m + NARROWEST_GAP_M

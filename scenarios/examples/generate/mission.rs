@@ -117,7 +117,8 @@ pub fn starts_and_ends_apart(a: &Way, b: &Way, separation_m: f64) -> bool {
     (0..=steps).all(|step| {
         let share = |way: &Way| QUIET_S * SPEED_MPS / way.length_m() * f64::from(step) / f64::from(steps);
         let (of_a, of_b) = (share(a), share(b));
-        let [after_start, before_goal] = [[of_a, of_b], [1.0 - of_a, 1.0 - of_b]].map(|[a_at, b_at]| distance_m(a.at(a_at), b.at(b_at)));
+        let [after_start, before_goal] =
+            [[of_a, of_b], [1.0 - of_a, 1.0 - of_b]].map(|[a_at, b_at]| distance_m(a.at(a_at), b.at(b_at)));
         after_start > 2.0 * separation_m && before_goal > 2.0 * separation_m
     })
 }

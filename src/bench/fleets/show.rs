@@ -4,8 +4,19 @@ use super::{Measured, Results, Row};
 use crate::report::table;
 
 const HEADER: [&str; 13] = [
-    "scenario", "N", "planner", "verdict", "its", "wall s", "distr. s", "flight s", "nodes m", "plan m", "flight m",
-    "defect m", "rollout m",
+    "scenario",
+    "N",
+    "planner",
+    "verdict",
+    "its",
+    "wall s",
+    "distr. s",
+    "flight s",
+    "nodes m",
+    "plan m",
+    "flight m",
+    "defect m",
+    "rollout m",
 ];
 
 const GROWTH: [&str; 7] =
@@ -29,7 +40,11 @@ pub fn text(results: &Results) -> String {
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
     let mut page = String::from("# Ways to decouple a fleet\n\n");
-    page.push_str(&grid(&HEADER, "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|", results.rows.iter().map(cells)));
+    page.push_str(&grid(
+        &HEADER,
+        "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
+        results.rows.iter().map(cells),
+    ));
     if !results.growth.is_empty() {
         page.push_str("\n## Growth at constant density\n\n");
         page.push_str(&grid(&GROWTH, "|---|---:|---|---:|---:|---:|---:|", results.growth.iter().map(growth_cells)));

@@ -107,7 +107,9 @@ fn arrival(scenario: &Scenario, trajectories: &[Iterate]) -> Option<Fault> {
     let first = trajectories.iter().min_by(by_time)?;
     let last = trajectories.iter().max_by(by_time)?;
     let spread_s = last.flight_time_s() - first.flight_time_s();
-    let name = |of: &Iterate| trajectories.iter().position(|one| std::ptr::eq(one, of)).map(|i| scenario.vehicles[i].name.clone());
+    let name = |of: &Iterate| {
+        trajectories.iter().position(|one| std::ptr::eq(one, of)).map(|i| scenario.vehicles[i].name.clone())
+    };
     (spread_s != 0.0).then(|| Fault {
         constraint: "simultaneous arrival",
         between: [first, last].into_iter().filter_map(name).collect(),
@@ -162,7 +164,12 @@ fn rollout(scenario: &Scenario, trajectories: &[Iterate]) -> Option<Fault> {
     (!at_most(violation, ROLLOUT_M)).then(|| Fault { constraint: "rollout", between, at_s, violation, unit: "m" })
 }
 
-fn limits(scenario: &Scenario, trajectories: &[Iterate], bounds: &[[Range; STAGE]], traffic: &Traffic) -> Option<Fault> {
+fn limits(
+    scenario: &Scenario,
+    trajectories: &[Iterate],
+    bounds: &[[Range; STAGE]],
+    traffic: &Traffic,
+) -> Option<Fault> {
     let mut worst: Option<Fault> = None;
     for (who, trajectory) in trajectories.iter().enumerate() {
         let mut consider = |quantity: usize, range: Range, values: Range, k: usize| {
@@ -199,4 +206,89 @@ const UNITS: [&str; STAGE] = ["m", "m", "m", "m/s", "rad", "rad", "-", "-", "-"]
 /// Written so that a number that is none is never small enough.
 fn at_most(value: f64, limit: f64) -> bool {
     value <= limit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::dynamics::Control;
+    use super::*;
+
+    /// The smallest shipped fleet, with everybody on a straight flight east that obeys the equations of motion.
+    fn fleet() -> (Scenario, Vec<Iterate>) {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-2.toml");
+        let mut scenario = scenarios::load(&path).expect("a shipped scenario");
+        scenario.world.cylinders.truncate(1);
+        scenario.world.cylinders[0].center_m = [1000.0, 2000.0];
+        let straight = |y_m: f64| {
+            let at = |k: usize| State::new(35.0 * 5.0 * k as f64, y_m, 400.0, 35.0, 0.0, 0.0);
+            Iterate {
+                states: (0..=10).map(at).collect(),
+                controls: vec![Control::new(0.0, 0.0, 1.0); 11],
+                dt_s: 5.0,
+                ramp: 0.25,
+            }
+        };
+        (scenario, vec![straight(0.0), straight(150.0)])
+    }
+
+    fn judge(scenario: &Scenario, trajectories: &[Iterate]) -> Option<Fault> {
+        let (_, flown_to) = fleet();
+        let boundary: Vec<[State; 2]> = flown_to.iter().map(|to| [to.states[0], to.states[10]]).collect();
+        let bounds = |vehicle| {
+            let limits = &scenario.fixed_wing_model(vehicle).planning_limits;
+            super::super::super::subproblem::node_bounds(limits, &scenario.world.map)
+        };
+        let bounds: Vec<_> = scenario.vehicles.iter().map(bounds).collect();
+        fault(scenario, &Rules::new(scenario, 0.5), trajectories, &bounds, &boundary)
+    }
+
+    #[test]
+    fn a_plan_that_keeps_everything_is_accepted() {
+        let (scenario, trajectories) = fleet();
+        assert_eq!(judge(&scenario, &trajectories), None);
+    }
+
+    #[test]
+    fn every_kind_of_fault_is_found() {
+        type Harm = fn(&mut Scenario, &mut Vec<Iterate>);
+        let cases: [(&str, Harm); 9] = [
+            ("separation", |scenario, _| scenario.fleet.separation_m = Some(151.0)),
+            ("clearance", |scenario, _| scenario.world.cylinders[0].center_m = [875.0, 551.0]),
+            ("simultaneous arrival", |_, trajectories| trajectories[1].dt_s += 1e-3),
+            ("start or goal", |_, trajectories| trajectories[0].states.iter_mut().for_each(|state| state[1] -= 0.1)),
+            ("dynamics", |_, trajectories| trajectories[0].states[4][0] += 0.2),
+            ("dynamics", |_, trajectories| trajectories[0].states[4][2] = f64::NAN),
+            ("rollout", |_, trajectories| trajectories[0].controls.iter_mut().for_each(|control| control[0] = 1e-4)),
+            ("speed", |scenario, _| {
+                let model = scenario.models.fixed_wing.values_mut().next().expect("a model");
+                model.planning_limits.speed_mps.max = 34.9;
+            }),
+            ("n_z", |scenario, _| {
+                let model = scenario.models.fixed_wing.values_mut().next().expect("a model");
+                model.planning_limits.n_z.max = 0.99;
+            }),
+        ];
+        for (constraint, harm) in cases {
+            let (mut scenario, mut trajectories) = fleet();
+            harm(&mut scenario, &mut trajectories);
+            let fault = judge(&scenario, &trajectories).unwrap_or_else(|| panic!("{constraint} was not found"));
+            assert_eq!(fault.constraint, constraint, "{fault}");
+            assert!(!fault.between.is_empty() && fault.violation != 0.0, "{fault:?}");
+        }
+    }
+
+    #[test]
+    fn separation_between_the_nodes_counts() {
+        let (mut scenario, mut trajectories) = fleet();
+        scenario.fleet.separation_m = Some(50.0);
+        // the second flies back the same way: they pass each other between two nodes
+        let states: Vec<State> = trajectories[0].states.iter().rev().copied().collect();
+        trajectories[1].states =
+            states.iter().map(|s| State::new(s[0] - 87.5, 20.0, 400.0, 35.0, std::f64::consts::PI, 0.0)).collect();
+        let at_nodes = (0..=10).map(|k| (trajectories[0].states[k] - trajectories[1].states[k]).norm());
+        assert!(at_nodes.fold(f64::INFINITY, f64::min) > 80.0);
+        let fault = judge(&scenario, &trajectories).expect("they come within 20 m");
+        assert_eq!(fault.constraint, "separation");
+        assert!((fault.violation - 30.0).abs() < 1e-6, "{fault}");
+    }
 }

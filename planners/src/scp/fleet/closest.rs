@@ -87,3 +87,42 @@ fn turning_share(a: &Instant, b: &Instant, [mut low, mut high]: [f64; 2], step_s
 fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH_S: f64 = 4.0;
+
+    /// x = 100 - 60 t, y = 5 + t²: cubic Hermite pieces hold it exactly.
+    fn passing() -> Slab {
+        std::array::from_fn(|m| {
+            let t_s = WIDTH_S * m as f64 / SUBSTEPS as f64;
+            Instant { position_m: [100.0 - 60.0 * t_s, 5.0 + t_s * t_s], velocity_mps: [-60.0, 2.0 * t_s] }
+        })
+    }
+
+    #[test]
+    fn closest_approach_agrees_with_dense_samples() {
+        let found = to_point(&passing(), [0.0, 0.0], WIDTH_S);
+        let distance_m = |t_s: f64| (100.0 - 60.0 * t_s).hypot(5.0 + t_s * t_s);
+        let samples = (0..=400_000).map(|k| distance_m(1e-5 * f64::from(k)));
+        let smallest_m = samples.fold(f64::INFINITY, f64::min);
+        assert!((found.distance_m - smallest_m).abs() < 1e-6, "{} m, {smallest_m} m", found.distance_m);
+        assert!((distance_m(WIDTH_S * found.share) - found.distance_m).abs() < 1e-9);
+        assert!(rate(&found.relative).abs() < 1e-3);
+    }
+
+    #[test]
+    fn nothing_is_nearer_than_vehicles_that_fly_side_by_side() {
+        let shifted = passing().map(|at| Instant { position_m: [at.position_m[0], at.position_m[1] + 30.0], ..at });
+        let found = of_vehicles(&passing(), &shifted, WIDTH_S);
+        assert!((found.distance_m - 30.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn approach_at_an_end_is_found_there() {
+        let found = to_point(&passing(), [500.0, 5.0], WIDTH_S);
+        assert_eq!((found.share, found.distance_m), (0.0, 400.0));
+    }
+}

@@ -47,8 +47,7 @@ impl Path {
         }
         let straight_m = (distance_m * distance_m - leaning * leaning).sqrt();
         let line_rad = if distance_m > 0.0 { dy.atan2(dx) - leaning.atan2(straight_m) } else { start.heading_rad };
-        let turns_rad =
-            [turn(start.heading_rad, line_rad, sides[0]), turn(line_rad, goal.heading_rad, sides[1])];
+        let turns_rad = [turn(start.heading_rad, line_rad, sides[0]), turn(line_rad, goal.heading_rad, sides[1])];
         Some(Self { start, radius_m, turns_rad, straight_m })
     }
 

@@ -50,7 +50,13 @@ pub fn starts(scenario: &Scenario, margin_m: f64) -> Vec<Start> {
 
 /// Trajectory of a start, with the states that hold it at both ends: the goal's heading is that of the scenario, up to
 /// full turns.
-pub fn trajectory(scenario: &Scenario, vehicle: &Vehicle, start: &Start, intervals: usize, ramp: f64) -> (Iterate, [State; 2]) {
+pub fn trajectory(
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    start: &Start,
+    intervals: usize,
+    ramp: f64,
+) -> (Iterate, [State; 2]) {
     let limits = limits(scenario, vehicle);
     let profile = profile(vehicle, limits, &start.route, cruise_mps(start, vehicle, limits));
     let dt_s = start.flight_time_s / intervals as f64;
@@ -64,7 +70,14 @@ pub fn trajectory(scenario: &Scenario, vehicle: &Vehicle, start: &Start, interva
         let before = states.last().map_or(start.route.start_heading_rad(), |state| state[4]);
         let heading = before + wrapped(pose.heading_rad - before);
         let climb = (to[2] - from[2]) / start.route.length_m();
-        states.push(State::new(x, y, from[2] + share * (to[2] - from[2]), profile.speed_mps(t_s), heading, climb.atan()));
+        states.push(State::new(
+            x,
+            y,
+            from[2] + share * (to[2] - from[2]),
+            profile.speed_mps(t_s),
+            heading,
+            climb.atan(),
+        ));
     }
     let mut goal = to;
     goal[4] = states[intervals][4] + wrapped(to[4] - states[intervals][4]);

@@ -7,6 +7,8 @@ use scenarios::Range;
 
 use super::super::dynamics::State;
 use super::super::shooting::Knots;
+#[cfg(test)]
+use super::super::shooting::SUBSTEPS;
 use super::track::Track;
 use crate::convex::STAGE;
 
@@ -52,4 +54,36 @@ pub fn extremes(knots: &Knots, i: usize) -> Range {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A speed that rises by 0.5 m/s in the midst of the interval.
+    fn knots() -> Knots {
+        let last = SUBSTEPS as f64;
+        std::array::from_fn(|m| {
+            let u = m as f64 / last;
+            State::new(0.0, 0.0, 400.0, 38.0 + 2.0 * u * (1.0 - u), 0.0, 0.0)
+        })
+    }
+
+    #[test]
+    fn extremes_lie_between_the_instants() {
+        let speed = extremes(&knots(), 3);
+        assert!((speed.max - 38.5).abs() < 1e-12 && (speed.min - 38.0).abs() < 1e-12, "{speed:?}");
+    }
+
+    #[test]
+    fn bounds_move_in_where_the_state_swung_out() {
+        let bounds = [Range::new(-1000.0, 1000.0); STAGE];
+        let calm = [State::zeros(); SUBSTEPS + 1];
+        let track = Track { intervals: vec![calm, knots(), calm, calm], dt_s: 5.0 };
+        let tightened = tightened(&bounds, &track);
+        let moved = |node: usize| 1000.0 - tightened[node][3].max;
+        assert_eq!([moved(0), moved(3), moved(4)], [0.0; 3]);
+        assert!(moved(1) > 0.5 && moved(1) < 0.7 && moved(1) == moved(2), "{}", moved(1));
+        assert!(tightened.iter().all(|node| node[3].min == -1000.0));
+    }
 }

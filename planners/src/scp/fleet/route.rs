@@ -86,7 +86,8 @@ impl Route {
         let (mut low_m, mut high_m) = (0.0, length_m);
         while high_m - low_m > 1.0 {
             let middle_m = 0.5 * (low_m + high_m);
-            (low_m, high_m) = if bowed(middle_m).length_m() > length_m { (low_m, middle_m) } else { (middle_m, high_m) };
+            (low_m, high_m) =
+                if bowed(middle_m).length_m() > length_m { (low_m, middle_m) } else { (middle_m, high_m) };
         }
         bowed(low_m)
     }

@@ -109,3 +109,82 @@ impl<'a> Rules<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::RngExt;
+
+    use super::super::super::dynamics::{Control, State};
+    use super::super::super::iterate::Iterate;
+    use super::super::track::Instant;
+    use super::*;
+
+    fn approach(position_m: [f64; 2], velocity_mps: [f64; 2]) -> Approach {
+        let distance_m = position_m[0].hypot(position_m[1]);
+        Approach { share: 0.5, relative: Instant { position_m, velocity_mps }, distance_m }
+    }
+
+    #[test]
+    fn far_out_the_way_out_is_straight_away() {
+        let Room { normal, room_m } = room(&approach([9.0, 12.0], [-60.0, 0.0]), 20.0);
+        assert_eq!((normal, room_m), ([0.6, 0.8], -5.0));
+    }
+
+    #[test]
+    fn deep_inside_the_way_out_is_sideways() {
+        let Room { normal, room_m } = room(&approach([3.0, 4.0], [-60.0, 0.0]), 20.0);
+        assert_eq!(normal, [0.0, 1.0]);
+        // at 3 m along the way the circle is sqrt(400 - 9) m wide
+        assert!((room_m - (4.0 - 391_f64.sqrt())).abs() < 1e-12);
+    }
+
+    #[test]
+    fn two_who_meet_head_on_both_turn_right() {
+        let eastbound = room(&approach([0.0, 0.0], [70.0, 0.0]), 20.0);
+        let westbound = room(&approach([0.0, 0.0], [-70.0, 0.0]), 20.0);
+        assert_eq!((eastbound.normal, westbound.normal), ([0.0, -1.0], [0.0, 1.0]));
+        assert_eq!(eastbound.room_m, -20.0);
+    }
+
+    /// Straight flights in all directions through a square.
+    fn traffic() -> Traffic {
+        let mut rng = scenarios::stream(3, "test/rows");
+        let trajectories = (0..25).map(|_| {
+            let [x, y, χ] = [2000.0, 2000.0, 6.0].map(|width| width * (rng.random::<f64>() - 0.5));
+            let at = |k: usize| {
+                let along_m = 35.0 * 4.0 * k as f64;
+                State::new(x + along_m * χ.cos(), y + along_m * χ.sin(), 400.0, 35.0, χ, 0.0)
+            };
+            let controls = vec![Control::new(0.0, 0.0, 1.0); 9];
+            Iterate { states: (0..9).map(at).collect(), controls, dt_s: 4.0, ramp: 0.25 }
+        });
+        Traffic::new(&trajectories.collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn rows_that_are_left_out_cannot_bind() {
+        let cylinders = [[-500.0, 300.0], [600.0, -200.0]].map(|center_m| Cylinder {
+            name: "threat".into(),
+            center_m,
+            radius_m: 250.0,
+        });
+        let rules = Rules { cylinders: &cylinders, clearance_m: 1.5, separation_m: 50.0, margin_m: 0.5 };
+        let traffic = traffic();
+        let everything = Rows::new(&traffic, &rules, 1e5);
+        for half_width_m in [5.0, 40.0, 200.0] {
+            let kept = Rows::new(&traffic, &rules, half_width_m);
+            let (mut left_out, mut binding) = (0, 0);
+            for (all, kept) in everything.planes.iter().zip(&kept.planes) {
+                assert!(kept.iter().all(|plane| all.contains(plane)));
+                for plane in all.iter().filter(|plane| !kept.contains(plane)) {
+                    let coefficients = plane.here.iter().chain(&plane.next).map(|c| c.abs()).sum::<f64>();
+                    let most = coefficients * half_width_m / POSITION_M;
+                    assert!(most <= plane.bound + 1e-12, "a row with {} of room can move by {most}", plane.bound);
+                    left_out += 1;
+                }
+                binding += kept.len();
+            }
+            assert!(left_out > 0 && binding > 0, "{left_out} rows left out, {binding} kept");
+        }
+    }
+}

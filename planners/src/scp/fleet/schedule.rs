@@ -1,19 +1,19 @@
 //! How far an iteration may move, and when the fleet is to arrive.
 //!
 //! Two phases. While it searches, the trust region stays wide, and the common time bound lies below the longest flight
-//! time, so that whoever holds up the fleet can get faster. As soon as the time has settled, the bound is the longest
-//! flight time and the trust region shrinks, until the plan's own flow keeps every limit.
+//! time, so that whoever holds up the fleet can get faster. As soon as the time has settled, the trust region shrinks, the
+//! bound closes up with the longest flight time, and this goes on until the plan's own flow keeps every limit.
 
 use super::super::dynamics::State;
 
 /// The trust region is not narrower than this while searching, m.
-const SEARCH_M: f64 = 50.0;
+const SEARCH_M: f64 = 40.0;
 
 /// Relative change of the objective below which the time has settled.
-const SETTLED: f64 = 1e-3;
+const SETTLED: f64 = 3e-3;
 
 /// Most iterations of a phase.
-const PATIENCE: usize = 12;
+const PATIENCE: usize = 10;
 
 /// Share of that width below which the time bound no longer gives way.
 const HELD: f64 = 0.15;
@@ -24,8 +24,9 @@ const HESITANT: f64 = 0.75;
 /// Violation, in scaled units, from which on rows count as violated.
 const VIOLATED: f64 = 1e-5;
 
-/// States other than the position are never held tighter than this: only long ways spoil a linearisation.
-const LOOSEST: [f64; 6] = [0.0, 0.0, 5.0, 1.0, 0.05, 0.01];
+/// States other than the position are held this tight where the position may move by [`SEARCH_M`], and by the square
+/// root of the trust region below: what a turn of χ spoils grows with its square.
+const OTHERS: [f64; 6] = [0.0, 0.0, 5.0, 1.0, 0.05, 0.01];
 
 /// The bound stays above this share of the first guess's flight time, which hardly anybody can beat.
 const FLOOR: f64 = 0.995;
@@ -73,7 +74,8 @@ impl Schedule {
 
     /// Half-widths of the trust region, in the units of the state.
     pub fn trust_region(&self) -> State {
-        self.half_widths.sup(&State::from(LOOSEST))
+        let share = (self.half_widths[0] / SEARCH_M).sqrt();
+        self.half_widths.sup(&(State::from(OTHERS) * share))
     }
 
     /// Lower bound of everybody's step length, s.
@@ -114,7 +116,8 @@ impl Schedule {
         if self.simultaneous {
             let width = self.half_widths[0] / SEARCH_M;
             let release = if width > HELD { self.release * (width * width).min(1.0) } else { 0.0 };
-            self.bound_s = if release > 0.0 { ((1.0 - release) * longest_dt_s).max(self.floor_s) } else { longest_dt_s };
+            self.bound_s =
+                if release > 0.0 { ((1.0 - release) * longest_dt_s).max(self.floor_s) } else { longest_dt_s };
         }
     }
 }
@@ -139,10 +142,14 @@ mod tests {
         assert!((schedule.bound_s() - 0.97 * 215.0 / 40.0).abs() < 1e-12);
         schedule.observe(215.01, 215.01 / 40.0, 0.0);
         assert!(!schedule.is_searching());
-        assert_eq!(schedule.bound_s(), 215.01 / 40.0);
         assert_eq!(schedule.trust_region()[0], 25.0);
+        assert!(schedule.bound_s() > 0.985 * 215.01 / 40.0 && schedule.bound_s() < 215.01 / 40.0);
         schedule.observe(215.01, 215.01 / 40.0, 0.01);
         assert_eq!(schedule.trust_region()[0], 25.0 * HESITANT);
+        for _ in 0..3 {
+            schedule.observe(215.01, 215.01 / 40.0, 0.0);
+        }
+        assert_eq!(schedule.bound_s(), 215.01 / 40.0);
     }
 
     #[test]

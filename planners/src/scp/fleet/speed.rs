@@ -16,11 +16,8 @@ pub struct Profile {
 impl Profile {
     /// The profile over `length_m` that cruises at `cruise_mps`. The route is long enough for both changes of speed.
     pub fn cruising(length_m: f64, [start_mps, goal_mps]: [f64; 2], cruise_mps: f64, limit_mps2: f64) -> Self {
-        let mut profile = Self {
-            speeds_mps: [start_mps, cruise_mps, goal_mps],
-            acceleration_mps2: EASE * limit_mps2,
-            cruise_s: 0.0,
-        };
+        let mut profile =
+            Self { speeds_mps: [start_mps, cruise_mps, goal_mps], acceleration_mps2: EASE * limit_mps2, cruise_s: 0.0 };
         let changes_m = profile.distance_m(profile.duration_s());
         profile.cruise_s = ((length_m - changes_m) / cruise_mps).max(0.0);
         profile
@@ -57,5 +54,23 @@ impl Profile {
     fn changes_s(&self) -> [f64; 2] {
         let [start_mps, cruise_mps, goal_mps] = self.speeds_mps;
         [start_mps, goal_mps].map(|speed| (cruise_mps - speed).abs() / self.acceleration_mps2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn profile_ends_at_the_goal_with_the_goal_s_speed() {
+        for cruise_mps in [30.0, 35.0, 40.0] {
+            let profile = Profile::cruising(6000.0, [35.0, 33.0], cruise_mps, 2.0);
+            let end_s = profile.duration_s();
+            assert!((profile.distance_m(end_s) - 6000.0).abs() < 1e-9);
+            assert!((profile.speed_mps(0.0) - 35.0).abs() < 1e-12 && (profile.speed_mps(end_s) - 33.0).abs() < 1e-12);
+            assert!((profile.speed_mps(end_s / 2.0) - cruise_mps).abs() < 1e-12);
+            let (before_m, after_m) = (profile.distance_m(99.9), profile.distance_m(100.1));
+            assert!(((after_m - before_m) / 0.2 - profile.speed_mps(100.0)).abs() < 1e-9);
+        }
     }
 }

@@ -42,9 +42,8 @@ impl Track {
         let end_s = self.dt_s * own.len() as f64;
         let count = (end_s / width_s).ceil() as usize;
         let step_s = width_s / SUBSTEPS as f64;
-        let slab = |slab: usize| {
-            std::array::from_fn(|m| at(&own, self.dt_s, slab as f64 * width_s + m as f64 * step_s))
-        };
+        let slab =
+            |slab: usize| std::array::from_fn(|m| at(&own, self.dt_s, slab as f64 * width_s + m as f64 * step_s));
         (0..count).map(slab).collect()
     }
 }
