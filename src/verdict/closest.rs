@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use scenarios::Cylinder;
 
 use crate::verdict::bernstein;
@@ -32,15 +33,26 @@ pub struct Approach {
 }
 
 /// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
+///
+/// Block by block in time, a sweep from west to east: a pair is looked at only if its boxes are nearer to each other in
+/// x than the best so far, so that the cost grows with the number of neighbours, not with that of pairs.
 pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
     let frame = Frame::over(motions);
-    let blocks: Vec<Blocks> = motions.iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let mut search = Search::new();
-    for (i, first) in motions.iter().enumerate() {
-        for (j, second) in motions.iter().enumerate().skip(i + 1) {
-            for (a, b) in blocks[i].iter().zip(blocks[j].iter()) {
-                if search.may_be_within(a.gap_m(b), 0.0) {
-                    search.look_at_pair([first, second], [a.segments.clone(), b.segments.clone()], [i, j]);
+    for index in 0..frame.count() {
+        let block = |i: usize| &of_motion[i][index];
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !block(i).segments.is_empty()).collect();
+        eastward.sort_by(|&i, &j| block(i).west_m().total_cmp(&block(j).west_m()));
+        for (place, &i) in eastward.iter().enumerate() {
+            for &j in &eastward[place + 1..] {
+                if !search.may_be_within(block(j).west_m() - block(i).east_m(), 0.0) {
+                    break;
+                }
+                let who = [i.min(j), i.max(j)];
+                if search.may_be_within(block(i).gap_m(block(j)), 0.0) {
+                    let segments = who.map(|i| block(i).segments.clone());
+                    search.look_at_pair(who.map(|i| &motions[i]), segments, who);
                 }
             }
         }

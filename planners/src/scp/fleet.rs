@@ -33,6 +33,7 @@ use scenarios::{Plan, PlanStatus, Scenario, Transcription};
 
 use super::options::Options;
 use super::plan;
+use crate::convex::{Program, Solution};
 use crate::planner::{Planner, Progress};
 use sequence::Sequence;
 
@@ -49,6 +50,16 @@ const NAME: &str = "fleet-scp";
 
 /// Plans for the whole fleet. `progress` sees every iteration as it ends.
 pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
+    plan_and_inspect(scenario, seed, progress, &|_, _| {})
+}
+
+/// [`plan()`], with `inspect` called for the subproblems of every iteration and their solutions.
+pub fn plan_and_inspect(
+    scenario: &Scenario,
+    seed: u64,
+    progress: Progress<'_>,
+    inspect: &dyn Fn(&[Program], &[Solution]),
+) -> Plan {
     let begin = Instant::now();
     let options = Options::fleet(&scenario.planner);
     let most = options.max_iterations;
@@ -56,7 +67,7 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let mut history = Vec::new();
     let mut complaint = Some("no iteration was allowed".to_string());
     while complaint.is_some() && history.len() < most {
-        let iteration = sequence.advance();
+        let iteration = sequence.advance(inspect);
         complaint = sequence.fault().map(|fault| format!("after {} iterations {fault}", history.len() + 1));
         progress(&iteration);
         history.push(iteration);

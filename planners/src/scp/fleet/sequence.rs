@@ -63,13 +63,14 @@ impl<'a> Sequence<'a> {
         self.trajectories
     }
 
-    /// One iteration.
-    pub fn advance(&mut self) -> Iteration {
+    /// One iteration. `inspect` sees the subproblems and their solutions.
+    pub fn advance(&mut self, inspect: &dyn Fn(&[Program], &[Solution])) -> Iteration {
         let started = Instant::now();
         let traffic = self.traffic();
         let trust_region_m = self.schedule.trust_region()[0];
         let programs = self.programs(&traffic, Rows::new(&traffic, &self.rules, trust_region_m));
         let solutions = solve_all_by(self.options.solver, &programs, self.tolerance());
+        inspect(&programs, &solutions);
         let violations = programs.par_iter().zip(&solutions).map(|(program, at)| program.largest_violation(&at.z));
         let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
         let moved = self.trajectories.par_iter().zip(&solutions).map(|(last, at)| subproblem::updated(last, &at.z));
