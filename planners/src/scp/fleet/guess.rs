@@ -7,7 +7,7 @@ use scenarios::{Scenario, Vehicle};
 use super::super::dynamics::{Control, State};
 use super::super::initial_guess::boundary_states;
 use super::super::iterate::Iterate;
-use super::detour;
+use super::detour::{self, Ground};
 use super::route::Route;
 use super::speed::Profile;
 
@@ -29,11 +29,12 @@ pub struct Start {
 
 /// Shortest ways, lengthened for those that would arrive before the last although they fly slowly.
 pub fn starts(scenario: &Scenario, margin_m: f64) -> Vec<Start> {
+    let ground = Ground { obstacles: &scenario.world.cylinders, map: &scenario.world.map, margin_m };
     let planned = scenario.vehicles.par_iter().map(|vehicle| {
         let limits = limits(scenario, vehicle);
         let turn_radius_m = EASY_TURN * turn_radius_m(limits, vehicle.start.speed_mps);
         let shortest = Route::shortest(vehicle, turn_radius_m);
-        let route = detour::around(shortest, &scenario.world.cylinders, margin_m, turn_radius_m);
+        let route = detour::around(shortest, &ground, turn_radius_m);
         let flight_time_s = profile(vehicle, limits, &route, limits.speed_mps.max).duration_s();
         Start { route, flight_time_s }
     });
@@ -42,7 +43,7 @@ pub fn starts(scenario: &Scenario, margin_m: f64) -> Vec<Start> {
         let last_s = starts.iter().map(|start| start.flight_time_s).fold(0.0, f64::max);
         starts.par_iter_mut().zip(&scenario.vehicles).for_each(|(start, vehicle)| {
             start.flight_time_s = last_s;
-            stretch(start, vehicle, limits(scenario, vehicle), scenario, margin_m);
+            stretch(start, vehicle, limits(scenario, vehicle), &ground);
         });
     }
     starts
@@ -100,7 +101,7 @@ fn control(states: &[State], k: usize, dt_s: f64, limits: &Limits) -> Control {
 }
 
 /// Makes the route long enough for the flight time at a speed that can be flown.
-fn stretch(start: &mut Start, vehicle: &Vehicle, limits: &Limits, scenario: &Scenario, margin_m: f64) {
+fn stretch(start: &mut Start, vehicle: &Vehicle, limits: &Limits, ground: &Ground) {
     let slow_mps = limits.speed_mps.min + WAITING * limits.speed_mps.width();
     let slow = profile(vehicle, limits, &start.route, slow_mps);
     let missing_s = start.flight_time_s - slow.duration_s();
@@ -111,23 +112,12 @@ fn stretch(start: &mut Start, vehicle: &Vehicle, limits: &Limits, scenario: &Sce
         let shapes: [&[f64]; 4] = [&[1.0], &[-1.0], &[1.0, -1.0], &[-1.0, 1.0]];
         let routes = shapes.into_iter().map(|sides| {
             let longer = start.route.lengthened(length_m, sides);
-            detour::around(longer, &scenario.world.cylinders, margin_m, turn_radius_m)
+            detour::around(longer, ground, turn_radius_m)
         });
-        let rank = |route: &Route| (route.length_m() > longest_m, blocked(route, scenario), route.length_m());
+        let rank = |route: &Route| (route.length_m() > longest_m, ground.cut_m(route), route.length_m());
         let best = routes.min_by(|a, b| rank(a).partial_cmp(&rank(b)).expect("lengths are numbers"));
         start.route = best.expect("there are four shapes");
     }
-}
-
-/// Length of a route inside obstacles and off the map, in points.
-fn blocked(route: &Route, scenario: &Scenario) -> usize {
-    let map = &scenario.world.map;
-    let is_blocked = |index: &usize| {
-        let [x, y] = route.at(route.length_m() * *index as f64 / 100.0).position_m;
-        let inside = scenario.world.cylinders.iter().any(|cylinder| cylinder.signed_distance_m(x, y) < 0.0);
-        inside || x < map.x_m.min || x > map.x_m.max || y < map.y_m.min || y > map.y_m.max
-    };
-    (0..=100).filter(is_blocked).count()
 }
 
 /// Cruising speed at which the route takes the flight time, inside the limits.

@@ -105,6 +105,20 @@ impl Route {
         (nearest.0.sqrt(), nearest.1, nearest.2)
     }
 
+    /// Largest change of heading from one piece to the next, rad, in [0, π].
+    pub fn sharpest_turn_rad(&self) -> f64 {
+        let turn_rad = |three: &[[f64; 2]]| {
+            let [a, b] = [0, 1].map(|i| [three[i + 1][0] - three[i][0], three[i + 1][1] - three[i][1]]);
+            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
+        };
+        self.points_m.windows(3).map(turn_rad).fold(0.0, f64::max)
+    }
+
+    /// The points, m.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.points_m.iter().copied()
+    }
+
     /// Heading at the start, as the scenario gives it, rad.
     pub fn start_heading_rad(&self) -> f64 {
         self.start_heading_rad
