@@ -55,7 +55,7 @@ fn they_agree_on_those_of_the_fleet_planner_too() {
         fleet::plan_and_inspect(&scenario, 0, &mut |_| {}, &|programs, _| {
             for program in programs.iter().step_by(stride) {
                 // the planner itself does not ask for every digit while it searches
-                let block = InteriorPoint::new(program, Settings::default()).solve(program);
+                let block = InteriorPoint::new(Settings::default()).solve(program);
                 agreement.compare(program, &block);
                 seen.fetch_add(1, Ordering::Relaxed);
             }

@@ -245,8 +245,7 @@ mod tests {
     #[test]
     fn without_rows_between_them_everybody_does_as_alone() {
         let vehicles = programs();
-        let alone =
-            vehicles.iter().map(|program| InteriorPoint::new(program, Settings::default()).solve(program).objective);
+        let alone = vehicles.iter().map(|program| InteriorPoint::new(Settings::default()).solve(program).objective);
         let alone: f64 = alone.sum();
         let coupled = CoupledProgram { vehicles, pairs: Vec::new(), shared_time: false };
         let solution = coupled.solve(1e-8);
