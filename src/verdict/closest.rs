@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use scenarios::Cylinder;
 
 use crate::verdict::bernstein;
-use crate::verdict::blocks::{Blocks, Frame};
+use crate::verdict::blocks::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -41,17 +41,17 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let mut search = Search::new();
     for index in 0..frame.count() {
-        let block = |i: usize| &of_motion[i][index];
-        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !block(i).segments.is_empty()).collect();
-        eastward.sort_by(|&i, &j| block(i).west_m().total_cmp(&block(j).west_m()));
+        let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
+        eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
         for (place, &i) in eastward.iter().enumerate() {
             for &j in &eastward[place + 1..] {
-                if !search.may_be_within(block(j).west_m() - block(i).east_m(), 0.0) {
+                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), 0.0) {
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                if search.may_be_within(block(i).gap_m(block(j)), 0.0) {
-                    let segments = who.map(|i| block(i).segments.clone());
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), 0.0) {
+                    let segments = who.map(|i| blocks[i].segments.clone());
                     search.look_at_pair(who.map(|i| &motions[i]), segments, who);
                 }
             }

@@ -126,7 +126,7 @@ fn ends(scenario: &Scenario, trajectories: &[Iterate], boundary: &[[State; 2]]) 
     });
     let (who, at_s, violation) = missed.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let between = vec![scenario.vehicles[who].name.clone()];
-    (!at_most(violation, END_M)).then(|| Fault { constraint: "start or goal", between, at_s, violation, unit: "m" })
+    (!at_most(violation, END_M)).then_some(Fault { constraint: "start or goal", between, at_s, violation, unit: "m" })
 }
 
 fn dynamics(scenario: &Scenario, trajectories: &[Iterate], traffic: &Traffic) -> Option<Fault> {
@@ -161,7 +161,7 @@ fn rollout(scenario: &Scenario, trajectories: &[Iterate]) -> Option<Fault> {
     let errors_m: Vec<f64> = trajectories.par_iter().map(end_error_m).collect();
     let (who, violation) = errors_m.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let (between, at_s) = (vec![scenario.vehicles[who].name.clone()], trajectories[who].flight_time_s());
-    (!at_most(violation, ROLLOUT_M)).then(|| Fault { constraint: "rollout", between, at_s, violation, unit: "m" })
+    (!at_most(violation, ROLLOUT_M)).then_some(Fault { constraint: "rollout", between, at_s, violation, unit: "m" })
 }
 
 fn limits(
