@@ -1,5 +1,8 @@
 //! What `harness bench` measures: the papers' tables, side by side with the baselines.
 
+pub mod cooperative;
+mod entry;
+pub mod fleets;
 pub mod ipm;
 pub mod slung;
 pub mod subproblems;

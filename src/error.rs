@@ -83,6 +83,15 @@ pub enum Error {
         /// What stood in the way.
         reason: String,
     },
+    /// A benchmark could not be run.
+    #[error("cannot {what}: {reason}")]
+    #[diagnostic(help("`harness bench` starts this program once more for every entry, in a temporary folder"))]
+    Bench {
+        /// What was tried.
+        what: String,
+        /// What stood in the way.
+        reason: String,
+    },
     /// A result could not be written.
     #[error("cannot write {}: {reason}", path.display())]
     #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]

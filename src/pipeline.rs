@@ -31,8 +31,12 @@ pub fn run(
     let plan = timed(&mut timings.planning_s, || plan(job, progress));
     let flight = timed(&mut timings.flying_s, || fly(job, &plan, progress));
     progress.judging();
-    let verdict = timed(&mut timings.judging_s, || verdict::judge(&job.scenario, &plan, flight.as_ref()));
-    let metrics = metrics::measure(&job.scenario, &plan, flight.as_ref());
+    let (verdict, metrics) = timed(&mut timings.judging_s, || {
+        rayon::join(
+            || verdict::judge(&job.scenario, &plan, flight.as_ref()),
+            || metrics::measure(&job.scenario, &plan, flight.as_ref()),
+        )
+    });
     output::create_folder(folder)?;
     let run = Run { scenario: &job.scenario, plan: &plan, flight: flight.as_ref(), verdict: &verdict };
     timed(&mut timings.recording_s, || record(&run, recorders, folder, progress))?;

@@ -3,7 +3,14 @@ use crate::{scp, slung};
 
 /// Every planner.
 pub fn registry() -> &'static [Planner] {
-    &[scp::parallel::PLANNER, slung::PLANNER]
+    &[
+        scp::fleet::PLANNER,
+        scp::coupled::PLANNER,
+        scp::serial::PLANNER,
+        scp::parallel::PLANNER,
+        scp::dynamic_priority::PLANNER,
+        slung::PLANNER,
+    ]
 }
 
 /// The planner of that name.

@@ -2,15 +2,23 @@
 //! its last trajectory, the others' trajectories frozen, and solved as an elastic linear programme.
 
 mod avoidance;
+pub mod coupled;
+mod coupled_program;
+mod decoupled;
+pub mod dynamic_priority;
 mod dynamics;
+pub mod fleet;
 mod initial_guess;
 mod interval;
 mod iterate;
 mod options;
 pub mod parallel;
 mod plan;
+mod priority;
 mod scaling;
+pub mod serial;
 mod shooting;
+mod solve_all;
 mod subproblem;
 mod time_bound;
 mod transcription;

@@ -64,6 +64,16 @@ impl Scenario {
     }
 }
 
+/// The form of a scenario file.
+impl Scenario {
+    /// The scenario as TOML: loaded again, it is the same.
+    ///
+    /// Panics on a scenario that has no such form; there is none that can be loaded.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a scenario is made of tables, lists, numbers and text")
+    }
+}
+
 /// JSON Schema (draft 2020-12) of a scenario file, generated from these very types.
 impl Scenario {
     /// The schema as a JSON value, the same on every call.

@@ -4,7 +4,13 @@ use std::sync::{Mutex, PoisonError};
 
 use planners::convex::Program;
 use planners::scp::parallel::plan_and_inspect;
-use scenarios::Scenario;
+use scenarios::{PlannerSettings, Scenario, Transcription};
+
+/// Distance kept beyond obstacles and separation, m: it brings more rows.
+const MARGIN_M: f64 = 80.0;
+
+/// Share by which the common time bound is released, so that the run comes to a good end.
+const TIME_BOUND_RELEASE: f64 = 0.08;
 
 /// One subproblem of a run.
 #[derive(Clone, Debug)]
@@ -42,7 +48,13 @@ pub fn of_a_run(scenario: &Scenario, intervals: usize) -> Vec<Subproblem> {
 /// The subproblems of every iteration, the one with the fewest avoidance rows first, whatever thread was faster.
 fn iterations(scenario: &Scenario, intervals: usize) -> Vec<Vec<Program>> {
     let mut scenario = scenario.clone();
-    scenario.planner.intervals = Some(intervals);
+    scenario.planner = PlannerSettings {
+        intervals: Some(intervals),
+        transcription: Some(Transcription::Shooting),
+        margin_m: Some(MARGIN_M),
+        time_bound_release: Some(TIME_BOUND_RELEASE),
+        ..PlannerSettings::default()
+    };
     let all = Mutex::new(Vec::new());
     plan_and_inspect(&scenario, scenario.simulation.seed, &mut |_| {}, &|program, solution| {
         all.lock().unwrap_or_else(PoisonError::into_inner).push((solution.objective, program.clone()));

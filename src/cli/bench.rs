@@ -1,11 +1,11 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use planners::Planner;
 use scenarios::Scenario;
 use serde::Serialize;
 
-use crate::bench::{ipm, slung};
+use crate::bench::{cooperative, fleets, ipm, slung};
 use crate::error::{Error, Exit};
 use crate::output;
 
@@ -14,6 +14,9 @@ use crate::output;
 /// `ipm`: the interior-point method by our block sweep, by the paper's three ways to the Newton direction, and a general
 /// solver (Clarabel), on subproblems of a run of the planner parallel-scp.
 ///
+/// `cooperative`: fleets of one to seven on two missions, with both solvers. `fleets`: the papers' ways to decouple a fleet
+/// and ours, over fleets of several sizes, and how the cost of ours grows.
+///
 /// `slung`: the nonlinear programmes of the planner slung-lgr, by mesh and formulation.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -21,15 +24,19 @@ pub struct Bench {
     /// What to measure
     #[arg(value_enum)]
     name: Name,
-    /// Scenario that poses the problem; by default the one of the paper
-    #[arg(value_name = "SCENARIO")]
-    scenario: Option<PathBuf>,
+    /// Scenario that poses the problem, for `cooperative` and `fleets` the folder with their scenarios; by default those of
+    /// the papers
+    #[arg(value_name = "PATH")]
+    path: Option<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     /// Smallest size only, two repetitions: to see that everything runs, not to compare
     #[arg(long)]
     quick: bool,
+    /// Time limit of an entry of `cooperative` and `fleets`, s
+    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    limit_s: f64,
     /// Print nothing but errors; the files tell the rest
     #[arg(short, long)]
     quiet: bool,
@@ -39,11 +46,15 @@ const EXAMPLES: &str = "\
 Examples:
   harness bench ipm            takes about a minute; close everything else before
   harness bench ipm --quick
+  harness bench cooperative    takes about a minute
+  harness bench fleets         takes several minutes: some entries end by their time limit
   harness bench slung          takes about ten seconds
 
 Results:
   out/bench/ipm.json           one row per subproblem and backend
   out/bench/ipm.md             the same as a page
+  out/bench/cooperative.json, .md  one row per mission, fleet and solver
+  out/bench/fleets.json, .md   one row per mission, fleet and planner
   out/bench/slung.json, .md    one row per mesh and formulation";
 
 /// What can be measured.
@@ -51,46 +62,77 @@ Results:
 enum Name {
     /// The interior-point method and its backends
     Ipm,
+    /// Fleets of one to seven, two missions, two solvers
+    Cooperative,
+    /// The ways to decouple a fleet
+    Fleets,
     /// Collocation of the slung load
     Slung,
-}
-
-impl Name {
-    fn paper_scenario(self) -> &'static str {
-        match self {
-            Self::Ipm => "scenarios/fixed-wing/rendezvous-7.toml",
-            Self::Slung => "scenarios/slung/rectangle.toml",
-        }
-    }
-
-    fn planner(self) -> &'static Planner {
-        match self {
-            Self::Ipm => &planners::scp::parallel::PLANNER,
-            Self::Slung => &planners::slung::PLANNER,
-        }
-    }
 }
 
 impl Bench {
     /// Measures, prints and writes the table.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let scenario = self.load()?;
-        let mut progress = |stage: &str| {
-            if !self.quiet {
-                output::tell(&format!("{}: {stage}", scenario.name));
-            }
-        };
         match self.name {
-            Name::Ipm => {
-                let plan = if self.quick { ipm::Plan::quick() } else { ipm::Plan::full() };
-                let results = ipm::run(&scenario, &plan, &mut progress);
-                self.publish("ipm", &results, &ipm::markdown(&results), &ipm::text(&results))
-            }
-            Name::Slung => {
-                let plan = if self.quick { slung::Plan::quick() } else { slung::Plan::full() };
-                let results = slung::run(&scenario, &plan, &mut progress);
-                self.publish("slung", &results, &slung::markdown(&results), &slung::text(&results))
-            }
+            Name::Ipm => self.ipm(),
+            Name::Cooperative => self.cooperative(),
+            Name::Fleets => self.fleets(),
+            Name::Slung => self.slung(),
+        }
+    }
+
+    fn ipm(&self) -> Result<Exit, Error> {
+        let scenario = self.scenario("scenarios/fixed-wing/rendezvous-7.toml", &planners::scp::parallel::PLANNER)?;
+        let plan = if self.quick { ipm::Plan::quick() } else { ipm::Plan::full() };
+        let results = ipm::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
+        self.publish("ipm", &results, &ipm::markdown(&results), &ipm::text(&results))
+    }
+
+    fn slung(&self) -> Result<Exit, Error> {
+        let scenario = self.scenario("scenarios/slung/rectangle.toml", &planners::slung::PLANNER)?;
+        let plan = if self.quick { slung::Plan::quick() } else { slung::Plan::full() };
+        let results = slung::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
+        self.publish("slung", &results, &slung::markdown(&results), &slung::text(&results))
+    }
+
+    fn cooperative(&self) -> Result<Exit, Error> {
+        let missions = ["rendezvous-7", "reconfiguration-7"].map(|name| self.fleet(name));
+        let plan = cooperative::Plan {
+            missions: missions.into_iter().collect::<Result<_, _>>()?,
+            sizes: if self.quick { vec![1, 2] } else { (1..=7).collect() },
+            limit_s: self.limit_s,
+        };
+        let results = cooperative::run(&plan, &mut |entry| self.tell(entry))?;
+        self.publish("cooperative", &results, &cooperative::markdown(&results), &cooperative::text(&results))
+    }
+
+    fn fleets(&self) -> Result<Exit, Error> {
+        let (rendezvous, limit_s) = (self.fleet("rendezvous-15")?, self.limit_s);
+        let plan = if self.quick {
+            fleets::Plan { missions: vec![(rendezvous, vec![2])], growth: None, limit_s }
+        } else {
+            let missions = vec![(rendezvous, vec![5, 7, 10, 15]), (self.fleet("exchange-100")?, vec![100])];
+            let growth = Some((self.fleet("traffic-1000")?, vec![10, 30, 100, 300, 1000]));
+            fleets::Plan { missions, growth, limit_s }
+        };
+        let results = fleets::run(&plan, &mut |entry| self.tell(entry))?;
+        self.publish("fleets", &results, &fleets::markdown(&results), &fleets::text(&results))
+    }
+
+    /// A scenario for a whole table about one planner.
+    fn scenario(&self, of_the_paper: &str, planner: &Planner) -> Result<Scenario, Error> {
+        load(self.path.as_deref().unwrap_or(Path::new(of_the_paper)), planner)
+    }
+
+    /// One of several fleets, from the folder with all of them.
+    fn fleet(&self, name: &str) -> Result<Scenario, Error> {
+        let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/fixed-wing"));
+        load(&folder.join(format!("{name}.toml")), &planners::scp::parallel::PLANNER)
+    }
+
+    fn tell(&self, stage: &str) {
+        if !self.quiet {
+            output::tell(stage);
         }
     }
 
@@ -101,14 +143,12 @@ impl Bench {
         output::write_file(&folder.join(format!("{name}.md")), |writer| write!(writer, "{page}"))?;
         if self.quiet { Ok(()) } else { output::print(text) }.map(|()| Exit::Passed)
     }
+}
 
-    fn load(&self) -> Result<Scenario, Error> {
-        let path = self.scenario.clone().unwrap_or_else(|| self.name.paper_scenario().into());
-        let scenario = scenarios::load(&path)?;
-        let planner = self.name.planner();
-        match (planner.refuses)(&scenario) {
-            None => Ok(scenario),
-            Some(reason) => Err(Error::Unfit { file: path.display().to_string(), planner: planner.name, reason }),
-        }
+fn load(file: &Path, planner: &Planner) -> Result<Scenario, Error> {
+    let scenario = scenarios::load(file)?;
+    match (planner.refuses)(&scenario) {
+        None => Ok(scenario),
+        Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
     }
 }

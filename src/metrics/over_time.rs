@@ -1,3 +1,4 @@
+use rayon::prelude::*;
 use scenarios::Cylinder;
 
 use crate::verdict::Motion;
@@ -18,9 +19,14 @@ pub struct Nearest {
 /// For a plot: the smallest of all, over continuous time, is in the verdict.
 pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<Nearest> {
     at_instants(motions, step_s, |present, nearest| {
+        // a sweep from west to east: nobody farther east than the best so far can be nearer
+        present.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
         for (place, (i, first)) in present.iter().enumerate() {
             for (j, second) in &present[place + 1..] {
-                nearest.consider((first[0] - second[0]).hypot(first[1] - second[1]), [*i, *j]);
+                if second[0] - first[0] > nearest.distance_m {
+                    break;
+                }
+                nearest.consider((first[0] - second[0]).hypot(first[1] - second[1]), [*i.min(j), *i.max(j)]);
             }
         }
     })
@@ -30,7 +36,7 @@ pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<Nearest> {
 /// 0 s on. With a single motion it is that vehicle's own clearance.
 pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f64) -> Vec<Nearest> {
     at_instants(motions, step_s, |present, nearest| {
-        for (i, position_m) in present {
+        for (i, position_m) in present.iter() {
             for (m, cylinder) in cylinders.iter().enumerate() {
                 nearest.consider(cylinder.signed_distance_m(position_m[0], position_m[1]), [*i, m]);
             }
@@ -40,28 +46,26 @@ pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f
 
 impl Nearest {
     fn consider(&mut self, distance_m: f64, who: [usize; 2]) {
-        if distance_m < self.distance_m {
+        if distance_m < self.distance_m || (distance_m == self.distance_m && who < self.who) {
             (self.distance_m, self.who) = (distance_m, who);
         }
     }
 }
 
-/// Calls `look` with the motions that last at each instant, and their positions, m. Panics if `step_s` is not positive.
-fn at_instants(motions: &[Motion], step_s: f64, look: impl Fn(&[(usize, [f64; 3])], &mut Nearest)) -> Vec<Nearest> {
+/// Motions that last at an instant, by index, and their positions, m.
+type Present = Vec<(usize, [f64; 3])>;
+
+/// Calls `look` with the motions that last at each instant. Panics if `step_s` is not positive.
+fn at_instants(motions: &[Motion], step_s: f64, look: impl Fn(&mut Present, &mut Nearest) + Sync) -> Vec<Nearest> {
     assert!(step_s > 0.0, "a step of {step_s} s leads nowhere");
     let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
-    let mut series = Vec::new();
-    let mut present = Vec::with_capacity(motions.len());
-    for step in 0..=(end_s / step_s) as usize {
+    let nearest_at = |step: usize| {
         let t_s = step as f64 * step_s;
-        present.clear();
         let positions = motions.iter().map(|motion| motion.position_m(t_s)).enumerate();
-        present.extend(positions.filter_map(|(index, position_m)| Some((index, position_m?))));
+        let mut present = positions.filter_map(|(index, position_m)| Some((index, position_m?))).collect();
         let mut nearest = Nearest { t_s, distance_m: f64::INFINITY, who: [0, 0] };
-        look(&present, &mut nearest);
-        if nearest.distance_m.is_finite() {
-            series.push(nearest);
-        }
-    }
-    series
+        look(&mut present, &mut nearest);
+        Some(nearest).filter(|nearest| nearest.distance_m.is_finite())
+    };
+    (0..=(end_s / step_s) as usize).into_par_iter().filter_map(nearest_at).collect()
 }

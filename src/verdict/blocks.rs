@@ -1,6 +1,6 @@
 //! Boxes around stretches of a motion, so that two vehicles that are far apart need no closer look.
 
-use std::ops::Range;
+use std::ops::{Index, Range};
 
 use crate::verdict::motion::Motion;
 
@@ -20,6 +20,11 @@ impl Frame {
         let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
         let count = (most / SEGMENTS_PER_BLOCK).max(1);
         Self { block_s: end_s / count as f64, count }
+    }
+
+    /// Number of blocks.
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     /// The block that holds the time `t_s`.
@@ -59,6 +64,14 @@ impl Blocks {
     }
 }
 
+impl Index<usize> for Blocks {
+    type Output = Block;
+
+    fn index(&self, block: usize) -> &Block {
+        &self.0[block]
+    }
+}
+
 impl Block {
     const EMPTY: Self = Self { segments: 0..0, low_m: [f64::INFINITY; 2], high_m: [f64::NEG_INFINITY; 2] };
 
@@ -73,6 +86,16 @@ impl Block {
                 self.high_m[axis] = self.high_m[axis].max(*value);
             }
         }
+    }
+
+    /// Smallest x of the box, m.
+    pub fn west_m(&self) -> f64 {
+        self.low_m[0]
+    }
+
+    /// Largest x of the box, m.
+    pub fn east_m(&self) -> f64 {
+        self.high_m[0]
     }
 
     /// Smallest horizontal distance between anything in the two boxes, m; infinite if one is empty.

@@ -6,10 +6,11 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use scenarios::Cylinder;
 
 use crate::verdict::bernstein;
-use crate::verdict::blocks::{Blocks, Frame};
+use crate::verdict::blocks::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -32,15 +33,26 @@ pub struct Approach {
 }
 
 /// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
+///
+/// Block by block in time, a sweep from west to east: a pair is looked at only if its boxes are nearer to each other in
+/// x than the best so far, so that the cost grows with the number of neighbours, not with that of pairs.
 pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
     let frame = Frame::over(motions);
-    let blocks: Vec<Blocks> = motions.iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let mut search = Search::new();
-    for (i, first) in motions.iter().enumerate() {
-        for (j, second) in motions.iter().enumerate().skip(i + 1) {
-            for (a, b) in blocks[i].iter().zip(blocks[j].iter()) {
-                if search.may_be_within(a.gap_m(b), 0.0) {
-                    search.look_at_pair([first, second], [a.segments.clone(), b.segments.clone()], [i, j]);
+    for index in 0..frame.count() {
+        let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
+        eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
+        for (place, &i) in eastward.iter().enumerate() {
+            for &j in &eastward[place + 1..] {
+                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), 0.0) {
+                    break;
+                }
+                let who = [i.min(j), i.max(j)];
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), 0.0) {
+                    let segments = who.map(|i| blocks[i].segments.clone());
+                    search.look_at_pair(who.map(|i| &motions[i]), segments, who);
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! The flight as the judge looks at it: which part of it counts, and when each vehicle arrived.
 
+use rayon::prelude::*;
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 use sim::{Flight, Sample, VehicleLog};
 
@@ -45,9 +46,11 @@ impl<'a> Flown<'a> {
         if logs != vehicles {
             return Err(format!("the flight has the logs of {logs} vehicles, the scenario has {vehicles} vehicles"));
         }
+        let matched = scenario.vehicles.par_iter().zip(&plan.trajectories).zip(&flight.vehicles);
+        let parts = matched.map(|((vehicle, trajectory), log)| part_that_counts(vehicle, trajectory, log));
         let mut flown = Self { motions: Vec::new(), vehicles: Vec::new() };
-        for ((vehicle, trajectory), log) in scenario.vehicles.iter().zip(&plan.trajectories).zip(&flight.vehicles) {
-            let (motion, vehicle) = part_that_counts(vehicle, trajectory, log)?;
+        for part in parts.collect::<Vec<_>>() {
+            let (motion, vehicle) = part?;
             flown.motions.push(motion);
             flown.vehicles.push(vehicle);
         }

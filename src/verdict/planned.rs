@@ -1,5 +1,6 @@
 //! The plan as a continuous motion: its controls through the nonlinear equations, restarted at every node.
 
+use rayon::prelude::*;
 use scenarios::fixed_wing::Trajectory;
 use scenarios::{Plan, Scenario};
 use sim::fixed_wing::{self, flow, rollout};
@@ -31,16 +32,24 @@ impl Planned {
         if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, longest_s)) {
             return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
         }
+        let vehicles: Vec<_> = plan.trajectories.par_iter().map(|trajectory| flown(trajectory.fixed_wing())).collect();
         let mut planned = Self { motions: Vec::new(), ends: Vec::new(), open_loop_ends: Vec::new() };
-        for trajectory in plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing) {
-            let intervals: Vec<Vec<Knot>> =
-                (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
-            planned.ends.push(intervals.iter().filter_map(|knots| knots.last().copied()).collect());
-            planned.motions.push(Motion::new(&trajectory.vehicle, intervals.concat())?);
-            planned.open_loop_ends.extend(rollout(trajectory, OPEN_LOOP_STEP_S).last().map(knot));
+        for vehicle in vehicles {
+            let (motion, ends, open_loop_end) = vehicle?;
+            planned.motions.push(motion);
+            planned.ends.push(ends);
+            planned.open_loop_ends.extend(open_loop_end);
         }
         Ok(planned)
     }
+}
+
+/// One vehicle's motion, the ends of its intervals, and the end of the whole when it is not restarted.
+fn flown(trajectory: &Trajectory) -> Result<(Motion, Vec<Knot>, Option<Knot>), String> {
+    let intervals: Vec<Vec<Knot>> = (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
+    let ends = intervals.iter().filter_map(|knots| knots.last().copied()).collect();
+    let motion = Motion::new(&trajectory.vehicle, intervals.concat())?;
+    Ok((motion, ends, rollout(trajectory, OPEN_LOOP_STEP_S).last().map(knot)))
 }
 
 /// The motion from the node before `end` to the time of the node `end`.

@@ -35,6 +35,46 @@ fn bench_ipm_measures_every_backend_on_every_subproblem() {
     assert!(stdout(&output).contains("sparse-ldl"));
 }
 
+/// The project's own scenarios.
+const SHIPPED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing");
+
+#[test]
+fn bench_cooperative_measures_both_solvers_on_both_missions() {
+    let workplace = Workplace::new(&[]);
+    let output = workplace.harness(&["bench", "cooperative", SHIPPED, "--quick"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(workplace.files("out/bench"), ["cooperative.json", "cooperative.md"]);
+    let results = workplace.json("out/bench/cooperative.json");
+    let rows = results["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2 * 2 * 2);
+    for pair in rows.chunks(2) {
+        assert_eq!((&pair[0]["solver"], &pair[1]["solver"]), (&"block".into(), &"clarabel".into()));
+        let flight_time_s = |row: &Value| row["metrics"]["flight_time_s"].as_f64().unwrap();
+        assert!((flight_time_s(&pair[0]) / flight_time_s(&pair[1]) - 1.0).abs() < 0.01, "{pair:?}");
+        assert!(pair.iter().all(|row| row["planning_s"].as_f64().unwrap() > 0.0));
+    }
+    assert_eq!(results["means"].as_array().unwrap().len(), 4);
+    assert!(stdout(&output).contains("reconfiguration-7"));
+}
+
+#[test]
+fn bench_fleets_measures_every_planner_and_a_time_limit_is_a_result() {
+    let workplace = Workplace::new(&[]);
+    let output = workplace.harness(&["bench", "fleets", SHIPPED, "--quick", "-q"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let results = workplace.json("out/bench/fleets.json");
+    let rows = results["rows"].as_array().unwrap();
+    let planners: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
+    assert_eq!(planners, ["coupled-scp", "serial-scp", "parallel-scp", "dpd-scp", "fleet-scp"]);
+    assert_eq!(rows[4]["ending"], "pass");
+    assert!(rows.iter().all(|row| row["vehicles"] == 2 && row["iterations"].as_u64().unwrap() > 1));
+
+    let output = workplace.harness(&["bench", "cooperative", SHIPPED, "--quick", "--limit-s", "0.001"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let rows = workplace.json("out/bench/cooperative.json")["rows"].take();
+    assert!(rows.as_array().unwrap().iter().all(|row| row["ending"] == "timed-out" && row["planning_s"].is_null()));
+}
+
 #[test]
 fn bench_refuses_bad_usage_and_leaves_nothing_behind() {
     let workplace = Workplace::new(&[]);

@@ -22,7 +22,8 @@ fn seven_vehicle_missions_are_as_hard_as_the_paper_s() {
 fn flight_times_are_within_a_tenth_of_the_paper_s() {
     for (name, paper_s) in MISSIONS {
         let scenario = super::named(name);
-        let plan = planners::find("parallel-scp").expect("the planner").plan(&scenario, 0, &mut |_| {});
+        let plan =
+            planners::find(&scenario.planner.name).expect("a planner that exists").plan(&scenario, 0, &mut |_| {});
         let flight_time_s = plan.flight_time_s().expect("a plan");
         assert!((flight_time_s / paper_s - 1.0).abs() < 0.1, "{name}: {flight_time_s} s, the paper {paper_s} s");
     }

@@ -1,5 +1,6 @@
 //! The shipped scenarios and planners, from file to verdict.
 
+mod between_nodes;
 mod conformance;
 mod geometry;
 mod trapezoid;

@@ -5,7 +5,7 @@ use harness::verdict::{self, Outcome, Status};
 #[test]
 fn every_shipped_scenario_passes() {
     let shipped = super::shipped();
-    assert!(shipped.len() >= 16);
+    assert!(shipped.len() >= 24);
     for (_, scenario) in shipped {
         let entry = planners::find(&scenario.planner.name).expect("a planner that exists");
         let seed = scenario.simulation.seed;

@@ -25,6 +25,7 @@ fn straight_line(vehicle: &Vehicle, intervals: usize, dt_s: f64) -> Iterate {
         states: (0..=intervals).map(|k| start.lerp(&goal, share(k))).collect(),
         controls: vec![Control::new(0.0, 0.0, 1.0); intervals + 1],
         dt_s,
+        ramp: 1.0,
     }
 }
 

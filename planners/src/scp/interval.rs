@@ -13,6 +13,17 @@ pub struct Interval {
     pub controls: [Control; 2],
     /// Length dt, s.
     pub dt_s: f64,
+    /// Share of the interval, from its beginning, during which the control runs linearly from one to the other; then it
+    /// stays. 1: first-order hold.
+    pub ramp: f64,
+}
+
+impl Interval {
+    /// Control after a share of the interval.
+    pub fn control_at(&self, share: f64) -> Control {
+        let progress = (share / self.ramp).min(1.0);
+        self.controls[0] * (1.0 - progress) + self.controls[1] * progress
+    }
 }
 
 /// Defect of an interval and its derivatives. The defect is what is missing at the end: zero when the trajectory obeys

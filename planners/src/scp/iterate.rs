@@ -15,6 +15,8 @@ pub struct Iterate {
     pub controls: Vec<Control>,
     /// Step length dt, s.
     pub dt_s: f64,
+    /// How controls run between the nodes, see [`Interval::ramp`].
+    pub ramp: f64,
 }
 
 impl Iterate {
@@ -34,6 +36,7 @@ impl Iterate {
             states: [self.states[k], self.states[k + 1]],
             controls: [self.controls[k], self.controls[k + 1]],
             dt_s: self.dt_s,
+            ramp: self.ramp,
         }
     }
 

@@ -55,4 +55,23 @@ impl Options {
             }),
         }
     }
+
+    /// The same for `fleet-scp`, where all but the number of intervals is ours.
+    ///
+    /// The penalty is far below the papers': there it makes an early, badly linearised subproblem buy its way out of
+    /// every violation with flight time. It only has to exceed the price of a violated row, which is a few seconds of
+    /// step length per scaled unit.
+    pub fn fleet(settings: &PlannerSettings) -> Self {
+        let of_the_papers = Self::new(settings);
+        let trust_region = State::new(100.0, 100.0, 25.0, 5.0, 0.2, 0.05);
+        Self {
+            transcription: Transcription::Shooting,
+            margin_m: settings.margin_m.unwrap_or(0.5),
+            penalty: settings.penalty.unwrap_or(20.0),
+            time_bound_release: settings.time_bound_release.unwrap_or(0.03),
+            trust_region: settings.trust_region.as_ref().map_or(trust_region, |_| of_the_papers.trust_region),
+            shrink: settings.trust_region.as_ref().map_or(0.5, |region| region.shrink),
+            ..of_the_papers
+        }
+    }
 }

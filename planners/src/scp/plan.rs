@@ -5,7 +5,9 @@ use std::time::Duration;
 use scenarios::fixed_wing::{Control, State, Trajectory};
 use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
 
+use super::interval::Interval;
 use super::iterate::Iterate;
+use super::{dynamics, shooting};
 
 /// Violation of a linearised row, in scaled units, above which a plan is not called solved: a millimetre of position.
 const SLACK_TOLERANCE: f64 = 1e-6;
@@ -50,14 +52,29 @@ pub fn assemble(
     }
 }
 
+/// The iterate in the form of a plan. Controls that stop running within an interval get a node of their own there, so
+/// that they run linearly from node to node.
 fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
-    Trajectory {
+    let mut trajectory = Trajectory {
         vehicle: vehicle.to_string(),
         interpolation: Interpolation::FirstOrderHold,
-        times_s: (0..=iterate.intervals()).map(|k| k as f64 * dt_s).collect(),
-        states: iterate.states.iter().map(|&state| State::from_array(state.into())).collect(),
-        controls: iterate.controls.iter().map(|&control| Control::from_array(control.into())).collect(),
+        times_s: Vec::new(),
+        states: Vec::new(),
+        controls: Vec::new(),
+    };
+    let mut push = |t_s: f64, state: dynamics::State, control: dynamics::Control| {
+        trajectory.times_s.push(t_s);
+        trajectory.states.push(State::from_array(state.into()));
+        trajectory.controls.push(Control::from_array(control.into()));
+    };
+    for k in 0..=iterate.intervals() {
+        push(k as f64 * dt_s, iterate.states[k], iterate.controls[k]);
+        if k < iterate.intervals() && iterate.ramp < 1.0 {
+            let interval = Interval { dt_s, ..iterate.interval(k) };
+            push((k as f64 + iterate.ramp) * dt_s, shooting::ramp_end(&interval), interval.controls[1]);
+        }
     }
+    trajectory
 }
 
 /// What the planner can say honestly: solved only if it has come to rest, the rows and its own equations hold, and its

@@ -9,55 +9,70 @@
 
 use nalgebra::SMatrix;
 
-use super::dynamics::{self, Control, State, StateJacobian};
+use super::dynamics::{self, State, StateJacobian};
 use super::interval::{Defect, Interval};
 
-/// Runge-Kutta steps per interval. Four keep the error of a 6 s interval far below a centimetre.
-const SUBSTEPS: usize = 8;
+/// Runge-Kutta steps per interval. Four would do for the position after one interval of 5 s (a millimetre), but the
+/// flight-path angle's error adds up: flown open loop, such a plan ends metres away after 40 of them.
+pub const SUBSTEPS: usize = 8;
 
-/// Parameters of Φ in the order s_k (6), u_k (3), u_{k+1} (3), dt (1).
-const PARAMETERS: usize = 13;
+/// Parameters of Φ in the order V_k, χ_k, γ_k, u_k (3), u_{k+1} (3), dt: everything but the position, to which Φ adds.
+const PARAMETERS: usize = 10;
+
+/// Column of dt.
+const DT: usize = 9;
 
 type Sensitivity = SMatrix<f64, 6, PARAMETERS>;
 
+/// States at the ends of the Runge-Kutta steps, the interval's beginning first.
+pub type Knots = [State; SUBSTEPS + 1];
+
 /// The defect of one interval, in the units of the state.
 pub fn defect(interval: &Interval) -> State {
-    interval.states[1] - flow(interval)
+    interval.states[1] - flow(interval)[SUBSTEPS]
 }
 
 /// The defect of one interval with its derivatives.
 pub fn linearise(interval: &Interval) -> Defect {
     let (end, sensitivity) = flow_with_sensitivity(interval);
+    let mut by_start = -StateJacobian::identity();
+    by_start.fixed_columns_mut::<3>(3).copy_from(&-sensitivity.fixed_columns::<3>(0));
     Defect {
         value: interval.states[1] - end,
-        by_states: [-sensitivity.fixed_columns::<6>(0), StateJacobian::identity()],
-        by_controls: [-sensitivity.fixed_columns::<3>(6), -sensitivity.fixed_columns::<3>(9)],
-        by_dt: -sensitivity.column(12),
+        by_states: [by_start, StateJacobian::identity()],
+        by_controls: [-sensitivity.fixed_columns::<3>(3), -sensitivity.fixed_columns::<3>(6)],
+        by_dt: -sensitivity.column(DT),
     }
 }
 
-/// Φ.
-fn flow(interval: &Interval) -> State {
+/// Φ, with the states on the way to it.
+pub fn flow(interval: &Interval) -> Knots {
     let h = interval.dt_s / SUBSTEPS as f64;
-    let mut s = interval.states[0];
+    let mut knots = [interval.states[0]; SUBSTEPS + 1];
     for step in 0..SUBSTEPS {
-        let control = |within: f64| control_at(interval, (step as f64 + within) / SUBSTEPS as f64);
+        let s = knots[step];
+        let control = |within: f64| interval.control_at((step as f64 + within) / SUBSTEPS as f64);
         let (u_0, u_half, u_1) = (control(0.0), control(0.5), control(1.0));
         let k_1 = dynamics::derivative(&s, &u_0);
         let k_2 = dynamics::derivative(&(s + k_1 * (0.5 * h)), &u_half);
         let k_3 = dynamics::derivative(&(s + k_2 * (0.5 * h)), &u_half);
         let k_4 = dynamics::derivative(&(s + k_3 * h), &u_1);
-        s += (k_1 + (k_2 + k_3) * 2.0 + k_4) * (h / 6.0);
+        knots[step + 1] = s + (k_1 + (k_2 + k_3) * 2.0 + k_4) * (h / 6.0);
     }
-    s
+    knots
 }
 
-/// Φ and ∂Φ/∂(s_k, u_k, u_{k+1}, dt).
+/// The state where the control of an interval stops running; a whole number of steps from its beginning.
+pub fn ramp_end(interval: &Interval) -> State {
+    flow(interval)[(interval.ramp * SUBSTEPS as f64).round() as usize]
+}
+
+/// Φ and its derivatives by the parameters.
 fn flow_with_sensitivity(interval: &Interval) -> (State, Sensitivity) {
     let h = interval.dt_s / SUBSTEPS as f64;
     let mut s = interval.states[0];
     let mut ds = Sensitivity::zeros();
-    ds.fixed_columns_mut::<6>(0).fill_with_identity();
+    ds.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
     for step in 0..SUBSTEPS {
         let at = |within: f64| (step as f64 + within) / SUBSTEPS as f64;
         let slope = |s: &State, ds: &Sensitivity, share: f64| slope(interval, s, ds, share);
@@ -75,23 +90,22 @@ fn flow_with_sensitivity(interval: &Interval) -> (State, Sensitivity) {
 /// Derivative of `s + h k`, h being a fixed share of dt.
 fn advance(ds: &Sensitivity, k: &State, dk: &Sensitivity, h: f64, interval: &Interval) -> Sensitivity {
     let mut sum = ds + dk * h;
-    let mut by_dt = sum.column_mut(12);
+    let mut by_dt = sum.column_mut(DT);
     by_dt += k * (h / interval.dt_s);
     sum
 }
 
-/// k = f(s, u(share)) and its derivative, given that of s.
+/// k = f(s, u(share)) and its derivative, given that of s. Nothing depends on the position: its three columns of ∂f/∂s
+/// are zero.
 fn slope(interval: &Interval, s: &State, ds: &Sensitivity, share: f64) -> (State, Sensitivity) {
-    let (k, df_ds, df_du) = dynamics::linearise(s, &control_at(interval, share));
-    let mut dk = df_ds * ds;
-    let mut by_u_0 = dk.fixed_columns_mut::<3>(6);
-    by_u_0 += df_du * (1.0 - share);
-    let mut by_u_1 = dk.fixed_columns_mut::<3>(9);
-    by_u_1 += df_du * share;
+    let (k, df_ds, df_du) = dynamics::linearise(s, &interval.control_at(share));
+    let mut dk = df_ds.fixed_columns::<3>(3) * ds.fixed_rows::<3>(3);
+    let progress = (share / interval.ramp).min(1.0);
+    for i in 0..3 {
+        // ∂f/∂u is diagonal: each load factor drives one of V, χ, γ
+        let by_u = df_du[(3 + i, i)];
+        dk[(3 + i, 3 + i)] += by_u * (1.0 - progress);
+        dk[(3 + i, 6 + i)] += by_u * progress;
+    }
     (k, dk)
-}
-
-/// First-order hold.
-fn control_at(interval: &Interval, share: f64) -> Control {
-    interval.controls[0] * (1.0 - share) + interval.controls[1] * share
 }

@@ -17,12 +17,14 @@ pub struct Context<'a> {
     pub options: &'a Options,
     /// The vehicle's boundary states.
     pub boundary: [State; 2],
-    /// Bounds of (s, u) at every node, SI.
-    pub bounds: [Range; STAGE],
+    /// Bounds of (s, u), one per node, SI.
+    pub bounds: &'a [[Range; STAGE]],
     /// Half-widths of the trust region now, in the units of the state.
     pub trust_region: State,
     /// Lower bound of dt, s (eq. 10).
     pub dt_bound_s: f64,
+    /// Largest relative change of dt.
+    pub dt_change: f64,
 }
 
 /// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map, SI. Heading is
@@ -49,8 +51,8 @@ pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<Plane>) -> Pr
         soft_lower: Vec::new(),
         soft_upper: Vec::new(),
     };
-    for (state, control) in last.states.iter().zip(&last.controls) {
-        append_node_bounds(context, state, control, &mut program);
+    for (node, bounds) in context.bounds.iter().enumerate() {
+        append_node_bounds(context.trust_region, bounds, &last.states[node], &last.controls[node], &mut program);
     }
     append_dt_bounds(context, last, &mut program);
     program
@@ -61,7 +63,12 @@ pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
     let (nodes, _) = z.as_chunks::<STAGE>();
     let states = last.states.iter().zip(nodes).map(|(s, w)| State::from_fn(|i, _| s[i] + w[i] * NODE[i]));
     let controls = last.controls.iter().zip(nodes).map(|(u, w)| Control::from_fn(|i, _| u[i] + w[6 + i] * NODE[6 + i]));
-    Iterate { states: states.collect(), controls: controls.collect(), dt_s: last.dt_s + z[z.len() - 1] }
+    Iterate {
+        states: states.collect(),
+        controls: controls.collect(),
+        dt_s: last.dt_s + z[z.len() - 1],
+        ramp: last.ramp,
+    }
 }
 
 /// Dynamics rows, eq. 5 or the shooting conditions.
@@ -89,11 +96,17 @@ fn pins(context: &Context, last: &Iterate) -> Vec<Pin> {
 }
 
 /// Trust region of the state; a box that cannot bind for the control; bounds eq. 8 and 9.
-fn append_node_bounds(context: &Context, state: &State, control: &Control, program: &mut Program) {
+fn append_node_bounds(
+    trust_region: State,
+    bounds: &[Range; STAGE],
+    state: &State,
+    control: &Control,
+    program: &mut Program,
+) {
     let units = node_units();
     for i in 0..STAGE {
-        let (value, bounds) = if i < 6 { (state[i], context.bounds[i]) } else { (control[i - 6], context.bounds[i]) };
-        let half = if i < 6 { context.trust_region[i] } else { 4.0 * bounds.width() };
+        let (value, bounds) = (if i < 6 { state[i] } else { control[i - 6] }, bounds[i]);
+        let half = if i < 6 { trust_region[i] } else { 4.0 * bounds.width() };
         program.box_lower.push(-half / units[i]);
         program.box_upper.push(half / units[i]);
         // an elastic bound beyond the box never binds: bring it near, to keep all numbers of one size
@@ -102,9 +115,9 @@ fn append_node_bounds(context: &Context, state: &State, control: &Control, progr
     }
 }
 
-/// dt within half of itself, and eq. 10 from below. The elastic upper bound lies outside the box: it never binds.
+/// dt near what it was, and eq. 10 from below. The elastic upper bound lies outside the box: it never binds.
 fn append_dt_bounds(context: &Context, last: &Iterate, program: &mut Program) {
-    let half = 0.5 * last.dt_s;
+    let half = context.dt_change * last.dt_s;
     program.box_lower.push(-half);
     program.box_upper.push(half);
     program.soft_lower.push(context.dt_bound_s - last.dt_s);

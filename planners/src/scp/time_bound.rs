@@ -45,12 +45,55 @@ impl TimeBound {
     }
 }
 
+/// Change of a step length between two iterations below which it counts as calm, s: ours, the paper's is lost.
+const CALM_S: f64 = 0.05;
+
+/// Spread of the flight times below which a fleet arrives together (Xu et al. 2022, eq. 19), s: ours, the paper's is
+/// lost.
+pub const FLIGHT_TIME_SPREAD_S: f64 = 0.1;
+
+/// Difference between the longest and the shortest flight time, s.
+pub fn flight_time_spread_s(trajectories: &[Iterate]) -> f64 {
+    let times_s = || trajectories.iter().map(Iterate::flight_time_s);
+    times_s().fold(0.0, f64::max) - times_s().fold(f64::INFINITY, f64::min)
+}
+
+/// dt_lb by the rule of Xu et al. 2022, eq. 18: the longest step length among those that have hardly changed since the
+/// last iteration, so that no wild early iterate holds up the fleet. Where all have changed, the last bound stays.
+#[derive(Clone, Debug)]
+pub struct CalmTimeBound {
+    last_s: Vec<f64>,
+    bound_s: f64,
+}
+
+impl CalmTimeBound {
+    /// No bound yet. `trajectories`: those that the first iteration starts from.
+    pub fn new(trajectories: &[Iterate]) -> Self {
+        Self { last_s: trajectories.iter().map(|trajectory| trajectory.dt_s).collect(), bound_s: 0.0 }
+    }
+
+    /// The bound, s.
+    pub fn bound_s(&self) -> f64 {
+        self.bound_s
+    }
+
+    /// Takes note of an iteration's step lengths.
+    pub fn update(&mut self, trajectories: &[Iterate]) {
+        let now_s: Vec<f64> = trajectories.iter().map(|trajectory| trajectory.dt_s).collect();
+        let calm = now_s.iter().zip(&self.last_s).filter(|(now, last)| (*now - *last).abs() <= CALM_S);
+        if let Some(longest_s) = calm.map(|(now, _)| *now).reduce(f64::max) {
+            self.bound_s = longest_s;
+        }
+        self.last_s = now_s;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn fleet(dt_s: &[f64]) -> Vec<Iterate> {
-        dt_s.iter().map(|&dt_s| Iterate { states: Vec::new(), controls: Vec::new(), dt_s }).collect()
+        dt_s.iter().map(|&dt_s| Iterate { states: Vec::new(), controls: Vec::new(), dt_s, ramp: 1.0 }).collect()
     }
 
     #[test]
@@ -73,5 +116,16 @@ mod tests {
         assert_eq!(bound.bound_s(), 5.7);
         bound.update(&fleet(&[5.7, 5.7]));
         assert!((bound.bound_s() - 5.7 * 0.95).abs() < 1e-12);
+    }
+
+    #[test]
+    fn wild_step_lengths_do_not_count() {
+        let mut bound = CalmTimeBound::new(&fleet(&[5.0, 5.0]));
+        bound.update(&fleet(&[5.01, 8.0]));
+        assert_eq!(bound.bound_s(), 5.01);
+        bound.update(&fleet(&[5.5, 6.0]));
+        assert_eq!(bound.bound_s(), 5.01);
+        bound.update(&fleet(&[5.5, 5.6]));
+        assert_eq!(bound.bound_s(), 5.5);
     }
 }

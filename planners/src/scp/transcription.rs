@@ -32,11 +32,12 @@ mod tests {
             states: [State::new(0.0, 0.0, 400.0, 34.0, 0.3, 0.02), State::new(190.0, 75.0, 405.0, 35.5, 0.45, -0.01)],
             controls: [Control::new(0.05, 0.12, 1.01), Control::new(-0.08, -0.15, 0.97)],
             dt_s: 5.8,
+            ramp: 1.0,
         }
     }
 
-    fn check(transcription: Transcription) {
-        let at = interval();
+    fn check(transcription: Transcription, ramp: f64) {
+        let at = Interval { ramp, ..interval() };
         let exact = linearise(transcription, &at);
         assert!((exact.value - defect(transcription, &at)).amax() < 1e-12);
         let difference = |change: &dyn Fn(&mut Interval, f64)| {
@@ -65,11 +66,12 @@ mod tests {
 
     #[test]
     fn trapezoid_jacobians_agree_with_differences() {
-        check(Transcription::Trapezoid);
+        check(Transcription::Trapezoid, 1.0);
     }
 
     #[test]
     fn shooting_jacobians_agree_with_differences() {
-        check(Transcription::Shooting);
+        check(Transcription::Shooting, 1.0);
+        check(Transcription::Shooting, 0.25);
     }
 }

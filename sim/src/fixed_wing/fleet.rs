@@ -1,9 +1,13 @@
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use scenarios::{Plan, Scenario};
 
 use super::aircraft::Aircraft;
 use crate::rapier_world::{RapierWorld, Touch, Touched};
 use crate::{Event, EventKind, Setup, VehicleLog};
+
+/// Number of aircraft from which on sharing them out to threads is worth what it costs, some 10 µs per step.
+const LARGE_FLEET: usize = 64;
 
 /// Flies a plan of fixed wings for so many steps, and returns their logs and what happened.
 pub(crate) fn fly(
@@ -61,29 +65,35 @@ impl Fleet {
 
     /// Everybody measures, decides and logs.
     fn decide(&mut self, t_s: f64) {
-        for index in 0..self.aircraft.len() {
-            if !self.is_flying[index] {
-                continue;
-            }
-            let (position_m, velocity_mps) = (self.world.position_m(index), self.world.velocity_mps(index));
-            let aircraft = &mut self.aircraft[index];
-            if let Some((t_s, kind)) = aircraft.decide(t_s, position_m, velocity_mps) {
-                self.events.push(Event { t_s, kind, vehicles: vec![aircraft.name().to_owned()] });
+        let Self { world, aircraft, is_flying, events } = self;
+        let states: Vec<_> =
+            (0..aircraft.len()).map(|i| is_flying[i].then(|| (world.position_m(i), world.velocity_mps(i)))).collect();
+        let decided = each_alone(aircraft, |index, aircraft| {
+            let (position_m, velocity_mps) = states[index]?;
+            aircraft.decide(t_s, position_m, velocity_mps)
+        });
+        for (index, event) in decided.into_iter().enumerate() {
+            if let Some((t_s, kind)) = event {
+                events.push(Event { t_s, kind, vehicles: vec![aircraft[index].name().to_owned()] });
             }
         }
     }
 
     /// One step of the world under everybody's forces.
     fn advance(&mut self) -> Vec<Touch> {
-        for index in 0..self.aircraft.len() {
-            if !self.is_flying[index] {
-                continue;
+        let Self { world, aircraft, is_flying, .. } = self;
+        let state = |i: usize| (world.position_m(i), world.velocity_mps(i), world.mass_kg(i));
+        let states: Vec<_> = (0..aircraft.len()).map(|i| is_flying[i].then(|| state(i))).collect();
+        let forces_n = each_alone(aircraft, |index, aircraft| {
+            let (position_m, velocity_mps, mass_kg) = states[index]?;
+            Some(aircraft.force_n(position_m, velocity_mps, mass_kg))
+        });
+        for (index, force_n) in forces_n.into_iter().enumerate() {
+            if let Some(force_n) = force_n {
+                world.set_force_n(index, force_n);
             }
-            let (position_m, velocity_mps) = (self.world.position_m(index), self.world.velocity_mps(index));
-            let mass_kg = self.world.mass_kg(index);
-            self.world.set_force_n(index, self.aircraft[index].force_n(position_m, velocity_mps, mass_kg));
         }
-        self.world.step()
+        world.step()
     }
 
     /// Takes those out that touched something during the step that began at `start_s`. Whoever is out already touches
@@ -117,4 +127,13 @@ impl Fleet {
         }
         (vehicles, self.events)
     }
+}
+
+/// Calls `act` for every aircraft; from a certain size on for several at a time, since none knows of the others.
+fn each_alone<T: Send>(fleet: &mut [Aircraft], act: impl Fn(usize, &mut Aircraft) -> T + Sync) -> Vec<T> {
+    if fleet.len() < LARGE_FLEET {
+        return fleet.iter_mut().enumerate().map(|(index, aircraft)| act(index, aircraft)).collect();
+    }
+    let chunks = fleet.par_iter_mut().enumerate().with_min_len(LARGE_FLEET / 2);
+    chunks.map(|(index, aircraft)| act(index, aircraft)).collect()
 }

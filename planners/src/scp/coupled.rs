@@ -1,0 +1,97 @@
+//! Planner `coupled-scp`: one convex programme over all vehicles, both sides of a pair move (cSCP of Xu et al. 2022).
+//!
+//! The programme has no block structure that our interior-point method knows, so Clarabel solves it by its sparse
+//! factorisation. Its time grows much faster than the fleet: see the table of `harness bench fleets`.
+
+use std::time::Instant;
+
+use scenarios::{Plan, Scenario};
+
+use super::coupled_program::{CoupledProgram, Pair};
+use super::decoupled::{Answer, Avoidance, Fleet, TOLERANCE, trajectories};
+use super::dynamics::State;
+use super::iterate::Iterate;
+use super::scaling::POSITION_M;
+use super::{plan, subproblem};
+use crate::planner::{Planner, Progress};
+
+/// The planner, for the registry.
+pub const PLANNER: Planner = Planner {
+    name: NAME,
+    summary: "Sequential convex programming, one programme over all vehicles (cSCP of Xu et al. 2022)",
+    handles: "fixed-wing fleets among cylinders, up to some fifteen vehicles",
+    refuses: super::refuses,
+    answer: plan,
+};
+
+const NAME: &str = "coupled-scp";
+
+/// Plans for the whole fleet. `progress` sees every iteration as it ends.
+pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
+    let begin = Instant::now();
+    let fleet = Fleet::new(scenario, seed);
+    let mut last = fleet.straight_lines();
+    let mut trust_region = fleet.options.trust_region;
+    let mut history = Vec::new();
+    let mut converged = false;
+    while !converged && history.len() < fleet.options.max_iterations {
+        let started = Instant::now();
+        let answers = answers(&fleet, &last, trust_region);
+        let iteration = fleet.summarise(&last, &answers, trust_region, started);
+        converged = fleet.is_at_rest(&last, answers.iter().map(|answer| &answer.trajectory));
+        last = trajectories(answers);
+        trust_region *= fleet.options.shrink;
+        progress(&iteration);
+        history.push(iteration);
+    }
+    let status = plan::status(scenario, &history, converged, fleet.options.max_iterations);
+    plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
+}
+
+/// Everybody's answer from the one programme. Its iterations count once, its time is everybody's.
+fn answers(fleet: &Fleet, last: &[Iterate], trust_region: State) -> Vec<Answer> {
+    let started = Instant::now();
+    let alone = Avoidance { avoids: &|_, _| false, obstacles: true };
+    let program = |i| fleet.program(i, last, fleet.planes(i, last, alone, trust_region[0]), trust_region, 0.0);
+    let coupled = CoupledProgram {
+        vehicles: (0..last.len()).map(program).collect(),
+        pairs: pairs(fleet, last, trust_region[0]),
+        shared_time: fleet.scenario.fleet.simultaneous_arrival,
+    };
+    let solution = coupled.solve(TOLERANCE);
+    let wall_s = started.elapsed().as_secs_f64();
+    let answer = |(i, z): (usize, &Vec<f64>)| Answer {
+        trajectory: subproblem::updated(&last[i], z),
+        solver_iterations: if i == 0 { solution.iterations } else { 0 },
+        is_solved: solution.is_solved,
+        slack: solution.slack,
+        wall_s,
+    };
+    solution.z.iter().enumerate().map(answer).collect()
+}
+
+/// Rows of all pairs at all nodes that can bind: both may move by sqrt(2) ρ.
+///
+/// ```text
+/// n · C ((s_i[k] - sbar_i[k]) - (s_j[k] - sbar_j[k])) >= R - |C (sbar_i[k] - sbar_j[k])|
+/// ```
+fn pairs(fleet: &Fleet, last: &[Iterate], trust_region_m: f64) -> Vec<Pair> {
+    let Some(separation_m) = fleet.scenario.fleet.separation_m else { return Vec::new() };
+    let wanted_m = separation_m + fleet.options.margin_m;
+    let mut pairs = Vec::new();
+    for (i, first) in last.iter().enumerate() {
+        for (j, second) in last.iter().enumerate().skip(i + 1) {
+            for stage in 0..=first.intervals() {
+                let (a, b) = (first.position_m(stage), second.position_m(stage));
+                let away = [a[0] - b[0], a[1] - b[1]];
+                let distance_m = away[0].hypot(away[1]);
+                if distance_m >= wanted_m + 2.0 * std::f64::consts::SQRT_2 * trust_region_m {
+                    continue;
+                }
+                let normal = if distance_m > 0.0 { away.map(|a| a / distance_m) } else { fleet.tie_break(i, j) };
+                pairs.push(Pair { who: [i, j], stage, normal, room: (distance_m - wanted_m) / POSITION_M });
+            }
+        }
+    }
+    pairs
+}

@@ -1,0 +1,271 @@
+//! The programmes of all vehicles, with rows that touch two of them, as one sparse linear programme.
+//!
+//! ```text
+//! min  Σ q θ + μ (Σ |E z - d| + Σ max(F z - g, 0) + Σ max(n · (w_j - w_i) - room, 0))     s.t.  lo <= z <= hi
+//! ```
+//!
+//! In Clarabel's form the elastic equalities are E z - p + n = d with p, n >= 0, the inequalities F z - β <= g with
+//! β >= 0. Bounds that lie outside the box never bind, and are left out.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
+
+use crate::convex::{LINK, Program, STAGE};
+
+/// One programme over a fleet.
+pub struct CoupledProgram {
+    /// Everybody's own rows.
+    pub vehicles: Vec<Program>,
+    /// Rows between two vehicles.
+    pub pairs: Vec<Pair>,
+    /// Is the step length the same for all?
+    pub shared_time: bool,
+}
+
+/// The row `normal · (w_i - w_j) >= -room` in the first two variables of a stage of both.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// i and j.
+    pub who: [usize; 2],
+    /// Stage.
+    pub stage: usize,
+    /// Coefficients.
+    pub normal: [f64; 2],
+    /// What is left before the row is violated, scaled.
+    pub room: f64,
+}
+
+/// What came out.
+pub struct CoupledSolution {
+    /// Everybody's variables, in the form of his own programme.
+    pub z: Vec<Vec<f64>>,
+    /// Largest violation that the penalty left.
+    pub slack: f64,
+    /// Iterations.
+    pub iterations: usize,
+    /// Did the solver reach its tolerance?
+    pub is_solved: bool,
+}
+
+/// As for single programmes: with the default, some solves end short of their tolerance.
+const STATIC_REGULARISATION: f64 = 1e-7;
+
+impl CoupledProgram {
+    /// Solves to the relative gap and feasibility `tolerance`.
+    pub fn solve(&self, tolerance: f64) -> CoupledSolution {
+        let rows = self.rows();
+        let matrix = CscMatrix::new_from_triplets(
+            rows.rhs.len(),
+            rows.cost.len(),
+            rows.places.iter().map(|place| place.0).collect(),
+            rows.places.iter().map(|place| place.1).collect(),
+            rows.values.clone(),
+        );
+        let cones = [ZeroConeT(rows.equalities), NonnegativeConeT(rows.rhs.len() - rows.equalities)];
+        let settings = DefaultSettings {
+            verbose: false,
+            tol_gap_abs: tolerance,
+            tol_gap_rel: tolerance,
+            tol_feas: tolerance,
+            static_regularization_constant: STATIC_REGULARISATION,
+            ..DefaultSettings::default()
+        };
+        let quadratic = CscMatrix::zeros((rows.cost.len(), rows.cost.len()));
+        let mut solver = match DefaultSolver::new(&quadratic, &rows.cost, &matrix, &rows.rhs, &cones, settings) {
+            Ok(solver) => solver,
+            Err(error) => unreachable!("a well-posed programme was refused: {error}"),
+        };
+        solver.solve();
+        let z: Vec<Vec<f64>> = (0..self.vehicles.len()).map(|i| self.own(i, &solver.solution.x)).collect();
+        CoupledSolution {
+            slack: self.largest_violation(&z),
+            z,
+            iterations: solver.solution.iterations as usize,
+            is_solved: solver.solution.status == SolverStatus::Solved,
+        }
+    }
+
+    /// First column of a vehicle's stages.
+    fn offset(&self, i: usize) -> usize {
+        let stages = |program: &Program| program.len() - 1;
+        self.vehicles[..i].iter().map(stages).sum()
+    }
+
+    /// Column of a vehicle's variable.
+    fn column(&self, i: usize, index: usize) -> usize {
+        if index + 1 < self.vehicles[i].len() {
+            return self.offset(i) + index;
+        }
+        self.offset(self.vehicles.len()) + if self.shared_time { 0 } else { i }
+    }
+
+    fn own(&self, i: usize, x: &[f64]) -> Vec<f64> {
+        (0..self.vehicles[i].len()).map(|index| x[self.column(i, index)]).collect()
+    }
+
+    fn largest_violation(&self, z: &[Vec<f64>]) -> f64 {
+        let own = self.vehicles.iter().zip(z).map(|(program, z)| program.largest_violation(z));
+        let pairs = self.pairs.iter().map(|pair| {
+            let [i, j] = pair.who;
+            let moved = |axis: usize| z[i][STAGE * pair.stage + axis] - z[j][STAGE * pair.stage + axis];
+            -pair.room - pair.normal[0] * moved(0) - pair.normal[1] * moved(1)
+        });
+        own.chain(pairs).fold(0.0, f64::max)
+    }
+
+    fn rows(&self) -> Rows {
+        let times = if self.shared_time { 1 } else { self.vehicles.len() };
+        let mut rows = Rows { cost: vec![0.0; self.offset(self.vehicles.len()) + times], ..Rows::default() };
+        for (i, program) in self.vehicles.iter().enumerate() {
+            rows.cost[self.column(i, program.len() - 1)] = program.theta_cost;
+            self.append_equalities(i, &mut rows);
+        }
+        rows.equalities = rows.rhs.len();
+        for slack in std::mem::take(&mut rows.slacks) {
+            rows.append([(slack, -1.0)], 0.0);
+        }
+        for i in 0..self.vehicles.len() {
+            self.append_bounds(i, &mut rows);
+            self.append_planes(i, &mut rows);
+        }
+        for pair in &self.pairs {
+            let [i, j] = pair.who.map(|who| self.column(who, STAGE * pair.stage));
+            let [x, y] = pair.normal;
+            rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.room, self.penalty());
+        }
+        rows
+    }
+
+    fn penalty(&self) -> f64 {
+        self.vehicles[0].penalty
+    }
+
+    fn append_equalities(&self, i: usize, rows: &mut Rows) {
+        let program = &self.vehicles[i];
+        for (k, link) in program.links.iter().enumerate() {
+            for row in 0..LINK {
+                let left = (0..STAGE).map(|c| (self.column(i, STAGE * k + c), link.left[(row, c)]));
+                let right = (0..STAGE).map(|c| (self.column(i, STAGE * (k + 1) + c), link.right[(row, c)]));
+                let time = std::iter::once((self.column(i, program.len() - 1), link.theta[row]));
+                rows.append_elastic_equality(left.chain(right).chain(time), link.rhs[row], self.penalty());
+            }
+        }
+        for pin in &program.pins {
+            rows.append_elastic_equality([(self.column(i, pin.index), 1.0)], pin.value, self.penalty());
+        }
+    }
+
+    fn append_bounds(&self, i: usize, rows: &mut Rows) {
+        let program = &self.vehicles[i];
+        for index in 0..program.len() {
+            let column = self.column(i, index);
+            rows.append([(column, 1.0)], program.box_upper[index]);
+            rows.append([(column, -1.0)], -program.box_lower[index]);
+            if program.soft_upper[index] < program.box_upper[index] {
+                rows.append_elastic([(column, 1.0)], program.soft_upper[index], self.penalty());
+            }
+            if program.soft_lower[index] > program.box_lower[index] {
+                rows.append_elastic([(column, -1.0)], -program.soft_lower[index], self.penalty());
+            }
+        }
+    }
+
+    fn append_planes(&self, i: usize, rows: &mut Rows) {
+        for plane in &self.vehicles[i].planes {
+            let here = self.column(i, STAGE * plane.stage);
+            rows.append_elastic([(here, plane.here[0]), (here + 1, plane.here[1])], plane.bound, self.penalty());
+        }
+    }
+}
+
+/// Rows A x <= b under construction, equalities first.
+#[derive(Default)]
+struct Rows {
+    cost: Vec<f64>,
+    /// Row and column of every entry.
+    places: Vec<(usize, usize)>,
+    values: Vec<f64>,
+    rhs: Vec<f64>,
+    equalities: usize,
+    /// Slacks of the equalities, still without their bound.
+    slacks: Vec<usize>,
+}
+
+impl Rows {
+    fn append(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64) {
+        for (column, value) in terms.into_iter().filter(|(_, value)| *value != 0.0) {
+            self.places.push((self.rhs.len(), column));
+            self.values.push(value);
+        }
+        self.rhs.push(rhs);
+    }
+
+    /// `terms <= rhs`, or pay for what is missing.
+    fn append_elastic(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64, penalty: f64) {
+        let slack = self.new_slack(penalty);
+        self.append(terms.into_iter().chain([(slack, -1.0)]), rhs);
+        self.append([(slack, -1.0)], 0.0);
+    }
+
+    /// `terms = rhs`, or pay for the difference.
+    fn append_elastic_equality(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64, penalty: f64) {
+        let [above, below] = [self.new_slack(penalty), self.new_slack(penalty)];
+        self.append(terms.into_iter().chain([(above, -1.0), (below, 1.0)]), rhs);
+        self.slacks.extend([above, below]);
+    }
+
+    fn new_slack(&mut self, penalty: f64) -> usize {
+        self.cost.push(penalty);
+        self.cost.len() - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::convex::{InteriorPoint, Settings};
+    use crate::scp::decoupled::{Avoidance, Fleet};
+
+    /// The first subproblems of two vehicles.
+    fn programs() -> Vec<Program> {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-2.toml");
+        let scenario = scenarios::load(&path).expect("a shipped scenario");
+        let fleet = Fleet::new(&scenario, 0);
+        let lines = fleet.straight_lines();
+        let trust_region = fleet.options.trust_region;
+        let alone = Avoidance { avoids: &|_, _| false, obstacles: true };
+        let program = |i| fleet.program(i, &lines, fleet.planes(i, &lines, alone, trust_region[0]), trust_region, 0.0);
+        (0..2).map(program).collect()
+    }
+
+    fn objectives(vehicles: &[Program], z: &[Vec<f64>]) -> f64 {
+        vehicles.iter().zip(z).map(|(program, z)| program.objective(z)).sum()
+    }
+
+    #[test]
+    fn without_rows_between_them_everybody_does_as_alone() {
+        let vehicles = programs();
+        let alone = vehicles.iter().map(|program| InteriorPoint::new(Settings::default()).solve(program).objective);
+        let alone: f64 = alone.sum();
+        let coupled = CoupledProgram { vehicles, pairs: Vec::new(), shared_time: false };
+        let solution = coupled.solve(1e-8);
+        let together = objectives(&coupled.vehicles, &solution.z);
+        assert!(solution.is_solved && (together - alone).abs() < 1e-5 * alone, "{together} against {alone}");
+    }
+
+    #[test]
+    fn rows_between_two_are_kept_and_cost_something() {
+        let vehicles = programs();
+        let free = CoupledProgram { vehicles: vehicles.clone(), pairs: Vec::new(), shared_time: true }.solve(1e-8);
+        let stage = 20;
+        let apart = |z: &[Vec<f64>]| z[0][STAGE * stage + 1] - z[1][STAGE * stage + 1];
+        // 300 m farther apart in y than they would be
+        let pair = Pair { who: [0, 1], stage, normal: [0.0, 1.0], room: -apart(&free.z) - 0.3 };
+        let coupled = CoupledProgram { vehicles, pairs: vec![pair], shared_time: true };
+        let held = coupled.solve(1e-8);
+        assert!(held.is_solved && apart(&held.z) > apart(&free.z) + 0.3 - 1e-6);
+        assert!(objectives(&coupled.vehicles, &held.z) > objectives(&coupled.vehicles, &free.z) - 1e-6);
+        let [first, second] = [0, 1].map(|i| held.z[i][held.z[i].len() - 1]);
+        assert_eq!(first, second);
+    }
+}

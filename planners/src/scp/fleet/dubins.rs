@@ -1,0 +1,123 @@
+//! Shortest path of bounded curvature from one pose to another by two turns and a straight line between them (Dubins,
+//! American Journal of Mathematics 79, 1957; the words that end in a third turn are not needed at our distances).
+
+use std::f64::consts::TAU;
+
+/// Turns shorter than this before a full circle are none at all: rounding, rad.
+const NO_TURN: f64 = 1e-6;
+
+/// Position, m, and heading, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// East, north, m.
+    pub position_m: [f64; 2],
+    /// Heading, counterclockwise from east, rad, not wrapped.
+    pub heading_rad: f64,
+}
+
+/// Turn, straight line, turn.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    start: Pose,
+    radius_m: f64,
+    /// First and last turn, positive to the left, rad.
+    turns_rad: [f64; 2],
+    straight_m: f64,
+}
+
+impl Path {
+    /// The shortest of the four words LSL, LSR, RSL, RSR from `start` to `goal` with turns of `radius_m`.
+    pub fn shortest(start: Pose, goal: Pose, radius_m: f64) -> Self {
+        let sides = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let paths = sides.into_iter().filter_map(|sides| Self::by_sides(start, goal, radius_m, sides));
+        let shortest = paths.min_by(|a, b| a.length_m().total_cmp(&b.length_m()));
+        shortest.expect("two turns to the same side always reach the goal")
+    }
+
+    /// The path that turns first to `sides[0]`, last to `sides[1]`: 1 left, -1 right. `None` if the circles are too
+    /// near each other to change sides between them.
+    fn by_sides(start: Pose, goal: Pose, radius_m: f64, sides: [f64; 2]) -> Option<Self> {
+        let [from, to] = [center(&start, sides[0] * radius_m), center(&goal, sides[1] * radius_m)];
+        let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+        let distance_m = dx.hypot(dy);
+        // the line keeps its distance from both centres: by how much it leans against the line between them
+        let leaning = (sides[1] - sides[0]) * radius_m;
+        if leaning.abs() > distance_m {
+            return None;
+        }
+        let straight_m = (distance_m * distance_m - leaning * leaning).sqrt();
+        let line_rad = if distance_m > 0.0 { dy.atan2(dx) - leaning.atan2(straight_m) } else { start.heading_rad };
+        let turns_rad = [turn(start.heading_rad, line_rad, sides[0]), turn(line_rad, goal.heading_rad, sides[1])];
+        Some(Self { start, radius_m, turns_rad, straight_m })
+    }
+
+    /// Length, m.
+    pub fn length_m(&self) -> f64 {
+        self.straight_m + self.radius_m * (self.turns_rad[0].abs() + self.turns_rad[1].abs())
+    }
+
+    /// The pose after `along_m`, at most the length.
+    pub fn at(&self, along_m: f64) -> Pose {
+        let [first, last] = self.turns_rad;
+        let first_m = self.radius_m * first.abs();
+        let turned = turned(self.start, self.radius_m * first.signum(), along_m.min(first_m));
+        let straight_m = (along_m - first_m).clamp(0.0, self.straight_m);
+        let (sin, cos) = turned.heading_rad.sin_cos();
+        let [x, y] = turned.position_m;
+        let flown = Pose { position_m: [x + straight_m * cos, y + straight_m * sin], ..turned };
+        turned_last(flown, self.radius_m * last.signum(), along_m - first_m - self.straight_m)
+    }
+}
+
+fn turned_last(pose: Pose, signed_radius_m: f64, along_m: f64) -> Pose {
+    if along_m > 0.0 { turned(pose, signed_radius_m, along_m) } else { pose }
+}
+
+/// Centre of the circle to the left (positive radius) or to the right.
+fn center(pose: &Pose, signed_radius_m: f64) -> [f64; 2] {
+    let (sin, cos) = pose.heading_rad.sin_cos();
+    [pose.position_m[0] - signed_radius_m * sin, pose.position_m[1] + signed_radius_m * cos]
+}
+
+fn turned(pose: Pose, signed_radius_m: f64, along_m: f64) -> Pose {
+    let [x, y] = center(&pose, signed_radius_m);
+    let heading_rad = pose.heading_rad + along_m / signed_radius_m;
+    let (sin, cos) = heading_rad.sin_cos();
+    Pose { position_m: [x + signed_radius_m * sin, y - signed_radius_m * cos], heading_rad }
+}
+
+/// Turn from one heading to another to the given side, in (-2 π, 2 π).
+fn turn(from_rad: f64, to_rad: f64, side: f64) -> f64 {
+    let angle = (side * (to_rad - from_rad)).rem_euclid(TAU);
+    if angle > TAU - NO_TURN { 0.0 } else { side * angle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose(x: f64, y: f64, heading_deg: f64) -> Pose {
+        Pose { position_m: [x, y], heading_rad: heading_deg.to_radians() }
+    }
+
+    #[test]
+    fn paths_end_at_their_goals_and_never_turn_sharper() {
+        let start = pose(100.0, -50.0, 30.0);
+        for goal in [pose(4000.0, 3000.0, 90.0), pose(4000.0, -3000.0, -100.0), pose(-3000.0, 10.0, 200.0)] {
+            let path = Path::shortest(start, goal, 700.0);
+            let end = path.at(path.length_m());
+            let off_m = (end.position_m[0] - goal.position_m[0]).hypot(end.position_m[1] - goal.position_m[1]);
+            assert!(off_m < 1e-6, "{goal:?} missed by {off_m} m");
+            let turns = (end.heading_rad - goal.heading_rad) / TAU;
+            assert!((turns - turns.round()).abs() < 1e-9, "{goal:?}: {} rad", end.heading_rad);
+            let straight_m = (goal.position_m[0] - 100.0).hypot(goal.position_m[1] + 50.0);
+            assert!(path.length_m() >= straight_m && path.length_m() < straight_m + TAU * 700.0);
+        }
+    }
+
+    #[test]
+    fn straight_ahead_is_straight() {
+        let path = Path::shortest(pose(0.0, 0.0, 45.0), pose(3000.0, 3000.0, 45.0), 700.0);
+        assert!((path.length_m() - 3000.0 * 2_f64.sqrt()).abs() < 1e-3);
+    }
+}

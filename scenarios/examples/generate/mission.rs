@@ -1,0 +1,148 @@
+//! A mission as text.
+
+use std::fmt::Write;
+
+/// Speed at both ends, m/s: paper.
+pub const SPEED_MPS: f64 = 35.0;
+
+/// One vehicle's way: starts and goals with their headings.
+#[derive(Clone, Copy)]
+pub struct Way {
+    pub start_m: [f64; 2],
+    pub start_heading_deg: f64,
+    pub goal_m: [f64; 2],
+    pub goal_heading_deg: f64,
+}
+
+impl Way {
+    /// Straight from start to goal.
+    pub fn straight(start_m: [f64; 2], goal_m: [f64; 2]) -> Self {
+        let heading_deg = (goal_m[1] - start_m[1]).atan2(goal_m[0] - start_m[0]).to_degrees();
+        Self { start_m, start_heading_deg: heading_deg, goal_m, goal_heading_deg: heading_deg }
+    }
+
+    pub fn length_m(&self) -> f64 {
+        distance_m(self.start_m, self.goal_m)
+    }
+
+    /// Position after a share of the straight line.
+    pub fn at(&self, share: f64) -> [f64; 2] {
+        std::array::from_fn(|axis| self.start_m[axis] + share * (self.goal_m[axis] - self.start_m[axis]))
+    }
+}
+
+/// What differs from file to file.
+pub struct Mission {
+    pub name: String,
+    pub description: String,
+    pub tags: &'static str,
+    /// Comment lines at the head of the file: which numbers are whose.
+    pub sources: &'static str,
+    /// Half width of the map, or its limits in x and in y, m.
+    pub map_m: [[f64; 2]; 2],
+    /// Centre and radius, m.
+    pub cylinders: Vec<([f64; 2], f64)>,
+    pub separation_m: f64,
+    pub separation_source: &'static str,
+    pub simultaneous_arrival: bool,
+    pub ways: Vec<Way>,
+    /// Lines of `[planner]` after its name.
+    pub planner: &'static str,
+}
+
+impl Mission {
+    pub fn to_toml(&self) -> String {
+        let mut text = String::from("#:schema ../../schema/scenario.json\n");
+        for line in self.sources.lines() {
+            writeln!(text, "# {line}").expect("a string takes everything");
+        }
+        let [x, y] = self.map_m;
+        write!(
+            text,
+            "\nname = \"{}\"\ndescription = \"{}\"\ntags = {}\n\n[world.map] # ours\nx_m = [{}, {}]\ny_m = [{}, {}]\nz_m = [0, 1000]\n",
+            self.name, self.description, self.tags, x[0], x[1], y[0], y[1]
+        )
+        .expect("a string takes everything");
+        for (index, (center_m, radius_m)) in self.cylinders.iter().enumerate() {
+            write!(
+                text,
+                "\n[[world.cylinders]]\nname = \"threat-{}\"\ncenter_m = [{}, {}]\nradius_m = {radius_m}\n",
+                index + 1,
+                center_m[0],
+                center_m[1]
+            )
+            .expect("a string takes everything");
+        }
+        text.push_str(MODEL);
+        write!(
+            text,
+            "\n[fleet]\nseparation_m = {} # {}\nsimultaneous_arrival = {}\n",
+            self.separation_m, self.separation_source, self.simultaneous_arrival
+        )
+        .expect("a string takes everything");
+        for (index, way) in self.ways.iter().enumerate() {
+            write!(
+                text,
+                "\n[[vehicles]]\nname = \"uav-{}\"\nmodel = \"scout\"\nstart = {}\ngoal = {}\n",
+                index + 1,
+                waypoint(way.start_m, way.start_heading_deg),
+                waypoint(way.goal_m, way.goal_heading_deg)
+            )
+            .expect("a string takes everything");
+        }
+        write!(text, "\n[planner]\nname = \"fleet-scp\"\n{}", self.planner).expect("a string takes everything");
+        text
+    }
+}
+
+fn waypoint([x_m, y_m]: [f64; 2], heading_deg: f64) -> String {
+    let [x_m, y_m, heading_deg] = [round(x_m, 1e3), round(y_m, 1e3), round(heading_deg, 1e6)];
+    format!("{{ x_m = {x_m}, y_m = {y_m}, z_m = 400, speed_mps = {SPEED_MPS}, heading_deg = {heading_deg} }}")
+}
+
+fn round(value: f64, per_unit: f64) -> f64 {
+    (value * per_unit).round() / per_unit + 0.0
+}
+
+pub fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Nobody has a conflict so soon after the start, or so late before the goal, that it could not be flown out of, s.
+const QUIET_S: f64 = 20.0;
+
+/// Do two straight flights keep twice the separation near both their ends?
+pub fn starts_and_ends_apart(a: &Way, b: &Way, separation_m: f64) -> bool {
+    let steps = 20;
+    (0..=steps).all(|step| {
+        let share = |way: &Way| QUIET_S * SPEED_MPS / way.length_m() * f64::from(step) / f64::from(steps);
+        let (of_a, of_b) = (share(a), share(b));
+        let [after_start, before_goal] =
+            [[of_a, of_b], [1.0 - of_a, 1.0 - of_b]].map(|[a_at, b_at]| distance_m(a.at(a_at), b.at(b_at)));
+        after_start > 2.0 * separation_m && before_goal > 2.0 * separation_m
+    })
+}
+
+const MODEL: &str = "
+[models.fixed-wing.scout]
+mass_kg = 20 # ours: the paper's point mass needs none
+body_radius_m = 1.5 # ours
+
+# Physical limits, ours: room for a tracker around the planning limits.
+[models.fixed-wing.scout.limits]
+altitude_m = [280, 520]
+speed_mps = [22, 50]
+flight_path_deg = [-12, 12]
+n_x = [-0.4, 0.4]
+n_y = [-0.5, 0.5]
+n_z = [0.6, 1.4]
+
+# Bounds of Wang, Xu, Long, Acta Automatica Sinica (2020), section 5.
+[models.fixed-wing.scout.planning_limits]
+altitude_m = [300, 500]
+speed_mps = [30, 40]
+flight_path_deg = [-5, 5]
+n_x = [-0.2, 0.2]
+n_y = [-0.2, 0.2]
+n_z = [0.8, 1.2]
+";

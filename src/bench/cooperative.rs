@@ -1,0 +1,132 @@
+//! `harness bench cooperative`: fleets of one to seven on two missions, with our interior-point method and with a general
+//! one (Wang, Xu, Long 2020, section 5, figures 11 to 18).
+
+mod show;
+
+use planners::scp::parallel::PLANNER;
+use scenarios::{PlannerSettings, Scenario, Solver};
+use serde::Serialize;
+
+use super::entry::{self, Ending, Entry};
+use crate::error::Error;
+use crate::metrics::PlanMetrics;
+pub use show::{markdown, text};
+
+/// The solvers, ours first.
+const SOLVERS: [(Solver, &str); 2] = [(Solver::Block, "block"), (Solver::Clarabel, "clarabel")];
+
+/// What is measured.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The missions with their largest fleet: smaller ones are its first vehicles.
+    pub missions: Vec<Scenario>,
+    /// Numbers of vehicles.
+    pub sizes: Vec<usize>,
+    /// Time limit of an entry, s.
+    pub limit_s: f64,
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Results {
+    /// Version of this form.
+    pub schema: u32,
+    /// Time limit of an entry, s.
+    pub limit_s: f64,
+    /// Threads that were at hand.
+    pub threads: usize,
+    /// One row per mission, size and solver.
+    pub rows: Vec<Row>,
+    /// Means over the sizes, one per mission and solver.
+    pub means: Vec<Mean>,
+}
+
+/// One fleet with one solver.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Scenario that the vehicles come from.
+    pub mission: String,
+    /// How many of its vehicles.
+    pub vehicles: usize,
+    /// Solver of the subproblems.
+    pub solver: &'static str,
+    /// How it ended.
+    pub ending: Ending,
+    /// Iterations of the planner.
+    pub iterations: Option<usize>,
+    /// Planning time, s.
+    pub planning_s: Option<f64>,
+    /// The paper's figures.
+    pub metrics: Option<PlanMetrics>,
+}
+
+/// Means over the fleets that have a plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct Mean {
+    /// Mission.
+    pub mission: String,
+    /// Solver.
+    pub solver: &'static str,
+    /// Mean flight time, s.
+    pub flight_time_s: Option<f64>,
+    /// Mean planning time, s.
+    pub planning_s: Option<f64>,
+    /// Mean over the sizes of Clarabel's planning time over this one's, -.
+    pub speedup: Option<f64>,
+}
+
+/// Measures everything in `plan`; `progress` is told what comes next.
+pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
+    let mut rows = Vec::new();
+    for mission in &plan.missions {
+        for &vehicles in &plan.sizes {
+            for (solver, name) in SOLVERS {
+                progress(&format!("{vehicles} vehicles of {} with {name}", mission.name));
+                rows.push(row(mission, vehicles, solver, name, plan.limit_s)?);
+            }
+        }
+    }
+    let means = plan.missions.iter().flat_map(|mission| SOLVERS.map(|(_, solver)| mean(&rows, &mission.name, solver)));
+    let means = means.collect();
+    Ok(Results { schema: 1, limit_s: plan.limit_s, threads: rayon::current_num_threads(), rows, means })
+}
+
+fn row(mission: &Scenario, vehicles: usize, solver: Solver, name: &'static str, limit_s: f64) -> Result<Row, Error> {
+    let mut fleet = mission.clone();
+    fleet.vehicles.truncate(vehicles);
+    // everything else is the paper's
+    fleet.planner =
+        PlannerSettings { name: PLANNER.name.to_owned(), solver: Some(solver), ..PlannerSettings::default() };
+    let Entry { ending, report } = entry::run(&fleet, PLANNER.name, limit_s)?;
+    Ok(Row {
+        mission: mission.name.clone(),
+        vehicles,
+        solver: name,
+        ending,
+        iterations: report.as_ref().map(|report| report.plan.iterations),
+        planning_s: report.as_ref().map(|report| report.plan.wall_s),
+        metrics: report.and_then(|report| report.metrics.plan),
+    })
+}
+
+fn mean(rows: &[Row], mission: &str, solver: &'static str) -> Mean {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.mission == mission && row.solver == solver).collect();
+    let baseline = |own: &Row| {
+        let other = rows
+            .iter()
+            .find(|row| row.mission == own.mission && row.vehicles == own.vehicles && row.solver == SOLVERS[1].1);
+        other.and_then(|other| Some(other.planning_s? / own.planning_s?))
+    };
+    Mean {
+        mission: mission.to_owned(),
+        solver,
+        flight_time_s: average(own.iter().filter_map(|row| row.metrics.as_ref()?.flight_time_s)),
+        planning_s: average(own.iter().filter_map(|row| row.planning_s)),
+        speedup: average(own.iter().filter_map(|row| baseline(row))),
+    }
+}
+
+fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
+    (count > 0).then(|| sum / f64::from(count))
+}

@@ -1,0 +1,144 @@
+//! `harness bench fleets`: the ways to decouple a fleet side by side, over fleets of several sizes, and how the cost of
+//! ours grows with the fleet (Xu, Wang, Cao, Sun, Long 2022, figures 8 and 9, section 4).
+
+mod show;
+
+use scenarios::Scenario;
+use serde::Serialize;
+
+use super::entry::{self, Ending, Entry};
+use crate::error::Error;
+pub use show::{markdown, text};
+
+/// The planners, in the paper's order, ours last.
+const PLANNERS: [&str; 5] = ["coupled-scp", "serial-scp", "parallel-scp", "dpd-scp", OURS];
+
+/// Our own.
+const OURS: &str = "fleet-scp";
+
+/// What is measured.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Scenario and numbers of vehicles: the first so many of it.
+    pub missions: Vec<(Scenario, Vec<usize>)>,
+    /// Scenario whose first n vehicles have the same density for every n, and the numbers n.
+    pub growth: Option<(Scenario, Vec<usize>)>,
+    /// Time limit of an entry, s.
+    pub limit_s: f64,
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Results {
+    /// Version of this form.
+    pub schema: u32,
+    /// Time limit of an entry, s.
+    pub limit_s: f64,
+    /// Threads that were at hand.
+    pub threads: usize,
+    /// One row per mission, size and planner.
+    pub rows: Vec<Row>,
+    /// The same for our planner at constant density.
+    pub growth: Vec<Row>,
+}
+
+/// One entry.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Scenario that the vehicles come from.
+    pub scenario: String,
+    /// How many of its vehicles.
+    pub vehicles: usize,
+    /// The planner.
+    pub planner: &'static str,
+    /// How it ended.
+    pub ending: Ending,
+    /// What was measured; nothing if the time limit came first.
+    #[serde(flatten)]
+    pub measured: Option<Measured>,
+}
+
+/// Figures of an entry. Distances are absent where there is no plan, or nothing to measure.
+#[derive(Clone, Debug, Serialize)]
+pub struct Measured {
+    /// What the planner says of its plan.
+    pub status: scenarios::PlanStatus,
+    /// Iterations.
+    pub iterations: usize,
+    /// Planning time, s.
+    pub wall_s: f64,
+    /// Sum over the iterations of the slowest vehicle's time, s.
+    pub distributed_s: f64,
+    /// Planning time per vehicle and iteration, s.
+    pub per_vehicle_and_iteration_s: f64,
+    /// Flight time, s.
+    pub flight_time_s: Option<f64>,
+    /// Smallest separation at the nodes, of the plan, in flight, m.
+    pub separation_m: [Option<f64>; 3],
+    /// Largest defect of an interval by the judge's integration, m.
+    pub defect_m: Option<f64>,
+    /// End error of the plan's controls flown open loop, m.
+    pub rollout_m: Option<f64>,
+    /// Simulation and judging, s.
+    pub flight_and_verdict_s: f64,
+}
+
+/// Measures everything in `plan`; `progress` is told what comes next.
+pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
+    let mut results = Results {
+        schema: 1,
+        limit_s: plan.limit_s,
+        threads: rayon::current_num_threads(),
+        rows: Vec::new(),
+        growth: Vec::new(),
+    };
+    for (scenario, sizes) in &plan.missions {
+        for &vehicles in sizes {
+            for planner in PLANNERS {
+                results.rows.push(row(scenario, vehicles, planner, plan.limit_s, progress)?);
+            }
+        }
+    }
+    if let Some((scenario, sizes)) = &plan.growth {
+        for &vehicles in sizes {
+            results.growth.push(row(scenario, vehicles, OURS, plan.limit_s, progress)?);
+        }
+    }
+    Ok(results)
+}
+
+fn row(
+    scenario: &Scenario,
+    vehicles: usize,
+    planner: &'static str,
+    limit_s: f64,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Row, Error> {
+    progress(&format!("{planner} on {vehicles} vehicles of {}", scenario.name));
+    let mut fleet = scenario.clone();
+    fleet.vehicles.truncate(vehicles);
+    let Entry { ending, report } = entry::run(&fleet, planner, limit_s)?;
+    let measured = report.map(|report| {
+        let check = |name: &str| report.checks.iter().find(|check| check.name == name).and_then(|check| check.value);
+        let of_plan = report.metrics.plan.as_ref();
+        let in_flight = report.metrics.flight.as_ref();
+        let rounds = report.plan.iterations.max(1) * vehicles;
+        Measured {
+            status: report.plan.status,
+            iterations: report.plan.iterations,
+            wall_s: report.plan.wall_s,
+            distributed_s: report.plan.distributed_s,
+            per_vehicle_and_iteration_s: report.plan.wall_s / rounds as f64,
+            flight_time_s: report.plan.flight_time_s,
+            separation_m: [
+                of_plan.and_then(|plan| plan.at_nodes.separation_m),
+                of_plan.and_then(|plan| plan.between_nodes.separation_m),
+                in_flight.and_then(|flight| flight.distances.separation_m),
+            ],
+            defect_m: check("plan.dynamics"),
+            rollout_m: check("plan.rollout"),
+            flight_and_verdict_s: report.timings.flying_s + report.timings.judging_s,
+        }
+    });
+    Ok(Row { scenario: scenario.name.clone(), vehicles, planner, ending, measured })
+}
