@@ -1,9 +1,15 @@
 //! The command line.
 
 mod bench;
+mod check;
+mod compare;
+mod completions;
 mod list;
+mod plan;
 mod run;
 mod schema;
+mod selection;
+mod session;
 
 use clap::{Parser, Subcommand};
 
@@ -21,12 +27,14 @@ const EXAMPLES: &str = "\
 Examples:
   harness list                      what there is: scenarios and planners
   harness run                       every scenario, each with the planner that it names
-  harness run scenarios/fixed-wing  those of one folder
-  harness schema scenario           the form of a scenario file, for an editor that completes and checks
+  harness run --name 'rendezvous-*' those whose names match
+  harness check SCENARIO --plan my-plan.csv
+                                    fly and judge a plan that was made elsewhere
+  harness compare out/old out/new   what got worse
 
 Exit codes:
   0    every verdict passed
-  1    some verdict failed, or no plan was found
+  1    some verdict failed, no plan was found, or a comparison shows a loss
   2    bad usage, bad input, or trouble with files; good scenarios beside bad ones are still run
   101  a bug in the harness
   130  stopped by ctrl-C";
@@ -34,9 +42,15 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Check(check::Check),
+    Plan(plan::PlanCommand),
     List(list::List),
-    Schema(schema::Schema),
+    Compare(compare::Compare),
+    Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
+    Schema(schema::Schema),
+    Completions(completions::Completions),
+    Man(completions::Man),
 }
 
 impl Cli {
@@ -44,9 +58,15 @@ impl Cli {
     pub fn execute(&self) -> Result<Exit, Error> {
         match &self.command {
             Command::Run(run) => run.execute(),
+            Command::Check(check) => check.execute(),
+            Command::Plan(plan) => plan.execute(),
             Command::List(list) => list.execute(),
-            Command::Schema(schema) => schema.execute(),
+            Command::Compare(compare) => compare.execute(),
+            Command::Baseline(baseline) => baseline.execute(),
             Command::Bench(bench) => bench.execute(),
+            Command::Schema(schema) => schema.execute(),
+            Command::Completions(completions) => completions.execute(),
+            Command::Man(man) => man.execute(),
         }
     }
 }

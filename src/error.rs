@@ -3,10 +3,11 @@
 //! Findings about a plan (no plan, a failed check, a crash) are no errors: they are data in a verdict. A bug is a panic,
 //! which ends the process with 101. What is left is bad input and trouble with the environment: the errors of this file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use miette::Diagnostic;
+use scenarios::plan_input::PlanError;
 use scenarios::{FindError, LoadError};
 use thiserror::Error;
 
@@ -49,6 +50,44 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Load(#[from] LoadError),
+    /// A file is no plan for its scenario.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Plan(#[from] PlanError),
+    /// Tags and names leave nothing over.
+    #[error("no scenario matches {options}")]
+    #[diagnostic(help("`harness list` shows names and tags"))]
+    NothingSelected {
+        /// What was asked for.
+        options: String,
+    },
+    /// `--planner-command` is no command.
+    #[error("--planner-command: found `{command}`, expected a program and its arguments, quoted as in a shell")]
+    PlannerCommand {
+        /// What was given.
+        command: String,
+    },
+    /// `harness plan` with several planners.
+    #[error("one planner makes one plan: --planner was given more than once")]
+    OnePlanner,
+    /// `harness plan --output` with an unknown ending.
+    #[error("{}: a plan is written as .json or .csv", path.display())]
+    #[diagnostic(help("`-o plan.csv`, or `-o -` for JSON on standard output"))]
+    PlanForm {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Results of an earlier run cannot be read.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(help(
+        "expected a folder that `harness run` wrote (`out`), a report.json, or a file of `harness baseline accept`"
+    ))]
+    Results {
+        /// The file or folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// `--planner` names none.
     #[error("--planner {name}: there is no planner of that name, expected one of {known}")]
     #[diagnostic(help("{remedy}"))]
@@ -71,10 +110,15 @@ pub enum Error {
         /// Why.
         reason: String,
     },
-    /// `--record rrd` without the library for it.
-    #[error("--record rrd: this harness was built without the rerun recording")]
-    #[diagnostic(help("build it with `--features rrd` (on by default), or ask for `--record none`"))]
-    RecordingNotBuilt,
+    /// `--record` with a format that was left out of this build.
+    #[error("--record {format}: this harness was built without the {what}")]
+    #[diagnostic(help("build it with `--features {format}` (on by default), or ask for `--record none`"))]
+    RecordingNotBuilt {
+        /// As on the command line.
+        format: &'static str,
+        /// In words.
+        what: &'static str,
+    },
     /// The worker threads could not be started.
     #[error("--jobs {jobs}: cannot start the worker threads: {reason}")]
     Threads {
@@ -107,6 +151,11 @@ pub enum Error {
 }
 
 impl Error {
+    /// Results of an earlier run that cannot be read.
+    pub(crate) fn results(path: &Path, reason: String) -> Self {
+        Self::Results { path: path.to_owned(), reason }
+    }
+
     /// Tells the user, on standard error.
     pub fn print(self) {
         crate::output::tell(&format!("{:?}", miette::Report::new(self)));

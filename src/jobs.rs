@@ -5,15 +5,19 @@ use std::path::{Path, PathBuf};
 use planners::Planner;
 use scenarios::{Problem, Scenario, Source, nearest};
 
+use crate::author::Author;
 use crate::error::Error;
+use crate::outside::OutsidePlanner;
 
 /// One scenario for one planner.
 #[derive(Clone)]
 pub struct Job {
     /// The question.
     pub scenario: Scenario,
+    /// The file that it stands in.
+    pub source: Source,
     /// Who answers.
-    pub planner: &'static Planner,
+    pub author: Author,
     /// Seed of everything random in planning and flight.
     pub seed: u64,
 }
@@ -37,18 +41,21 @@ pub struct Refusal {
 }
 
 /// The planners of these names. An unknown name is an error, since nothing that was asked for can be done then.
-pub fn planners_named(names: &[String]) -> Result<Vec<&'static Planner>, Error> {
-    names.iter().map(|name| planners::find(name).ok_or_else(|| unknown_planner(name))).collect()
+pub fn planners_named(names: &[String]) -> Result<Vec<Author>, Error> {
+    let named = |name: &String| planners::find(name).map(Author::Registered).ok_or_else(|| unknown_planner(name));
+    names.iter().map(named).collect()
 }
 
-/// Loads every file and pairs its scenario with `planners`, or with the planner that it names if there are none.
+/// Loads every file and pairs its scenario with `authors`, or with the planner that it names if there are none.
 ///
 /// - `seed`: replaces the scenarios' own
-pub fn load(files: &[PathBuf], planners: &[&'static Planner], seed: Option<u64>) -> Jobs {
+/// - `is_wanted`: scenarios for which it is false are left out; a bad file always shows
+pub fn load(files: &[PathBuf], authors: &[Author], seed: Option<u64>, is_wanted: impl Fn(&Scenario) -> bool) -> Jobs {
     let mut jobs = Jobs::default();
     for file in files {
-        match load_file(file, planners, seed) {
-            Ok(pairs) => pairs.into_iter().for_each(|pair| match pair {
+        match load_file(file, seed) {
+            Ok((_, scenario)) if !is_wanted(&scenario) => {}
+            Ok((source, scenario)) => pair(file, &source, &scenario, authors).into_iter().for_each(|pair| match pair {
                 Ok(job) => jobs.good.push(job),
                 Err(error) => jobs.bad.push(Refusal { file: file.clone(), error }),
             }),
@@ -58,32 +65,70 @@ pub fn load(files: &[PathBuf], planners: &[&'static Planner], seed: Option<u64>)
     jobs
 }
 
-fn load_file(file: &Path, planners: &[&'static Planner], seed: Option<u64>) -> Result<Vec<Result<Job, Error>>, Error> {
+/// Loads one file.
+///
+/// - `seed`: replaces the scenario's own
+pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(Source, Scenario), Error> {
     let source = Source::read(file)?;
     let mut scenario = source.scenario()?;
     scenario.simulation.seed = seed.unwrap_or(scenario.simulation.seed);
-    if planners.is_empty() {
-        let planner = named_by_scenario(&source, &scenario)?;
-        return Ok(vec![Ok(Job { seed: scenario.simulation.seed, scenario, planner })]);
-    }
-    let pair = |planner: &&'static Planner| match (planner.refuses)(&scenario) {
-        Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
-        None => Ok(Job { scenario: scenario.clone(), planner, seed: scenario.simulation.seed }),
+    Ok((source, scenario))
+}
+
+/// One job per author, or that of the planner which the scenario names.
+fn pair(file: &Path, source: &Source, scenario: &Scenario, authors: &[Author]) -> Vec<Result<Job, Error>> {
+    let job = |author: Author| Job {
+        seed: scenario.simulation.seed,
+        scenario: scenario.clone(),
+        source: source.clone(),
+        author,
     };
-    Ok(planners.iter().map(pair).collect())
+    if authors.is_empty() {
+        return vec![named_by_scenario(file, source, scenario).map(job)];
+    }
+    let fitting = |author: &Author| match author {
+        Author::Registered(planner) => match (planner.refuses)(scenario) {
+            Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
+            None => Ok(job(author.clone())),
+        },
+        _ => Ok(job(author.clone())),
+    };
+    authors.iter().map(fitting).collect()
 }
 
 /// The planner that the scenario names; if that cannot be, an error that points to the line.
-fn named_by_scenario(source: &Source, scenario: &Scenario) -> Result<&'static Planner, Error> {
+fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Result<Author, Error> {
     let name = &scenario.planner.name;
     let problem = |expected: String, remedy: String| {
         source.error(vec![Problem::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])
     };
+    if let Some(command) = &scenario.planner.command {
+        if planners::find(name).is_some() {
+            let expected = "a name of its own for a planner with a `command`: this is one of the harness's";
+            return Err(problem(expected.into(), "rename it, or remove `command`".into()).into());
+        }
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let (name, command, folder) = (name.clone(), command.clone(), folder.to_owned());
+        return Ok(Author::Outside(OutsidePlanner {
+            name,
+            command,
+            folder,
+            time_limit_s: scenario.planner.time_limit_s,
+        }));
+    }
     let Some(planner) = planners::find(name) else {
         return Err(problem(format!("the name of a planner: {}", known_planners()), remedy_for(name)).into());
     };
+    refuse_unfit(planner, scenario, problem).map(|()| Author::Registered(planner))
+}
+
+fn refuse_unfit(
+    planner: &Planner,
+    scenario: &Scenario,
+    problem: impl Fn(String, String) -> scenarios::LoadError,
+) -> Result<(), Error> {
     match (planner.refuses)(scenario) {
-        None => Ok(planner),
+        None => Ok(()),
         Some(reason) => {
             let expected = format!("a planner that can handle this scenario: {reason}");
             Err(problem(expected, "`harness list` shows what each planner handles".into()).into())
@@ -102,6 +147,6 @@ fn known_planners() -> String {
 fn remedy_for(name: &str) -> String {
     match nearest(name, planners::registry().iter().map(|entry| entry.name)) {
         Some(known) => format!("did you mean `{known}`?"),
-        None => "`harness list` shows the planners".into(),
+        None => "`harness list` shows the planners; one of your own is a `command`, see `harness run --help`".into(),
     }
 }

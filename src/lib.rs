@@ -4,15 +4,23 @@
 //! scenario file -> Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
 //! ```
 
+pub mod author;
 pub mod bench;
 pub mod cli;
+pub mod compare;
+#[cfg(all(test, unix))]
+#[path = "../scenarios/tests/damage/mod.rs"]
+mod damage;
 pub mod error;
+mod export;
 mod jobs;
 pub mod metrics;
 pub mod notation;
 mod output;
+pub mod outside;
 mod pipeline;
 mod progress;
 pub mod record;
 pub mod report;
+pub mod submitted;
 pub mod verdict;

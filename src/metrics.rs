@@ -5,6 +5,7 @@
 
 mod over_time;
 mod slung_load;
+pub mod trajectory_error;
 
 use scenarios::fixed_wing::Trajectory;
 use scenarios::{Family, Plan, Scenario};
@@ -12,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{Flight, Sample};
 
+use self::trajectory_error::VehicleErrors;
 use crate::verdict::{self, Flown, Motion, Planned};
 
 pub use over_time::{Nearest, clearance_over_time, separation_over_time};
@@ -29,6 +31,9 @@ pub struct Metrics {
     /// Of a quadrotor with a slung load, in the place of the two above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slung_load: Option<SlungLoadMetrics>,
+    /// Pose errors by the definitions of evo, per vehicle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pose_errors: Vec<VehicleErrors>,
 }
 
 /// Figures of the plan, at its nodes unless said otherwise. A figure that is absent could not be measured.
@@ -89,14 +94,17 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
     if verdict::is_flyable(scenario, plan).is_err() {
         return Metrics::default();
     }
+    let pose_errors = flight.map(trajectory_error::of_fleet).unwrap_or_default();
     if scenario.family() == Family::SlungLoad {
-        return Metrics { slung_load: Some(slung_load::measure(scenario, plan, flight)), ..Metrics::default() };
+        let slung_load = Some(slung_load::measure(scenario, plan, flight));
+        return Metrics { slung_load, pose_errors, ..Metrics::default() };
     }
     let flown = flight.and_then(|flight| Flown::new(scenario, plan, flight).ok());
     Metrics {
         plan: Some(of_plan(scenario, plan)),
         flight: flown.map(|flown| of_flight(scenario, &flown)),
         slung_load: None,
+        pose_errors,
     }
 }
 

@@ -10,44 +10,65 @@ use std::time::Instant;
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
+use crate::author::{Author, HandedOver};
 use crate::error::Error;
+use crate::export::tum;
 use crate::jobs::Job;
 use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
 use crate::report::{Report, Timings};
 use crate::{metrics, output, verdict};
 
+/// What an outside planner wrote to its standard error.
+const PLANNER_LOG: &str = "planner.log";
 /// Names of the recordings that a result folder may hold.
-const RECORDINGS: [&str; 1] = ["flight.rrd"];
+const RECORDINGS: [&str; 2] = ["flight.rrd", "flight.mcap"];
+
+/// What is written beside plan and report.
+pub struct Outputs {
+    /// The recordings.
+    pub recorders: Vec<Box<dyn Recorder>>,
+    /// Planned and flown paths as TUM files?
+    pub tum: bool,
+}
+
+/// What a job brought.
+pub struct Done {
+    /// Everything that was measured.
+    pub report: Report,
+    /// What an outside planner wrote to its standard error.
+    pub log: Option<String>,
+}
 
 /// Plans, flies, judges, records and reports one job into `folder`, which is made if it is not there.
-pub fn run(
-    job: &Job,
-    recorders: &[Box<dyn Recorder>],
-    folder: &Path,
-    progress: &mut Progress,
-) -> Result<Report, Error> {
+pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<Done, Error> {
     let mut timings = Timings::default();
-    let plan = timed(&mut timings.planning_s, || plan(job, progress));
-    let flight = timed(&mut timings.flying_s, || fly(job, &plan, progress));
+    let HandedOver { answer, log } = timed(&mut timings.planning_s, || plan(job, progress));
+    let plan = &answer.plan;
+    let flight = timed(&mut timings.flying_s, || fly(job, plan, progress));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
-            || verdict::judge(&job.scenario, &plan, flight.as_ref()),
-            || metrics::measure(&job.scenario, &plan, flight.as_ref()),
+            || verdict::judge_given(&job.scenario, plan, &answer.given, flight.as_ref()),
+            || metrics::measure(&job.scenario, plan, flight.as_ref()),
         )
     });
     output::create_folder(folder)?;
-    let run = Run { scenario: &job.scenario, plan: &plan, flight: flight.as_ref(), verdict: &verdict };
-    timed(&mut timings.recording_s, || record(&run, recorders, folder, progress))?;
-    let report = Report::new(&plan, verdict, metrics, timings);
-    write(&plan, &report, folder)?;
-    Ok(report)
+    let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict };
+    timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
+    export(flight.as_ref(), outputs, folder)?;
+    let report = Report::new(&answer, verdict, metrics, timings);
+    write_log(log.as_deref(), folder)?;
+    write(plan, &report, folder)?;
+    Ok(Done { report, log })
 }
 
-fn plan(job: &Job, progress: &mut Progress) -> Plan {
-    progress.planning();
-    job.planner.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
+/// The plan alone, without flying it.
+pub fn plan(job: &Job, progress: &mut Progress) -> HandedOver {
+    if !matches!(job.author, Author::Submitted(_)) {
+        progress.planning();
+    }
+    job.author.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
 }
 
 /// No flight if there is nothing that could be flown; the judge says why.
@@ -70,6 +91,22 @@ fn record(run: &Run<'_>, recorders: &[Box<dyn Recorder>], folder: &Path, progres
         record::record(recorder.as_ref(), run, folder)?;
     }
     Ok(())
+}
+
+fn export(flight: Option<&Flight>, outputs: &Outputs, folder: &Path) -> Result<(), Error> {
+    match flight.filter(|_| outputs.tum) {
+        Some(flight) => tum::write(flight, folder),
+        None => tum::remove_stale(folder),
+    }
+}
+
+/// What an outside planner said, or the removal of what an earlier one did.
+fn write_log(log: Option<&str>, folder: &Path) -> Result<(), Error> {
+    let path = folder.join(PLANNER_LOG);
+    match log.filter(|log| !log.is_empty()) {
+        Some(log) => output::write_file(&path, |writer| writer.write_all(log.as_bytes())),
+        None => output::remove_stale(&path),
+    }
 }
 
 fn write(plan: &Plan, report: &Report, folder: &Path) -> Result<(), Error> {

@@ -13,6 +13,12 @@ use crate::error::Error;
 use crate::output;
 use crate::verdict::Verdict;
 
+#[cfg(any(feature = "mcap", feature = "rrd"))]
+mod colours;
+#[cfg(any(feature = "mcap", feature = "rrd"))]
+mod events;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 #[cfg(feature = "rrd")]
 pub mod rrd;
 
@@ -43,6 +49,13 @@ pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<P
     let path = folder.join(recorder.file_name());
     output::replace_file(&path, |partial| recorder.write(run, partial))?;
     Ok(path)
+}
+
+/// Can a viewer draw a vehicle from this sample?
+#[cfg(any(feature = "mcap", feature = "rrd"))]
+fn is_drawable(sample: &sim::Sample) -> bool {
+    let attitude_norm: f64 = sample.world_from_body.iter().map(|q| q * q).sum();
+    sample.t_s.is_finite() && sample.position_m.iter().all(|p| p.is_finite()) && (0.5..2.0).contains(&attitude_norm)
 }
 
 #[cfg(test)]

@@ -1,19 +1,25 @@
 //! What a run tells: `report.json` for one job, the summary of all of them, and both for people to read.
 
+pub mod comparison;
+pub mod github;
 mod headline;
+pub mod json_lines;
+pub mod junit;
+mod limit_field;
 mod markdown;
 mod summary;
 pub mod table;
 pub mod terminal;
 
-use scenarios::{Alternative, Plan, PlanStatus, PlannedEvent};
+use scenarios::{Alternative, PlanStatus, PlannedEvent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use summary::{RefusedFile, Summary, SummaryRun};
 
 use crate::metrics::Metrics;
-use crate::verdict::{Check, Outcome, Verdict};
+use crate::submitted::Answer;
+use crate::verdict::{Check, Outcome, Reconstruction, Verdict};
 
 /// Version of the form of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
@@ -51,7 +57,7 @@ pub struct Report {
 /// A plan without its trajectories.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PlanSummary {
-    /// What the planner says of its plan: `solved`, `not-converged` or `no-plan`. The judge does not ask.
+    /// What the planner says of its plan: `solved`, `not-converged`, `no-plan`, or `unstated`. The judge does not ask.
     #[schemars(with = "String")]
     pub status: PlanStatus,
     /// Why the status is not `solved`.
@@ -67,6 +73,9 @@ pub struct PlanSummary {
     pub flight_time_s: Option<f64>,
     /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
     pub objective: Option<f64>,
+    /// What the plan did not give and was reconstructed, and how well.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reconstruction: Option<Reconstruction>,
     /// What the plan foresees, in time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventSummary>,
@@ -118,7 +127,8 @@ impl Timings {
 
 impl Report {
     /// The report on a plan that was judged.
-    pub fn new(plan: &Plan, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
+    pub fn new(answer: &Answer, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
+        let plan = &answer.plan;
         Self {
             schema: SCHEMA,
             harness: env!("CARGO_PKG_VERSION").to_owned(),
@@ -128,7 +138,7 @@ impl Report {
             verdict: verdict.outcome,
             overclaimed: verdict.overclaimed,
             checks: verdict.checks,
-            plan: PlanSummary::new(plan),
+            plan: PlanSummary::new(answer),
             metrics,
             timings,
         }
@@ -136,7 +146,8 @@ impl Report {
 }
 
 impl PlanSummary {
-    fn new(plan: &Plan) -> Self {
+    fn new(answer: &Answer) -> Self {
+        let plan = &answer.plan;
         Self {
             status: plan.status,
             reason: plan.reason.clone(),
@@ -147,6 +158,7 @@ impl PlanSummary {
             objective: plan.objective,
             events: plan.account.events.iter().map(EventSummary::new).collect(),
             alternatives: plan.account.alternatives.iter().map(AlternativeSummary::new).collect(),
+            reconstruction: answer.given.reconstruction.clone(),
         }
     }
 }

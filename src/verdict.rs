@@ -11,6 +11,7 @@ mod compare;
 mod dynamics;
 mod flight_integrity;
 mod flown;
+mod given;
 mod integrity;
 mod judge;
 mod limits;
@@ -33,8 +34,9 @@ pub use arrival::duration_s as flown_duration_s;
 pub use clearance::at_nodes as clearance_at_nodes;
 pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
 pub use flown::{Flown, FlownVehicle};
+pub use given::{Given, Reconstruction};
 pub use integrity::is_flyable;
-pub use judge::judge;
+pub use judge::{judge, judge_given};
 pub use motion::{Knot, Motion};
 pub use planned::Planned;
 pub use separation::at_nodes as separation_at_nodes;
@@ -57,8 +59,8 @@ pub struct Verdict {
     pub checks: Vec<Check>,
 }
 
-/// The whole verdict in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+/// The whole verdict in one word, from the best to the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Every deciding check passed.

@@ -15,6 +15,7 @@ mod models;
 mod nearest;
 mod plan;
 mod plan_file;
+pub mod plan_input;
 mod planner_settings;
 mod problem;
 mod random;

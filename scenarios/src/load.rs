@@ -45,6 +45,18 @@ impl Source {
         Ok(Self::new(path.display().to_string(), text))
     }
 
+    /// The file, as the user named it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Line, from 1, on which the value of `field` stands; `None` if the file leaves it to its default.
+    pub fn line_of(&self, field: &str) -> Option<usize> {
+        let tree = DeTable::parse(&self.text).ok()?;
+        let span = position::exact_span(tree.get_ref(), field)?;
+        Some(position::line_and_column(&self.text, span.start).0)
+    }
+
     /// The scenario in this file. All faults of the file are reported together, as far as they can be told apart: a
     /// text that is no TOML says nothing about fields, and without a field that must be there (or with one of the wrong
     /// kind) there is no scenario yet whose values could be judged.

@@ -53,6 +53,8 @@ pub enum PlanStatus {
     NotConverged,
     /// Nothing that could be flown.
     NoPlan,
+    /// Nothing: the plan was read from a table, which says nothing of itself.
+    Unstated,
 }
 
 impl std::fmt::Display for PlanStatus {
@@ -61,6 +63,7 @@ impl std::fmt::Display for PlanStatus {
             Self::Solved => "solved",
             Self::NotConverged => "not converged",
             Self::NoPlan => "no plan",
+            Self::Unstated => "not stated",
         })
     }
 }

@@ -1,5 +1,7 @@
 mod collocation;
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,8 +12,18 @@ pub use collocation::{Collocation, Objective, Shape};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlannerSettings {
-    /// Name of the planner.
+    /// Name of the planner. With a `command`, any name: results go into a folder of that name.
     pub name: String,
+    /// A planner outside the harness: program and arguments. It reads one JSON request from its standard input and writes
+    /// one JSON reply to its standard output. It is started in the folder of the scenario file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<Vec<String>>,
+    /// Time after which a planner with a `command` is ended, s. [default: 60]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_limit_s: Option<f64>,
+    /// Options of a planner with a `command`, handed over as they are.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub options: BTreeMap<String, serde_json::Value>,
     /// How the equations of motion become rows of the subproblem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transcription: Option<Transcription>,

@@ -54,7 +54,7 @@ pub struct VerdictLimits {
 }
 
 /// [`VerdictLimits`] with a figure for each: what a judge compares with.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AppliedLimits {
     /// Distance from the plan, m.
     pub tracking_max_m: f64,

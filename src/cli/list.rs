@@ -1,42 +1,57 @@
-use std::path::PathBuf;
-
 use clap::Args;
 use comfy_table::Table;
 use scenarios::Scenario;
+use serde_json::{Value, json};
 
+use super::selection::Selection;
 use crate::error::{Error, Exit};
 use crate::output;
 use crate::report::table;
 
 /// Show the scenarios and the planners, and what each planner claims to handle.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  harness list\n  harness list scenarios/fixed-wing")]
+#[command(
+    after_help = "Examples:\n  harness list\n  harness list --tag wind\n  harness list --json | jq '.scenarios[].name'"
+)]
 pub struct List {
-    /// Scenario files, or folders that are searched for *.toml to the bottom
-    #[arg(value_name = "PATH", default_value = "scenarios")]
-    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    selection: Selection,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    json: bool,
 }
 
 impl List {
     /// Prints both tables; files that are no scenarios are named.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let (good, bad): (Vec<_>, Vec<_>) =
-            scenarios::find(&self.paths)?.iter().map(|file| scenarios::load(file)).partition(Result::is_ok);
-        let good: Vec<Scenario> = good.into_iter().flatten().collect();
-        output::print(&format!(
-            "Scenarios\n{}\n\nPlanners\n{}",
-            scenario_table(&good).trim_fmt(),
-            planner_table().trim_fmt()
-        ))?;
+        let (mut good, mut bad) = (Vec::new(), Vec::new());
+        for file in self.selection.files()? {
+            match scenarios::load(&file) {
+                Ok(scenario) if self.selection.is_wanted(&scenario) => {
+                    good.push((file.display().to_string(), scenario));
+                }
+                Ok(_) => {}
+                Err(error) => bad.push(error),
+            }
+        }
+        if good.is_empty() && bad.is_empty() {
+            return Err(self.selection.nothing());
+        }
+        if self.json {
+            output::print(&format!("{:#}", as_json(&good)))?;
+        } else {
+            let (scenarios, planners) = (scenario_table(&good), planner_table());
+            output::print(&format!("Scenarios\n{}\n\nPlanners\n{}", scenarios.trim_fmt(), planners.trim_fmt()))?;
+        }
         let exit = if bad.is_empty() { Exit::Passed } else { Exit::BadInput };
-        bad.into_iter().filter_map(Result::err).for_each(|error| Error::from(error).print());
+        bad.into_iter().for_each(|error| Error::from(error).print());
         Ok(exit)
     }
 }
 
-fn scenario_table(scenarios: &[Scenario]) -> Table {
+fn scenario_table(scenarios: &[(String, Scenario)]) -> Table {
     let mut table = table::with_header(&["name", "vehicles", "planner", "tags", "description"], &[1]);
-    for scenario in scenarios {
+    for (_, scenario) in scenarios {
         table.add_row([
             scenario.name.clone(),
             scenario.vehicles.len().to_string(),
@@ -54,4 +69,29 @@ fn planner_table() -> Table {
         table.add_row([planner.name, planner.handles, planner.summary]);
     }
     table
+}
+
+/// Everything that the tables show, the files, and which planners handle which scenario.
+fn as_json(scenarios: &[(String, Scenario)]) -> Value {
+    let handled_by = |scenario: &Scenario| -> Vec<&str> {
+        let fitting = planners::registry().iter().filter(|planner| (planner.refuses)(scenario).is_none());
+        fitting.map(|planner| planner.name).collect()
+    };
+    let scenario = |(file, scenario): &(String, Scenario)| {
+        json!({
+            "name": scenario.name,
+            "file": file,
+            "description": scenario.description,
+            "tags": scenario.tags,
+            "vehicles": scenario.vehicles.len(),
+            "planner": scenario.planner.name,
+            "command": scenario.planner.command,
+            "handled_by": handled_by(scenario),
+        })
+    };
+    let planner = |planner: &planners::Planner| json!({ "name": planner.name, "handles": planner.handles, "summary": planner.summary });
+    json!({
+        "scenarios": scenarios.iter().map(scenario).collect::<Vec<_>>(),
+        "planners": planners::registry().iter().map(planner).collect::<Vec<_>>(),
+    })
 }

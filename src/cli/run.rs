@@ -1,13 +1,13 @@
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
+use super::selection::Selection;
+use super::session::Session;
+use crate::author::Author;
 use crate::error::{Error, Exit};
-use crate::jobs::{self, Job};
-use crate::progress::Progress;
-use crate::record::Recorder;
-use crate::report::{Summary, terminal};
-use crate::{output, pipeline};
+use crate::jobs;
+use crate::outside::OutsidePlanner;
 
 /// Plan, fly, judge and record scenarios.
 ///
@@ -17,108 +17,87 @@ use crate::{output, pipeline};
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Run {
-    /// Scenario files, or folders that are searched for *.toml to the bottom
-    #[arg(value_name = "PATH", default_value = "scenarios")]
-    paths: Vec<PathBuf>,
-    /// Planner to use instead of the one that the scenario names; repeat it to run several
-    #[arg(short, long = "planner", value_name = "NAME")]
-    planners: Vec<String>,
-    /// Folder for the results
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Recordings to write, separated by commas
-    #[arg(long, value_name = "FORMAT", value_delimiter = ',', default_value = DEFAULT_RECORDING)]
-    record: Vec<Recording>,
+    #[command(flatten)]
+    selection: Selection,
+    #[command(flatten)]
+    author: AuthorArgs,
     /// Seed of everything random, instead of the scenario's own
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Number of worker threads [default: one per core]; results do not depend on it
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    /// Print nothing but errors; the exit code and the files tell the rest
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    session: Session,
+}
+
+/// Who plans instead of the planner that a scenario names.
+#[derive(Args, Debug)]
+pub struct AuthorArgs {
+    /// Planner to use instead of the one that the scenario names; repeat it to run several
+    #[arg(short, long = "planner", value_name = "NAME")]
+    planners: Vec<String>,
+    /// Planner of your own: a program with its arguments, which reads a JSON request and writes a JSON reply
+    #[arg(long, value_name = "COMMAND", conflicts_with = "planners")]
+    planner_command: Option<String>,
+    /// Time that your planner has, s [default: 60]
+    #[arg(long, value_name = "S", requires = "planner_command", value_parser = seconds)]
+    time_limit: Option<f64>,
 }
 
 const EXAMPLES: &str = "\
 Examples:
   harness run scenarios/fixed-wing/rendezvous-7.toml    one scenario
   harness run -p parallel-scp --seed 3 -o out/seed-3    another planner, another seed, another folder
-  harness run --record none -q                          verdicts only, as in continuous integration
+  harness run --tag ci --record none -q                 verdicts only, as in continuous integration
+  harness run --name 'rendezvous-*' --baseline baseline.json
+  harness run --name rendezvous-1 --planner-command 'python3 my_planner.py'
 
 Results:
-  out/<scenario>/<planner>/report.json           every check with value, limit and margin
-  out/<scenario>/<planner>/flight.rrd            the recording, for the rerun viewer
-  out/<scenario>/<planner>/plan.json, plan.csv   the plan
-  out/summary.json, out/summary.md               the whole run";
+  out/<scenario>/<planner>/report.json                every check with value, limit and margin
+  out/<scenario>/<planner>/flight.rrd, flight.mcap    the recording
+  out/<scenario>/<planner>/plan.json, plan.csv        the plan
+  out/summary.json, out/summary.md, out/junit.xml     the whole run
 
-const DEFAULT_RECORDING: &str = if cfg!(feature = "rrd") { "rrd" } else { "none" };
-
-/// Formats of recordings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Recording {
-    /// For the rerun viewer
-    Rrd,
-    /// No recording
-    None,
-}
+docs/outside-planners.md tells what a planner of your own reads and writes, docs/ci.md how to run this in CI.";
 
 impl Run {
     /// Runs everything that can be run, and names what cannot.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let recorders = recorders(&self.record)?;
-        let planners = jobs::planners_named(&self.planners)?;
-        let files = scenarios::find(&self.paths)?;
-        self.start_threads()?;
-        let jobs = jobs::load(&files, &planners, self.seed);
-        let mut summary = Summary::default();
-        for refusal in jobs.bad {
-            summary.refuse(&refusal);
-            refusal.error.print();
+        let authors = self.author.authors()?;
+        let files = self.selection.files()?;
+        let jobs = jobs::load(&files, &authors, self.seed, |scenario| self.selection.is_wanted(scenario));
+        if jobs.good.is_empty() && jobs.bad.is_empty() {
+            return Err(self.selection.nothing());
         }
-        for (index, job) in jobs.good.iter().enumerate() {
-            let mut progress = Progress::new(job, index + 1, jobs.good.len(), self.quiet);
-            let report = pipeline::run(job, &recorders, &result_folder(&self.out, job), &mut progress)?;
-            progress.finish();
-            self.show(&terminal::report(&report))?;
-            summary.add(&report);
-        }
-        self.finish(&summary)
-    }
-
-    fn start_threads(&self) -> Result<(), Error> {
-        let Some(jobs) = self.jobs.map(usize::from) else { return Ok(()) };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);
-        pool.build_global().map_err(|error| Error::Threads { jobs, reason: error.to_string() })
-    }
-
-    fn finish(&self, summary: &Summary) -> Result<Exit, Error> {
-        output::create_folder(&self.out)?;
-        output::write_json(&self.out.join("summary.json"), summary)?;
-        output::write_file(&self.out.join("summary.md"), |writer| write!(writer, "{}", summary.markdown()))?;
-        self.show(&terminal::summary(summary, &self.out))?;
-        Ok(summary.exit())
-    }
-
-    fn show(&self, text: &str) -> Result<(), Error> {
-        if self.quiet { Ok(()) } else { output::print(text) }
+        self.session.run(jobs)
     }
 }
 
-fn result_folder(out: &Path, job: &Job) -> PathBuf {
-    out.join(&job.scenario.name).join(job.planner.name)
+impl AuthorArgs {
+    /// The planners that were named; none if the scenario is to name it.
+    pub fn authors(&self) -> Result<Vec<Author>, Error> {
+        let Some(text) = &self.planner_command else { return jobs::planners_named(&self.planners) };
+        let command = shlex::split(text).filter(|words| !words.is_empty());
+        let command = command.ok_or_else(|| Error::PlannerCommand { command: text.clone() })?;
+        let (name, folder) = (name_of(&command), PathBuf::from("."));
+        Ok(vec![Author::Outside(OutsidePlanner { name, command, folder, time_limit_s: self.time_limit })])
+    }
 }
 
-fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
-    if formats.contains(&Recording::Rrd) { Ok(vec![rrd()?]) } else { Ok(Vec::new()) }
+/// A name for the results of a command: that of its script if there is one, else that of the program.
+fn name_of(command: &[String]) -> String {
+    let script = command.iter().skip(1).find(|word| !word.starts_with('-') && Path::new(word).extension().is_some());
+    let stem = Path::new(script.unwrap_or(&command[0])).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    plain_name(&stem)
 }
 
-#[cfg(feature = "rrd")]
-fn rrd() -> Result<Box<dyn Recorder>, Error> {
-    Ok(Box::new(crate::record::rrd::Rrd))
+/// `text` as a name that can be a folder: letters, digits, `-` and `_`. Never that of a planner of ours.
+pub fn plain_name(text: &str) -> String {
+    let plain = text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' });
+    let plain: String = plain.collect::<String>().trim_matches('-').to_owned();
+    let plain = if plain.is_empty() { "outside".to_owned() } else { plain };
+    if planners::find(&plain).is_some() { format!("outside-{plain}") } else { plain }
 }
 
-#[cfg(not(feature = "rrd"))]
-fn rrd() -> Result<Box<dyn Recorder>, Error> {
-    Err(Error::RecordingNotBuilt)
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().map_err(|_| "a number of seconds is expected".to_owned())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("a positive number of seconds is expected".into()) }
 }

@@ -41,7 +41,7 @@ use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStr
 use scenarios::Family;
 
 use self::distances::Distances;
-use super::{Recorder, Run};
+use super::{Recorder, Run, is_drawable};
 
 /// What logging functions return: rerun's own errors, which concern serialisation and the file.
 type Logged = Result<(), Box<dyn Error + Send + Sync>>;
@@ -135,12 +135,6 @@ fn sim_times(times_s: impl IntoIterator<Item = f64>) -> TimeColumn {
 /// To the viewer's single precision.
 fn to_f32<const N: usize>(values: [f64; N]) -> [f32; N] {
     values.map(|value| value as f32)
-}
-
-/// Can the viewer draw a vehicle from this sample?
-fn is_drawable(sample: &sim::Sample) -> bool {
-    let attitude_norm: f64 = sample.world_from_body.iter().map(|q| q * q).sum();
-    sample.t_s.is_finite() && sample.position_m.iter().all(|p| p.is_finite()) && (0.5..2.0).contains(&attitude_norm)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use scenarios::PlanStatus;
 
 use super::Report;
-use crate::notation::signed_quantity;
+use crate::notation::{given_quantity, quantity, signed_quantity};
 use crate::verdict::{Check, Outcome, Status, TELLING};
 
 /// Failed checks that the line names; the others are counted.
@@ -58,9 +58,28 @@ fn failures(report: &Report) -> String {
     format!("{} of {asked} checks failed: {}{rest}", failed.len(), first.join("; "))
 }
 
-/// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`.
-fn line(check: &Check) -> String {
+/// The end of a text, indented; nothing if it is blank.
+pub(super) fn last_lines(text: &str, count: usize) -> String {
+    let lines: Vec<&str> = text.trim_end().lines().collect();
+    let shown = &lines[lines.len().saturating_sub(count)..];
+    shown.iter().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
+}
+
+/// Value, limit, place and remark of a check, for a reader who has nothing else before them.
+pub(super) fn sentence(check: &Check) -> String {
+    let value = check.value.map(|value| format!("measured {}", quantity(value, &check.unit)));
+    let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));
+    let margin = check.margin.map(|margin| format!("margin {}", signed_quantity(margin, &check.unit)));
+    let at_s = check.at_s.map(|at_s| format!("at {at_s:.2} s"));
+    let who = (!check.between.is_empty()).then(|| check.between.join(" and "));
+    let parts = [value, limit, margin, at_s, who, check.reason.clone()];
+    format!("{}: {}", check.name, parts.into_iter().flatten().collect::<Vec<_>>().join(", "))
+}
+
+/// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`, `plan.clearance undecided +0.001 m`.
+pub(super) fn line(check: &Check) -> String {
     let margin = check.margin.map(|margin| format!(" {}", signed_quantity(margin, &check.unit)));
     let place = check.place().map(|place| format!(" ({place})"));
-    format!("{}{}{}", check.name, margin.unwrap_or_default(), place.unwrap_or_default())
+    let undecided = if check.status == Status::Undecided { " undecided" } else { "" };
+    format!("{}{undecided}{}{}", check.name, margin.unwrap_or_default(), place.unwrap_or_default())
 }

@@ -79,12 +79,14 @@ impl Summary {
     }
 
     /// Adds a file that could not be run.
-    pub fn refuse(&mut self, refusal: &Refusal) {
+    pub fn refuse(&mut self, refusal: &Refusal) -> &RefusedFile {
         let faults = match &refusal.error {
             Error::Load(error) => error.lines(),
+            Error::Plan(error) => error.lines(),
             error => vec![error.to_string()],
         };
         self.refused.push(RefusedFile { file: refusal.file.display().to_string(), faults });
+        &self.refused[self.refused.len() - 1]
     }
 
     /// How many jobs ended in this way.
@@ -116,8 +118,15 @@ impl Summary {
     }
 
     /// `summary.md`.
-    pub fn markdown(&self) -> String {
-        markdown::page(self)
+    ///
+    /// - `reports`: of the same jobs
+    pub fn markdown(&self, reports: &[Report]) -> String {
+        markdown::page(self, reports, true)
+    }
+
+    /// [`markdown`](Self::markdown) for a place where the result folder is out of reach.
+    pub fn markdown_without_links(&self, reports: &[Report]) -> String {
+        markdown::page(self, reports, false)
     }
 }
 
@@ -167,7 +176,7 @@ mod tests {
 
     #[test]
     fn the_page_names_every_run_and_every_fault() {
-        let page = summary(&[Outcome::NoPlan], 1).markdown();
+        let page = summary(&[Outcome::NoPlan], 1).markdown(&[]);
         assert!(
             page.contains("| NO PLAN | [pair](pair/by-hand/report.json) | by-hand | 0 | 50.000 s | a \\| b |"),
             "{page}"

@@ -9,10 +9,18 @@ use comfy_table::{Cell, Color, Table};
 
 use super::{Report, Summary, SummaryRun, headline, table};
 use crate::notation::{number, quantity, signed};
-use crate::verdict::{Check, Outcome, Status};
+use crate::verdict::{Check, Outcome, Reconstruction, Status};
+
+/// Lines of an outside planner's log that are shown when it made no plan.
+const LOG_LINES: usize = 20;
 
 /// Everything about one job.
-pub fn report(report: &Report) -> String {
+///
+/// - `log`: what an outside planner wrote to its standard error; its end is shown if there is no plan
+pub fn report(report: &Report, log: Option<&str>) -> String {
+    if report.verdict == Outcome::NoPlan {
+        return no_plan(report, log);
+    }
     let mut lines = vec![checks_table(report).trim_fmt()];
     lines.extend(skipped(report));
     lines.push(plan_line(report));
@@ -28,6 +36,14 @@ pub fn report(report: &Report) -> String {
     }
     lines.extend(headline::overclaim(report).map(|text| format!("{} {text}", painted("note", AnsiColor::Yellow))));
     format!("{}\n", lines.join("\n"))
+}
+
+/// Every check has failed for the same reason: that one is told, with the planner's last words.
+fn no_plan(report: &Report, log: Option<&str>) -> String {
+    let verdict = verdict_line(report.verdict, &report.scenario, &report.planner);
+    let said = log.map(|log| headline::last_lines(log, LOG_LINES)).filter(|said| !said.is_empty());
+    let said = said.map_or_else(String::new, |said| format!("planner.log ends with:\n{said}\n"));
+    format!("{}\n{said}{verdict}  {}\n", plan_line(report), headline::reason(report))
 }
 
 /// The whole run: of several jobs those that did not pass once more, how many passed, and where the files are.
@@ -94,9 +110,14 @@ fn skipped(report: &Report) -> Vec<String> {
 
 fn plan_line(report: &Report) -> String {
     let plan = &report.plan;
-    let mut parts = vec![format!("plan: {}, {} iterations in {:.3} s", plan.status, plan.iterations, plan.wall_s)];
-    parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
+    let iterations = if plan.iterations > 0 { format!(", {} iterations", plan.iterations) } else { String::new() };
+    let wall = if plan.wall_s > 0.0 { format!(" in {:.3} s", plan.wall_s) } else { String::new() };
+    let mut parts = vec![format!("plan: {}{iterations}{wall}", plan.status)];
+    if plan.distributed_s > 0.0 {
+        parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
+    }
     parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
+    parts.extend(plan.reconstruction.as_ref().map(Reconstruction::describe));
     parts.join("; ")
 }
 

@@ -5,8 +5,8 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits, separation,
-    slung_load, tracking,
+    Check, Given, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits,
+    separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -17,6 +17,11 @@ use crate::verdict::{
 /// with the reason; what applies and cannot be measured, because something is missing, empty or not a number, fails
 /// with the reason. Nothing that a plan or a flight may hold makes it panic.
 pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdict {
+    judge_given(scenario, plan, &Given::whole(), flight)
+}
+
+/// [`judge`], of a plan that was not whole: what was reconstructed decides nothing that it cannot tell.
+pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Option<&Flight>) -> Verdict {
     let flyable = integrity::is_flyable(scenario, plan);
     let logged = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
     let logged = logged.as_ref().map(|flight| *flight).map_err(String::as_str);
@@ -25,6 +30,7 @@ pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdi
         Family::SlungLoad => of_a_slung_load(scenario, plan, &flyable, logged),
     };
 
+    given.qualify(&mut checks);
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     settle(scenario, &mut checks);
     let outcome = if plan.status == PlanStatus::NoPlan || plan.trajectories.is_empty() {

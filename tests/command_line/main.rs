@@ -1,8 +1,16 @@
 //! The command line from end to end: what a user types, sees and finds on disk.
 
 mod benchmarks;
+mod checking;
+mod comparing;
+mod in_ci;
 mod listing;
+mod outside;
+mod planning;
+#[cfg(feature = "mcap")]
+mod recordings;
 mod results;
 mod running;
 mod schemas;
+mod tools;
 mod workplace;

@@ -108,7 +108,7 @@ fn the_folder_holds_the_results_of_the_last_run_and_no_temporary_file() {
     }
     run(&workplace, &["--record", "none"]);
     assert_eq!(workplace.files(FOLDER), ["plan.csv", "plan.json", "report.json"], "no recording of an earlier run");
-    assert_eq!(workplace.files("out"), ["pair", "summary.json", "summary.md"]);
+    assert_eq!(workplace.files("out"), ["junit.xml", "pair", "summary.json", "summary.md"]);
 }
 
 #[test]

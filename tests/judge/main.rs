@@ -7,3 +7,4 @@ mod fleet;
 mod roundabout;
 mod rules;
 mod simulated;
+mod submitted;

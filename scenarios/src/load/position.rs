@@ -21,6 +21,13 @@ pub(super) fn span_of_field(root: &DeTable<'_>, field: &str) -> Range<usize> {
     value.span()
 }
 
+/// [`span_of_field`], or nothing if the field is not in the file.
+pub(super) fn exact_span(root: &DeTable<'_>, field: &str) -> Option<Range<usize>> {
+    let mut steps = steps(field).into_iter();
+    let first = root.get(steps.next()?)?;
+    steps.try_fold(first, child).map(Spanned::span)
+}
+
 /// `vehicles[3].start.x_m` as `vehicles`, `3`, `start`, `x_m`.
 fn steps(field: &str) -> Vec<&str> {
     field.split(['.', '[', ']']).filter(|step| !step.is_empty()).collect()
@@ -81,7 +88,7 @@ pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
 mod tests {
     use toml::de::DeTable;
 
-    use super::{line_and_column, span_of_field};
+    use super::{exact_span, line_and_column, span_of_field};
 
     const TEXT: &str = "a = \"α\" # β\n[[b]]\nc = { d = [1, 22] }\n[[b]]\n";
 
@@ -93,6 +100,8 @@ mod tests {
         assert_eq!(found("b[0].c"), "{ d = [1, 22] }");
         assert_eq!(found("b[1].missing.too"), "[[b]]");
         assert_eq!(found("missing"), "");
+        assert_eq!(exact_span(tree.get_ref(), "b[0].c.d[1]"), Some(span_of_field(tree.get_ref(), "b[0].c.d[1]")));
+        assert_eq!(exact_span(tree.get_ref(), "b[1].missing.too"), None);
     }
 
     #[test]

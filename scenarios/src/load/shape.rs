@@ -61,6 +61,7 @@ impl<'s> Check<'s> {
                 None if schema["additionalProperties"].is_object() => {
                     self.value(&schema["additionalProperties"], value, &inner);
                 }
+                None if schema["additionalProperties"] == true => {}
                 None => self.unknown_key(properties, table, key.get_ref(), &key.span(), &inner),
             }
         }

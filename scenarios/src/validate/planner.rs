@@ -1,5 +1,6 @@
 //! The options of a planner, as far as they can be judged without knowing it.
 
+use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
 use crate::{Collocation, Convergence, Objective, PlannerSettings, Problem, TrustRegion};
 
@@ -12,7 +13,7 @@ const POINTS: std::ops::RangeInclusive<usize> = 2..=20;
 const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
 
 pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
-    let mut problems = Vec::new();
+    let mut problems = outside_problems(settings);
     if let Some(intervals) = settings.intervals.filter(|intervals| !INTERVALS.contains(intervals)) {
         let expected = format!("a whole number from {} to {}", INTERVALS.start(), INTERVALS.end());
         problems.push(Problem::new("planner.intervals", intervals.to_string(), expected));
@@ -26,6 +27,29 @@ pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     problems.extend(settings.trust_region.iter().flat_map(trust_region));
     problems.extend(settings.convergence.iter().flat_map(convergence));
     problems.extend(settings.collocation.iter().flat_map(collocation));
+    problems
+}
+
+/// What only a planner with a command needs, or must have.
+fn outside_problems(settings: &PlannerSettings) -> Vec<Problem> {
+    let Some(command) = &settings.command else {
+        let lost = [("time_limit_s", settings.time_limit_s.is_some()), ("options", !settings.options.is_empty())];
+        let without = |(key, _): (&str, bool)| {
+            let found = "an option of planners outside the harness";
+            let problem = Problem::new(format!("planner.{key}"), found, "`planner.command` beside it, or not this key");
+            problem.remedy("the planners of the harness have options of their own: see `harness schema scenario`")
+        };
+        return lost.into_iter().filter(|(_, is_given)| *is_given).map(without).collect();
+    };
+    let mut problems: Vec<Problem> = entity_name("planner.name", &settings.name).into_iter().collect();
+    if command.first().is_none_or(String::is_empty) {
+        problems.push(Problem::new(
+            "planner.command",
+            "no program",
+            "a program and its arguments, as [\"python3\", \"planner.py\"]",
+        ));
+    }
+    problems.extend(positive_if_given("planner.time_limit_s", settings.time_limit_s));
     problems
 }
 

@@ -1,0 +1,96 @@
+//! A table as a Parquet file: the columns of the CSV form, numbers as numbers and names as text.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::{Field, Row};
+
+use super::columns::{Columns, TIME, VEHICLE};
+use super::{Places, PlanFault, PlanTable, Track};
+use crate::{Problem, Scenario};
+
+/// Reads the whole file. In a scenario with a single vehicle the column `vehicle` may be missing.
+pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanTable, Vec<PlanFault>> {
+    let broken = |error: ParquetError| {
+        let problem =
+            Problem::new("Parquet", error.to_string(), "a whole Parquet file, plain or compressed by snappy or zstd");
+        vec![PlanFault::new("", problem)]
+    };
+    let reader = SerializedFileReader::new(file).map_err(broken)?;
+    let only_vehicle = (scenario.vehicles.len() == 1).then(|| scenario.vehicles[0].name.as_str());
+    let mut table = PlanTable::default();
+    let mut faults = Vec::new();
+    for (index, row) in reader.get_row_iter(None).map_err(broken)?.enumerate() {
+        let row = row.map_err(broken)?;
+        if let Err(problem) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut table) {
+            faults.push(PlanFault::new(format!(", row {}", index + 1), problem));
+        }
+    }
+    if faults.is_empty() { Ok(table) } else { Err(faults) }
+}
+
+/// Adds one row to the track of its vehicle.
+fn add(
+    row: &Row,
+    number: usize,
+    only_vehicle: Option<&str>,
+    known: &Columns,
+    table: &mut PlanTable,
+) -> Result<(), Problem> {
+    let mut vehicle = only_vehicle;
+    let mut t_s = None;
+    let mut values = BTreeMap::new();
+    for (name, field) in row.get_column_iter() {
+        match (name.as_str(), field) {
+            (VEHICLE, Field::Str(text)) => vehicle = Some(text),
+            (VEHICLE, other) => return Err(Problem::new(VEHICLE, other.to_string(), "text")),
+            (TIME, field) => t_s = Some(number_in(name, field)?),
+            // what pandas adds for its own use
+            (name, _) if name.starts_with("__index_level") => {}
+            (_, Field::Str(word)) => {
+                let number = known.word(name, word);
+                let number =
+                    number.ok_or_else(|| Problem::new(name, format!("\"{word}\""), known.expectation(name)))?;
+                values.insert(name.clone(), number);
+            }
+            (_, field) => drop(values.insert(name.clone(), number_in(name, field)?)),
+        }
+    }
+    let vehicle = vehicle.ok_or_else(|| Problem::new(VEHICLE, "nothing", "a column with the vehicle's name"))?;
+    let t_s = t_s.ok_or_else(|| Problem::new(TIME, "nothing", "a column with the time in s"))?;
+    let index = table.tracks.iter().rposition(|track| track.vehicle == vehicle).unwrap_or_else(|| {
+        let columns = values.keys().map(|name| (name.clone(), Vec::new())).collect();
+        let places = Places::Rows(Vec::new());
+        table.tracks.push(Track {
+            vehicle: vehicle.to_owned(),
+            places,
+            times_s: Vec::new(),
+            columns,
+            planner_nodes: Vec::new(),
+        });
+        table.tracks.len() - 1
+    });
+    let track = &mut table.tracks[index];
+    track.times_s.push(t_s);
+    for (name, value) in values {
+        track.columns.entry(name).or_default().push(value);
+    }
+    if let Places::Rows(rows) = &mut track.places {
+        rows.push(number);
+    }
+    Ok(())
+}
+
+/// The number in a field. A missing value is NaN, which is refused with its place like every other.
+fn number_in(name: &str, field: &Field) -> Result<f64, Problem> {
+    match field {
+        Field::Null => Ok(f64::NAN),
+        Field::Double(value) => Ok(*value),
+        Field::Float(value) => Ok(f64::from(*value)),
+        Field::Long(value) => Ok(*value as f64),
+        Field::Int(value) => Ok(f64::from(*value)),
+        other => Err(Problem::new(name, other.to_string(), "a column of numbers")),
+    }
+}

@@ -1,0 +1,91 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use scenarios::{Plan, PlanStatus};
+
+use super::run::AuthorArgs;
+use crate::error::{Error, Exit};
+use crate::progress::Progress;
+use crate::{jobs, output, pipeline};
+
+/// Plan a scenario without flying it.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct PlanCommand {
+    /// The scenario file
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    #[command(flatten)]
+    author: AuthorArgs,
+    /// File for the plan, .json or .csv; `-` prints JSON
+    #[arg(short, long, value_name = "FILE", default_value = "plan.json")]
+    output: PathBuf,
+    /// Seed of everything random in planning, instead of the scenario's own
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  harness plan scenarios/fixed-wing/rendezvous-7.toml -o plan.csv
+  harness plan scenarios/fixed-wing/rendezvous-7.toml -o - | jq .status
+
+`harness check SCENARIO --plan FILE` flies and judges the plan.";
+
+impl PlanCommand {
+    /// Plans, and writes the plan. Without a plan the exit code is 1.
+    pub fn execute(&self) -> Result<Exit, Error> {
+        self.refuse_unknown_form()?;
+        let authors = self.author.authors()?;
+        let jobs = jobs::load(std::slice::from_ref(&self.scenario), &authors, self.seed, |_| true);
+        if let Some(refusal) = jobs.bad.into_iter().next() {
+            return Err(refusal.error);
+        }
+        let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
+        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let handed_over = pipeline::plan(job, &mut progress);
+        progress.finish();
+        let plan = handed_over.answer.plan;
+        if plan.status == PlanStatus::NoPlan {
+            let reason = plan.reason.as_deref().unwrap_or("the planner gives no reason");
+            output::tell(&format!("no plan: {reason}"));
+            if let Some(log) = handed_over.log.filter(|log| !log.is_empty()) {
+                output::tell(log.trim_end());
+            }
+            return Ok(Exit::Failed);
+        }
+        self.write(&plan)?;
+        Ok(Exit::Passed)
+    }
+
+    fn refuse_unknown_form(&self) -> Result<(), Error> {
+        let known = ["json", "csv"].iter().any(|form| self.output.extension().is_some_and(|ending| ending == *form));
+        if known || self.is_standard_output() { Ok(()) } else { Err(Error::PlanForm { path: self.output.clone() }) }
+    }
+
+    fn is_standard_output(&self) -> bool {
+        self.output == Path::new("-")
+    }
+
+    fn write(&self, plan: &Plan) -> Result<(), Error> {
+        if self.is_standard_output() {
+            return plan.write_json(std::io::stdout().lock()).or_else(|error| match error.kind() {
+                std::io::ErrorKind::BrokenPipe => Ok(()),
+                _ => Err(error.into()),
+            });
+        }
+        let is_csv = self.output.extension().is_some_and(|ending| ending == "csv");
+        output::write_file(
+            &self.output,
+            |writer| if is_csv { plan.write_csv(writer) } else { plan.write_json(writer) },
+        )?;
+        if self.quiet {
+            return Ok(());
+        }
+        let reason = plan.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        output::print(&format!("plan: {}{reason}; written to {}", plan.status, self.output.display()))
+    }
+}

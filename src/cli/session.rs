@@ -1,0 +1,198 @@
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::compare::{self, Comparison, Scope, Snapshot};
+use crate::error::{Error, Exit};
+use crate::jobs::{Job, Jobs};
+use crate::pipeline::Outputs;
+use crate::progress::Progress;
+use crate::record::Recorder;
+use crate::report::json_lines::Event;
+use crate::report::{Report, Summary, comparison, github, json_lines, junit, terminal};
+use crate::{output, pipeline};
+
+/// What is written, where, and what is printed.
+#[derive(Args, Debug)]
+pub struct Session {
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Recordings to write, separated by commas
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',', default_value = DEFAULT_RECORDING)]
+    record: Vec<Recording>,
+    /// Write planned and flown paths as TUM files too, for evo
+    #[arg(long)]
+    tum: bool,
+    /// Compare with a baseline (or an earlier result folder); exit code 1 if anything got worse
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
+    /// Number of worker threads [default: one per core]; results do not depend on it
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// What to print on standard output
+    #[arg(long, value_enum, value_name = "FORMAT", default_value = "text")]
+    format: Format,
+    /// Print nothing but errors; the exit code and the files tell the rest
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const DEFAULT_RECORDING: &str = if cfg!(feature = "rrd") { "rrd" } else { "none" };
+
+/// Formats of recordings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Recording {
+    /// For the rerun viewer
+    Rrd,
+    /// With Foxglove schemas, for Foxglove and others
+    Mcap,
+    /// No recording
+    None,
+}
+
+/// Formats of standard output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Tables, for people
+    Text,
+    /// One JSON object per line, for tools
+    JsonLines,
+}
+
+/// What a session has done so far.
+#[derive(Default)]
+struct Done {
+    summary: Summary,
+    reports: Vec<Report>,
+    jobs: Vec<Job>,
+    annotations: Vec<String>,
+}
+
+impl Session {
+    /// Runs everything that can be run, names what cannot, and writes the summaries.
+    pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
+        let outputs = Outputs { recorders: recorders(&self.record)?, tum: self.tum };
+        let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
+        start_threads(self.jobs)?;
+        let mut done = Done::default();
+        for refusal in jobs.bad {
+            let refused = done.summary.refuse(&refusal);
+            self.event(&Event::Refused { file: refused })?;
+            done.annotations.extend(github::annotations_of(&refusal.error));
+            refusal.error.print();
+        }
+        let total = jobs.good.len();
+        for (index, job) in jobs.good.into_iter().enumerate() {
+            let report = self.run_job(&job, &outputs, index + 1, total)?;
+            done.summary.add(&report);
+            done.reports.push(report);
+            done.jobs.push(job);
+        }
+        self.finish(&done, baseline.as_ref())
+    }
+
+    fn run_job(&self, job: &Job, outputs: &Outputs, number: usize, total: usize) -> Result<Report, Error> {
+        let mut progress = Progress::new(job, number, total, self.quiet);
+        let folder = self.out.join(&job.scenario.name).join(job.author.name());
+        let done = pipeline::run(job, outputs, &folder, &mut progress)?;
+        progress.finish();
+        self.show(&terminal::report(&done.report, done.log.as_deref()))?;
+        self.event(&Event::Report { report: &done.report })?;
+        Ok(done.report)
+    }
+
+    fn finish(&self, done: &Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
+        let Done { summary, reports, .. } = done;
+        let compared = baseline.map(|old| compare::compare(old, &Snapshot::of(reports), Scope::WhatWasRun));
+        let compared_page = compared.as_ref().map_or_else(String::new, comparison::markdown);
+        output::create_folder(&self.out)?;
+        output::write_json(&self.out.join("summary.json"), summary)?;
+        output::write_file(&self.out.join("summary.md"), |writer| {
+            write!(writer, "{}\n{compared_page}", summary.markdown(reports))
+        })?;
+        let xml = junit::document(reports, &summary.refused);
+        output::replace_file(&self.out.join("junit.xml"), |partial| Ok(std::fs::write(partial, xml?)?))?;
+        github::add_to_job_summary(&format!("{}\n{compared_page}", summary.markdown_without_links(reports)))?;
+        let exit = exit(summary, compared.as_ref());
+        self.event(&Event::Summary { summary, exit_code: exit.code() })?;
+        self.show(&terminal::summary(summary, &self.out))?;
+        if let Some(compared) = &compared {
+            self.event(&Event::Comparison { comparison: compared })?;
+            self.show(&comparison::text(compared))?;
+        }
+        self.annotate(done)?;
+        Ok(exit)
+    }
+
+    /// On GitHub, points to the lines of the scenario files. Beside a stream of JSON they go to standard error, which the
+    /// runner reads too.
+    fn annotate(&self, done: &Done) -> Result<(), Error> {
+        if !github::is_present() {
+            return Ok(());
+        }
+        let findings: Vec<github::Finding<'_>> = done
+            .reports
+            .iter()
+            .zip(&done.jobs)
+            .map(|(report, job)| github::Finding { report, scenario: &job.scenario, source: &job.source })
+            .collect();
+        for line in done.annotations.iter().cloned().chain(github::annotations(&findings)) {
+            if self.quiet || self.format == Format::JsonLines { output::tell(&line) } else { output::print(&line)? }
+        }
+        Ok(())
+    }
+
+    fn show(&self, text: &str) -> Result<(), Error> {
+        if self.quiet || self.format != Format::Text { Ok(()) } else { output::print(text) }
+    }
+
+    fn event(&self, event: &Event<'_>) -> Result<(), Error> {
+        if self.quiet || self.format != Format::JsonLines { Ok(()) } else { json_lines::print(event) }
+    }
+}
+
+/// Bad input weighs more than a loss, and a loss as much as a failed verdict.
+fn exit(summary: &Summary, compared: Option<&Comparison>) -> Exit {
+    match summary.exit() {
+        Exit::Passed if compared.is_some_and(|compared| !compared.is_good()) => Exit::Failed,
+        exit => exit,
+    }
+}
+
+fn start_threads(jobs: Option<u16>) -> Result<(), Error> {
+    let Some(jobs) = jobs.map(usize::from) else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);
+    pool.build_global().map_err(|error| Error::Threads { jobs, reason: error.to_string() })
+}
+
+fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
+    let mut recorders: Vec<Box<dyn Recorder>> = Vec::new();
+    if formats.contains(&Recording::Rrd) {
+        recorders.push(rrd()?);
+    }
+    if formats.contains(&Recording::Mcap) {
+        recorders.push(mcap()?);
+    }
+    Ok(recorders)
+}
+
+#[cfg(feature = "rrd")]
+fn rrd() -> Result<Box<dyn Recorder>, Error> {
+    Ok(Box::new(crate::record::rrd::Rrd))
+}
+
+#[cfg(not(feature = "rrd"))]
+fn rrd() -> Result<Box<dyn Recorder>, Error> {
+    Err(Error::RecordingNotBuilt { format: "rrd", what: "rerun recording" })
+}
+
+#[cfg(feature = "mcap")]
+fn mcap() -> Result<Box<dyn Recorder>, Error> {
+    Ok(Box::new(crate::record::mcap::Mcap))
+}
+
+#[cfg(not(feature = "mcap"))]
+fn mcap() -> Result<Box<dyn Recorder>, Error> {
+    Err(Error::RecordingNotBuilt { format: "mcap", what: "MCAP recording" })
+}

@@ -1,0 +1,120 @@
+//! The same is the same, and a planted loss is found.
+
+use std::collections::BTreeMap;
+
+use super::{Baseline, CheckEntry, Entry, Rating, Scope, Snapshot, compare, rules};
+use crate::verdict::{Outcome, Status};
+
+fn entry() -> Entry {
+    let check = |status, unit: &str| CheckEntry { status, unit: unit.to_owned(), advisory: false };
+    let figures = [
+        ("margin of flight.separation", 4.2),
+        ("margin of nodes.state_limits", 1e-7),
+        (rules::FLOWN_TIME, 225.9),
+        (rules::TRACKING_MAX, 1.06),
+        (rules::PLANNING_TIME, 0.2),
+    ];
+    Entry {
+        scenario: "pair".into(),
+        planner: "by-hand".into(),
+        seed: 0,
+        verdict: Outcome::Pass,
+        checks: BTreeMap::from([
+            ("flight.separation".to_owned(), check(Status::Pass, "m")),
+            ("nodes.state_limits".to_owned(), check(Status::Pass, "m/s")),
+        ]),
+        figures: figures.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+    }
+}
+
+fn snapshot(change: impl Fn(&mut Entry)) -> Snapshot {
+    let mut entry = entry();
+    change(&mut entry);
+    Snapshot { entries: vec![entry] }
+}
+
+/// Ratings and subjects of what changed.
+fn found(change: impl Fn(&mut Entry)) -> Vec<(Rating, String)> {
+    let comparison = compare(&snapshot(|_| {}), &snapshot(change), Scope::Everything);
+    comparison.differences.into_iter().map(|difference| (difference.rating, difference.what)).collect()
+}
+
+fn scaled(figure: &'static str, factor: f64) -> impl Fn(&mut Entry) {
+    move |entry| *entry.figures.get_mut(figure).expect("a figure") *= factor
+}
+
+#[test]
+fn nothing_differs_from_itself() {
+    assert_eq!(found(|_| {}), []);
+}
+
+#[test]
+fn a_loss_of_three_per_cent_is_found_in_every_figure_that_decides_and_a_tenth_of_a_per_cent_in_none() {
+    for (figure, worse) in
+        [("margin of flight.separation", 0.97), (rules::FLOWN_TIME, 1.03), (rules::TRACKING_MAX, 1.03)]
+    {
+        assert_eq!(found(scaled(figure, worse)), [(Rating::Worse, figure.to_owned())]);
+        assert_eq!(found(scaled(figure, 2.0 - worse)), [(Rating::Better, figure.to_owned())]);
+        assert_eq!(found(scaled(figure, 1.0 + (worse - 1.0) / 30.0)), [], "{figure}");
+    }
+}
+
+#[test]
+fn rounding_in_a_margin_of_nothing_is_no_change() {
+    assert_eq!(found(scaled("margin of nodes.state_limits", -3.0)), []);
+}
+
+#[test]
+fn wall_times_are_told_and_decide_nothing() {
+    assert_eq!(found(scaled(rules::PLANNING_TIME, 1.5)), []);
+    assert_eq!(found(scaled(rules::PLANNING_TIME, 9.0)), [(Rating::Note, rules::PLANNING_TIME.to_owned())]);
+}
+
+#[test]
+fn what_is_no_number_is_worse() {
+    let lost = |entry: &mut Entry| *entry.figures.get_mut(rules::FLOWN_TIME).expect("a figure") = f64::NAN;
+    assert_eq!(found(lost), [(Rating::Worse, rules::FLOWN_TIME.to_owned())]);
+}
+
+#[test]
+fn statuses_and_verdicts_have_an_order() {
+    let set = |status| move |entry: &mut Entry| entry.checks.get_mut("flight.separation").unwrap().status = status;
+    let name = "flight.separation".to_owned();
+    for status in [Status::Fail, Status::Undecided, Status::Skip] {
+        assert_eq!(found(set(status)), [(Rating::Worse, name.clone())], "{status:?}");
+        let back = compare(&snapshot(set(status)), &snapshot(|_| {}), Scope::Everything);
+        assert_eq!(back.differences[0].rating, Rating::Better, "{status:?}");
+    }
+    assert_eq!(found(|entry| entry.verdict = Outcome::Fail), [(Rating::Worse, "verdict".to_owned())]);
+    let gone = |entry: &mut Entry| drop(entry.checks.remove("flight.separation"));
+    assert_eq!(found(gone), [(Rating::Worse, name)]);
+}
+
+#[test]
+fn an_advisory_check_is_told_and_decides_nothing() {
+    let advisory = |entry: &mut Entry| {
+        let check = entry.checks.get_mut("flight.separation").unwrap();
+        (check.advisory, check.status) = (true, Status::Fail);
+        *entry.figures.get_mut("margin of flight.separation").unwrap() = -1.0;
+    };
+    assert!(found(advisory).iter().all(|(rating, _)| *rating == Rating::Note));
+}
+
+#[test]
+fn a_result_that_is_gone_is_a_loss_unless_only_a_part_was_run() {
+    let (old, new) = (snapshot(|_| {}), Snapshot::default());
+    assert!(!compare(&old, &new, Scope::Everything).is_good());
+    assert!(compare(&old, &new, Scope::WhatWasRun).is_good());
+    assert_eq!(compare(&new, &old, Scope::Everything).differences[0].rating, Rating::Note);
+}
+
+#[test]
+fn a_baseline_keeps_its_reasons_and_what_was_not_run_again() {
+    let first = Baseline::accept(None, snapshot(|_| {}), "first");
+    let other = snapshot(|entry| entry.scenario = "other".into());
+    let second = Baseline::accept(Some(first), other, "second");
+    let names: Vec<&str> = second.results.entries.iter().map(|entry| entry.scenario.as_str()).collect();
+    let reasons: Vec<&str> = second.accepted.iter().map(|acceptance| acceptance.reason.as_str()).collect();
+    assert_eq!((names, reasons), (vec!["other", "pair"], vec!["first", "second"]));
+    assert!(second.results.entries.iter().all(|entry| !entry.figures.contains_key(rules::PLANNING_TIME)));
+}

@@ -1,0 +1,3 @@
+//! Files for other people's tools.
+
+pub mod tum;

@@ -1,0 +1,43 @@
+//! Planned and flown paths as TUM files, one pose per line: `timestamp tx ty tz qx qy qz qw`.
+//!
+//! Made for evo: `evo_ape tum uav-1.planned.tum uav-1.flown.tum` gives what `report.json` says under `ape`.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use sim::Flight;
+
+use crate::error::Error;
+use crate::metrics::trajectory_error::{Pose, flown, planned};
+use crate::output;
+
+/// Name of the folder.
+const FOLDER: &str = "tum";
+
+/// Writes two files per vehicle into `tum/` in the result folder `folder`.
+pub fn write(flight: &Flight, folder: &Path) -> Result<(), Error> {
+    let folder = folder.join(FOLDER);
+    output::create_folder(&folder)?;
+    for log in &flight.vehicles {
+        for (what, poses) in [("planned", planned(log, flight)), ("flown", flown(log, flight))] {
+            let path = folder.join(format!("{}.{what}.tum", log.vehicle));
+            output::write_file(&path, |writer| poses.iter().try_for_each(|pose| line(pose, writer)))?;
+        }
+    }
+    Ok(())
+}
+
+/// Removes what an earlier run has left.
+pub fn remove_stale(folder: &Path) -> Result<(), Error> {
+    let path = folder.join(FOLDER);
+    match fs::remove_dir_all(&path) {
+        Err(reason) if reason.kind() != io::ErrorKind::NotFound => Err(Error::Write { path, reason: reason.into() }),
+        _ => Ok(()),
+    }
+}
+
+fn line(pose: &Pose, writer: &mut dyn Write) -> io::Result<()> {
+    let Pose { t_s, position_m: [x, y, z], world_from_body: [qx, qy, qz, qw] } = pose;
+    writeln!(writer, "{t_s} {x} {y} {z} {qx} {qy} {qz} {qw}")
+}

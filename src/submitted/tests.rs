@@ -1,0 +1,84 @@
+//! What was taken away comes back, and what cannot come back is known.
+
+use scenarios::fixed_wing::{Control, State};
+use scenarios::plan_input::cartesian_states;
+use sim::fixed_wing::flow;
+
+use super::{controls, velocities};
+
+/// States every `step_s` under load factors that are linear between the nodes.
+fn flown(step_s: f64, control: impl Fn(f64) -> Control, count: usize) -> (Vec<f64>, Vec<State>, Vec<Control>) {
+    let times_s: Vec<f64> = (0..=count).map(|k| k as f64 * step_s).collect();
+    let controls: Vec<Control> = times_s.iter().map(|t| control(*t)).collect();
+    let mut states = vec![State::from_array([0.0, 0.0, 400.0, 35.0, 0.3, 0.01])];
+    for (k, pair) in controls.windows(2).enumerate() {
+        let end = *flow(&states[k], [pair[0], pair[1]], times_s[k], step_s, 0.1).last().expect("an end");
+        states.extend(cartesian_states(&[end.position_m.into()], &[end.velocity_mps.into()]));
+    }
+    (times_s, states, controls)
+}
+
+fn manoeuvre(t: f64) -> Control {
+    Control { n_x: 0.1 * (0.3 * t).sin(), n_y: 0.2 * (0.2 * t).cos(), n_z: 1.0 + 0.05 * (0.5 * t).sin() }
+}
+
+fn largest_difference(a: &[Control], b: &[Control]) -> f64 {
+    let pairs = a.iter().zip(b).flat_map(|(a, b)| a.to_array().into_iter().zip(b.to_array()));
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn load_factors_that_are_linear_between_the_nodes_are_recovered_from_states() {
+    for (step_s, count) in [(5.0, 20), (0.5, 60), (0.02, 300)] {
+        let (times_s, states, controls) = flown(step_s, manoeuvre, count);
+        let (found, left) = controls::fit(&times_s, &states);
+        let error = largest_difference(&found, &controls);
+        assert!(error < 1e-6, "{error} at steps of {step_s} s");
+        assert!(left.position_m < 1e-6 && left.load_factor < 1e-6, "{left:?}");
+    }
+}
+
+#[test]
+fn a_plan_that_was_whole_leaves_nothing_over() {
+    let (times_s, states, controls) = flown(5.0, manoeuvre, 20);
+    let left = controls::left_over(&times_s, &states, &controls);
+    assert!(left.position_m < 1e-8, "{left:?}");
+}
+
+#[test]
+fn positions_alone_are_enough_where_they_are_dense() {
+    let (times_s, states, controls) = flown(0.1, manoeuvre, 300);
+    let positions_m: Vec<[f64; 3]> = states.iter().map(State::position_m).collect();
+    let velocities_mps = velocities::of(&times_s, &positions_m, states[0].velocity_mps());
+    let rebuilt = cartesian_states(&positions_m, &velocities_mps);
+    let off = rebuilt.iter().zip(&states).map(|(a, b)| (a.speed_mps - b.speed_mps).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-4, "{off} m/s");
+    let (found, left) = controls::fit(&times_s, &rebuilt);
+    let error = largest_difference(&found, &controls);
+    assert!(error < 2e-3 && left.position_m < 1e-4, "{error}, {left:?}");
+}
+
+/// A jump of 1 m between two nodes is no motion of an aircraft: it must stay visible in what is left over.
+#[test]
+fn a_jump_is_not_explained_away() {
+    let (times_s, mut states, _) = flown(0.5, manoeuvre, 60);
+    for state in &mut states[30..] {
+        state.z_m += 1.0;
+    }
+    let (found, left) = controls::fit(&times_s, &states);
+    assert!(left.position_m > 0.3, "{left:?}");
+    assert!(left.load_factor > 1.0 || found.iter().any(|control| (control.n_z - 1.0).abs() > 0.5), "{left:?}");
+}
+
+/// Whatever the numbers are: no panic, and no error that looks small.
+#[test]
+fn absurd_states_leave_errors_that_are_large_or_no_numbers() {
+    let absurd = [
+        [State::from_array([0.0; 6]), State::from_array([1e9, 0.0, 0.0, 0.0, 0.0, 0.0])],
+        [State::from_array([0.0, 0.0, 0.0, 1e300, 0.0, 0.0]), State::from_array([1e300, 0.0, 0.0, 1e300, 3.0, 1.5])],
+    ];
+    for states in absurd {
+        let (_, left) = controls::fit(&[0.0, 1.0], &states);
+        assert!(!(left.position_m < 1e3 && left.load_factor < 1.0), "{left:?}");
+    }
+}

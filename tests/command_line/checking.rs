@@ -1,0 +1,104 @@
+//! `harness check`: somebody else's plan.
+
+use std::fs;
+
+use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
+
+/// The pair, planned by multiple shooting: its nodes are those of a motion. (Those of the trapezoid rule are not quite.)
+fn shooting_pair() -> String {
+    PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
+}
+
+/// A workplace in which our own planner has planned the pair, and its plan with its first `columns` columns only.
+fn planned(columns: usize) -> Workplace {
+    let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
+    let output = workplace.harness(&["run", "pair.toml", "--record", "none", "-q"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let csv = fs::read_to_string(workplace.path("out/pair/parallel-scp/plan.csv")).unwrap();
+    let cut = |line: &str| line.split(',').take(columns).collect::<Vec<_>>().join(",") + "\n";
+    fs::write(workplace.path("theirs.csv"), csv.lines().map(cut).collect::<String>()).unwrap();
+    workplace
+}
+
+fn check(workplace: &Workplace, plan: &str) -> (i32, String, String) {
+    let output = workplace.harness(&["check", "pair.toml", "--plan", plan, "--record", "none"]);
+    (code(&output), stdout(&output), stderr(&output))
+}
+
+#[test]
+fn our_own_plan_gets_the_verdict_that_it_had_in_either_form() {
+    let workplace = planned(11);
+    for (plan, name) in [("theirs.csv", "theirs"), ("out/pair/parallel-scp/plan.json", "plan")] {
+        let (code, page, errors) = check(&workplace, plan);
+        assert_eq!(code, 0, "{page}{errors}");
+        let [ours, theirs] =
+            ["parallel-scp", name].map(|planner| workplace.json(&format!("out/pair/{planner}/report.json")));
+        assert_eq!(theirs["planner"], name);
+        assert_eq!(theirs["checks"], ours["checks"], "{plan}");
+        assert_eq!(theirs["metrics"], ours["metrics"], "{plan}");
+    }
+}
+
+#[test]
+fn controls_that_were_not_given_are_reconstructed_and_said_to_be() {
+    let workplace = planned(8);
+    let (code, page, errors) = check(&workplace, "theirs.csv");
+    assert_eq!(code, 0, "{page}{errors}");
+    assert!(page.contains("skipped: nodes.control_limits (the plan gives no controls)"), "{page}");
+    assert!(page.contains("skipped: plan.rollout"), "{page}");
+    assert!(page.contains("controls reconstructed: they miss the nodes by"), "{page}");
+    let report = workplace.json("out/pair/theirs/report.json");
+    let missed_m = report["plan"]["reconstruction"]["position_m"].as_f64().unwrap();
+    assert!(missed_m < 1e-3, "{missed_m} m");
+    assert_eq!(report["plan"]["status"], "unstated");
+}
+
+#[test]
+fn a_required_check_that_the_plan_does_not_allow_fails() {
+    let workplace = planned(8);
+    let strict = format!("{}\n[verdict]\nrequired = [\"plan.rollout\"]\n", shooting_pair());
+    fs::write(workplace.path("pair.toml"), strict).unwrap();
+    let (code, page, _) = check(&workplace, "theirs.csv");
+    assert_eq!(code, 1, "{page}");
+    let report = workplace.json("out/pair/theirs/report.json");
+    let checks = report["checks"].as_array().unwrap();
+    let rollout = checks.iter().find(|check| check["name"] == "plan.rollout").unwrap();
+    assert_eq!(rollout["status"], "fail");
+    let reason = rollout["reason"].as_str().unwrap();
+    assert!(reason.starts_with("required, but it could not be asked: the plan gives no controls"), "{reason}");
+}
+
+#[test]
+fn positions_alone_are_judged_with_what_they_allow() {
+    let workplace = planned(5);
+    let (_, page, errors) = check(&workplace, "theirs.csv");
+    assert!(page.contains("skipped: nodes.state_limits (the plan gives no velocities)"), "{page}{errors}");
+    assert!(page.contains("velocities and controls reconstructed"), "{page}");
+}
+
+#[test]
+fn a_plan_that_ends_in_the_wrong_place_fails() {
+    let workplace = planned(11);
+    let scenario = shooting_pair().replace("goal = { x_m = 1000, y_m = 100,", "goal = { x_m = 1000, y_m = 120,");
+    fs::write(workplace.path("pair.toml"), scenario).unwrap();
+    let (code, page, _) = check(&workplace, "theirs.csv");
+    assert_eq!(code, 1, "{page}");
+    assert!(page.contains("plan.goal") && page.contains("FAIL  pair · theirs"), "{page}");
+}
+
+#[test]
+fn a_file_that_is_no_plan_ends_with_code_2_and_leaves_nothing_behind() {
+    let csv = "vehicle,t_s,x_m,y_m,z_m\nuav-1,0,0,-100,400\nuav-1,10,350,-100,400\nuav-3,0,0,100,400\n";
+    let workplace = Workplace::new(&[("pair.toml", PAIR), ("theirs.csv", csv), ("theirs.txt", csv)]);
+    let (exit, _, errors) = check(&workplace, "theirs.csv");
+    assert_eq!(exit, 2);
+    for part in ["theirs.csv is no plan for `pair`: 2 faults", "theirs.csv:4", "found \"uav-3\"", "no row of `uav-2`"] {
+        assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
+    }
+    for (plan, message) in [("theirs.txt", "ends in .csv, .json or"), ("missing.csv", "missing.csv")] {
+        let (exit, _, errors) = check(&workplace, plan);
+        assert_eq!(exit, 2);
+        assert!(errors.contains(message), "{errors}");
+    }
+    assert!(!workplace.path("out").exists());
+}
