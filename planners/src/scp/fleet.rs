@@ -65,17 +65,24 @@ pub fn plan_and_inspect(
     let most = options.max_iterations;
     let mut sequence = Sequence::new(scenario, options);
     let mut history = Vec::new();
-    let mut complaint = Some("no iteration was allowed".to_string());
-    while complaint.is_some() && history.len() < most {
+    let mut accepted = false;
+    while !accepted && history.len() < most {
         let iteration = sequence.advance(inspect);
-        complaint = sequence.fault().map(|fault| format!("after {} iterations {fault}", history.len() + 1));
+        accepted = sequence.is_accepted();
         progress(&iteration);
         history.push(iteration);
     }
-    let accepted = complaint.is_none();
-    let status = (if accepted { PlanStatus::Solved } else { PlanStatus::NoPlan }, complaint);
-    let trajectories = if accepted { sequence.into_trajectories() } else { Vec::new() };
+    let (status, trajectories) = if accepted {
+        ((PlanStatus::Solved, None), sequence.together())
+    } else {
+        ((PlanStatus::NoPlan, Some(complaint(&sequence, history.len()))), Vec::new())
+    };
     plan::assemble(scenario, NAME, seed, &trajectories, history, status, begin.elapsed())
+}
+
+fn complaint(sequence: &Sequence, iterations: usize) -> String {
+    let what = sequence.fault().map_or("the flight time has not settled".to_string(), |fault| fault.to_string());
+    format!("after {iterations} iterations {what}")
 }
 
 fn refuses(scenario: &Scenario) -> Option<String> {

@@ -107,12 +107,22 @@ pub fn status(
     (if complaint.is_none() { PlanStatus::Solved } else { PlanStatus::NotConverged }, complaint)
 }
 
-/// Smallest horizontal distance between two vehicles at the nodes, m.
+/// Smallest horizontal distance between two vehicles at the nodes, m: node by node a sweep from west to east, so that
+/// nobody farther east than the best so far is looked at.
 pub fn node_separation_m(trajectories: &[&Iterate]) -> Option<f64> {
-    let pairs = trajectories.iter().enumerate().flat_map(|(i, a)| trajectories[..i].iter().map(move |b| (a, b)));
-    pairs
-        .flat_map(|(a, b)| (0..=a.intervals()).map(move |k| distance_m(a.position_m(k), b.position_m(k))))
-        .reduce(f64::min)
+    let nodes = trajectories.iter().map(|trajectory| trajectory.states.len()).max()?;
+    let mut nearest_m = f64::INFINITY;
+    for node in 0..nodes {
+        let present = trajectories.iter().filter(|trajectory| node < trajectory.states.len());
+        let mut eastward: Vec<[f64; 2]> = present.map(|trajectory| trajectory.position_m(node)).collect();
+        eastward.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        for (place, a) in eastward.iter().enumerate() {
+            let near = eastward[place + 1..].iter().take_while(|b| b[0] - a[0] < nearest_m);
+            let closest_m = near.map(|b| distance_m(*a, *b)).fold(f64::INFINITY, f64::min);
+            nearest_m = nearest_m.min(closest_m);
+        }
+    }
+    nearest_m.is_finite().then_some(nearest_m)
 }
 
 /// Smallest distance from a node to the surface of a cylinder, m.

@@ -41,13 +41,6 @@ pub struct Fault {
     pub unit: &'static str,
 }
 
-impl Fault {
-    /// The ways and the time have not settled yet.
-    pub fn searching() -> Self {
-        Self { constraint: "rest", between: vec!["the fleet".to_string()], at_s: 0.0, violation: 1.0, unit: "-" }
-    }
-}
-
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { constraint, between, at_s, violation, unit } = self;

@@ -58,11 +58,6 @@ impl<'a> Sequence<'a> {
         }
     }
 
-    /// Everybody's trajectory now.
-    pub fn into_trajectories(self) -> Vec<Iterate> {
-        self.trajectories
-    }
-
     /// One iteration. `inspect` sees the subproblems and their solutions.
     pub fn advance(&mut self, inspect: &dyn Fn(&[Program], &[Solution])) -> Iteration {
         let started = Instant::now();
@@ -81,23 +76,24 @@ impl<'a> Sequence<'a> {
         iteration
     }
 
-    /// What keeps the fleet from flying the trajectories; nothing if they may be called a solution.
-    pub fn fault(&mut self) -> Option<Fault> {
-        if self.schedule.is_searching() {
-            return Some(Fault::searching());
-        }
-        let mut trajectories = self.trajectories.clone();
-        let longest_s = longest_dt_s(&trajectories);
-        for trajectory in &mut trajectories {
-            if longest_s - trajectory.dt_s < SAME_STEP * longest_s {
-                trajectory.dt_s = longest_s;
-            }
-        }
-        let fault = acceptance::fault(self.scenario, &self.rules, &trajectories, &self.bounds, &self.boundary);
-        if fault.is_none() {
-            self.trajectories = trajectories;
-        }
-        fault
+    /// May the trajectories be called a solution? Not while ways are being looked for, and not with a fault.
+    pub fn is_accepted(&self) -> bool {
+        !self.schedule.is_searching() && self.fault().is_none()
+    }
+
+    /// What is wrong with the trajectories; nothing if they may be flown.
+    pub fn fault(&self) -> Option<Fault> {
+        acceptance::fault(self.scenario, &self.rules, &self.together(), &self.bounds, &self.boundary)
+    }
+
+    /// The trajectories, with one step length for all whose step lengths differ by a solver's tolerance only.
+    pub fn together(&self) -> Vec<Iterate> {
+        let longest_s = longest_dt_s(&self.trajectories);
+        let joined = |trajectory: &Iterate| {
+            let is_longest = longest_s - trajectory.dt_s < SAME_STEP * longest_s;
+            Iterate { dt_s: if is_longest { longest_s } else { trajectory.dt_s }, ..trajectory.clone() }
+        };
+        self.trajectories.iter().map(joined).collect()
     }
 
     fn traffic(&self) -> Traffic {
