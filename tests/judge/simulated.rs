@@ -24,7 +24,9 @@ fn the_good_plan_passes_when_it_is_really_flown() {
 /// 35 m/s over ground across a wind of 30 m/s are 46 m/s through the air, of which 45 are allowed.
 #[test]
 fn the_limits_are_those_of_the_airspeed() {
-    let case = flown(|case| case.scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 30.0, 0.0], gusts: None }));
+    let case = flown(|case| {
+        case.scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 30.0, 0.0], gusts: None, pulses: vec![] });
+    });
     let check = case.check("flight.state_limits");
     assert_eq!((check.status, check.limit, check.unit.as_str()), (Status::Fail, Some(45.0), "m/s"));
     assert!(check.value.is_some_and(|speed_mps| speed_mps >= 35.0_f64.hypot(30.0) - 1e-9));
