@@ -25,7 +25,7 @@ fn the_good_plan_passes_when_it_is_really_flown() {
 #[test]
 fn the_limits_are_those_of_the_airspeed() {
     let case = flown(|case| {
-        case.scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 30.0, 0.0], gusts: None, pulses: Vec::new() })
+        case.scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 30.0, 0.0], gusts: None, pulses: vec![] });
     });
     let check = case.check("flight.state_limits");
     assert_eq!((check.status, check.limit, check.unit.as_str()), (Status::Fail, Some(45.0), "m/s"));

@@ -7,3 +7,5 @@ mod case;
 mod edges;
 #[path = "../../sim/tests/slung/flatness.rs"]
 mod flatness;
+#[cfg(feature = "rrd")]
+mod recording;

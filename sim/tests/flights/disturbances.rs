@@ -14,7 +14,7 @@ fn in_steady_wind_the_flight_relative_to_the_air_is_the_windless_one() {
     let mut scenario = arena::scenario(1);
     // The same velocity through the air: in still air the start is the planned one, in the wind it drifts with it.
     let still = fly_with(&scenario, &plan, 0, &OPEN_LOOP, &mut arena::silent);
-    scenario.simulation.wind = Some(Wind { mean_mps: WIND_MPS, gusts: None });
+    scenario.simulation.wind = Some(Wind { mean_mps: WIND_MPS, gusts: None, pulses: vec![] });
     let setup = Setup { start_velocity_offset_mps: WIND_MPS, ..OPEN_LOOP };
     let windy = fly_with(&scenario, &plan, 0, &setup, &mut arena::silent);
     for (still, windy) in still.vehicles[0].samples.iter().zip(&windy.vehicles[0].samples) {
@@ -63,7 +63,7 @@ fn an_overweight_aircraft_sags_until_the_tracker_holds_it_by_its_spring() {
 fn gusty(seed: u64) -> Flight {
     let mut scenario = arena::scenario(2);
     let gusts = Gusts { wind_at_20ft_mps: 7.7, sigma_aloft_mps: 0.8 };
-    scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 5.0, 0.0], gusts: Some(gusts) });
+    scenario.simulation.wind = Some(Wind { mean_mps: [0.0, 5.0, 0.0], gusts: Some(gusts), pulses: vec![] });
     let start = |y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 100.0);
     fly(&scenario, &arena::plan(vec![start(0.0), start(300.0)]), seed, &mut arena::silent)
 }

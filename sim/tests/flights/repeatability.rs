@@ -6,8 +6,8 @@ use crate::arena;
 fn disturbed() -> (Scenario, Plan) {
     let mut scenario = arena::scenario(3);
     let gusts = Gusts { wind_at_20ft_mps: 7.7, sigma_aloft_mps: 0.8 };
-    scenario.simulation.wind = Some(Wind { mean_mps: [3.0, 1.0, 0.0], gusts: Some(gusts) });
-    scenario.simulation.sensors = Sensors { position_noise_m: 0.5, velocity_noise_mps: 0.1 };
+    scenario.simulation.wind = Some(Wind { mean_mps: [3.0, 1.0, 0.0], gusts: Some(gusts), pulses: vec![] });
+    scenario.simulation.sensors = Sensors { position_noise_m: 0.5, velocity_noise_mps: 0.1, ..Sensors::default() };
     scenario.world.cylinders = vec![arena::pillar("tower", 700.0, 600.0, 80.0)];
     let start = |y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 40.0);
     (scenario, arena::plan(vec![start(0.0), start(300.0), start(600.0)]))

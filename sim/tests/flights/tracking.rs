@@ -64,7 +64,8 @@ fn what_acts_stays_inside_the_limits_and_saturation_is_reported() {
 #[test]
 fn noise_moves_the_measurement_and_not_the_truth() {
     let mut scenario = arena::scenario(1);
-    scenario.simulation.sensors = scenarios::Sensors { position_noise_m: 1.0, velocity_noise_mps: 0.1 };
+    scenario.simulation.sensors =
+        scenarios::Sensors { position_noise_m: 1.0, velocity_noise_mps: 0.1, ..Default::default() };
     let flight = fly(&scenario, &arena::plan(vec![arena::manoeuvres()]), 3, &mut arena::silent);
     let samples = &flight.vehicles[0].samples;
     let noise = samples.iter().map(|sample| sample.measured_position_m[0] - sample.position_m[0]);

@@ -96,7 +96,7 @@ impl Swing {
     /// 16 s²(1 - s)².
     fn load(&self, t_s: f64) -> Jet {
         let share = (t_s / self.duration_s).clamp(0.0, 1.0);
-        let s = smooth_step(share).map(|value| Vector3::repeat(value));
+        let s = smooth_step(share).map(Vector3::repeat);
         let mut rest = s.map(|value| -value);
         rest[0].add_scalar_mut(1.0);
         let bow = product(&product(&s, &rest), &product(&s, &rest));

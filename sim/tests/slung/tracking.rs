@@ -134,7 +134,7 @@ fn a_catch_is_flown_through() {
         load_position_m: [0.0, 0.0, 2.0 - 0.45],
         load_velocity_mps: [0.0; 3],
     };
-    let fall_s = (2.0 * 0.2 / GRAVITY_MPS2 as f64).sqrt();
+    let fall_s = (2.0 * 0.2 / GRAVITY_MPS2).sqrt();
     let (hover, brake) = (Control { thrust_n: hover_n }, Control { thrust_n: brake_n });
     let before = flow(&plant, &Body::from(&start), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01).last().unwrap().body;
     let (after, impulse_ns) = sim::slung_load::impact(&plant, &before);

@@ -1,0 +1,149 @@
+//! Scenarios of slung loads: what makes no sense is refused, with its place.
+
+const TEXT: &str = r#"name = "slung"
+description = "A load round a box."
+
+[world]
+map = { x_m = [-4, 4], y_m = [-4, 4], z_m = [-1, 4] }
+ground_m = 0
+
+[[world.boxes]]
+name = "box"
+center_m = [0, 0]
+size_m = [1, 1]
+
+[[world.prisms]]
+name = "wedge"
+corners_m = [[0, 2], [1, 2], [0, 3]]
+z_m = [0, 1]
+
+[models.slung-load.quad]
+mass_kg = 1.32
+inertia_kgm2 = [0.018, 0.018, 0.026]
+arm_m = 0.225
+torque_per_thrust_m = 0.016
+propeller_radius_m = 0.127
+load_mass_kg = 0.2
+load_radius_m = 0.03
+cable_length_m = 0.65
+limits = { thrust_n = [0, 7], attitude_deg = [-60, 60], cable_deg = [-80, 80], tension_n = 40 }
+planning_limits = { thrust_n = [1, 5], attitude_deg = [-45, 45], cable_deg = [-60, 60], tension_n = 20 }
+
+[[vehicles]]
+name = "carrier"
+model = "quad"
+start = { x_m = -2, y_m = 0, z_m = 0.5, load = { x_m = -2, y_m = 0, z_m = 0.03 } }
+goal = { x_m = 2, y_m = 0, z_m = 1.5 }
+
+[planner]
+name = "any"
+collocation = { objective = "effort", flight_time_s = 4, segments = 10, points = 4, cable = ["slack", "taut"] }
+
+[simulation]
+wind = { mean_mps = [0, 0, 0], pulses = [{ start_s = 1, duration_s = 1, peak_mps = [3, 0, 0] }] }
+sensors = { attitude_noise_deg = 0.1 }
+mismatch = { load_mass_ratio = 1.05 }
+"#;
+
+/// The single fault of the changed text: field, what was found, what was expected.
+#[track_caller]
+fn assert_fault(old: &str, new: &str, field: &str, found: &str, expected: &str) {
+    assert!(TEXT.contains(old), "no `{old}`");
+    let error = scenarios::parse("slung.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
+    let [fault] = error.faults() else { panic!("expected one fault, found {:#?}", error.faults()) };
+    assert_eq!(fault.problem.field, field, "{fault}");
+    assert!(fault.problem.found.contains(found) && fault.problem.expected.contains(expected), "{fault}");
+    assert!(fault.line > 0);
+}
+
+#[test]
+fn the_scenario_is_valid_and_has_its_familys_limits() {
+    let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
+    assert_eq!(scenario.family(), scenarios::Family::SlungLoad);
+    assert_eq!((scenario.limits().tracking_max_m, scenario.limits().switch_s), (0.05, 0.02));
+    assert_eq!(scenario.world.flat_obstacles().len(), 2);
+    let text = toml::to_string(&scenario).unwrap();
+    assert_eq!(scenarios::parse("slung.toml", &text).unwrap(), scenario);
+}
+
+#[test]
+fn obstacles_are_convex_with_names_of_their_own() {
+    let dented = "[[0, 2], [1, 2], [0.1, 2.1], [0, 3]]";
+    assert_fault("[[0, 2], [1, 2], [0, 3]]", dented, "world.prisms[0].corners_m", "4 corners", "convex polygon");
+    assert_fault("\"wedge\"", "\"box\"", "world.prisms[0].name", "box", "world.boxes has this one");
+    assert_fault("size_m = [1, 1]", "size_m = [1, 0]", "world.boxes[0].size_m[1]", "0", "greater than 0");
+    assert_fault("z_m = [0, 1]", "z_m = [1, 0]", "world.prisms[0].z_m", "[1, 0]", "min below max");
+}
+
+#[test]
+fn the_load_is_on_its_cable_above_the_ground_and_outside_obstacles() {
+    let start = "load = { x_m = -2, y_m = 0, z_m = 0.03 }";
+    assert_fault(
+        start,
+        "load = { x_m = -2.7, y_m = 0, z_m = 0.4 }",
+        "vehicles[0].start.load",
+        "0.7071 m",
+        "0.65 m at most",
+    );
+    assert_fault(start, "load = { x_m = -2, y_m = 0, z_m = 0 }", "vehicles[0].start.load", "at 0 m", "0.03 m or more");
+    assert_fault(
+        "x_m = 2, y_m = 0, z_m = 1.5",
+        "x_m = 0.2, y_m = 2.2, z_m = 1.5",
+        "vehicles[0].goal.load",
+        "wedge",
+        "outside",
+    );
+}
+
+#[test]
+fn models_can_hover_and_rotors_do_not_pull_down() {
+    let planning = "models.slung-load.quad.planning_limits.thrust_n";
+    assert_fault("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "around 3.728 N");
+    let limits = "models.slung-load.quad.limits.thrust_n";
+    assert_fault("thrust_n = [0, 7]", "thrust_n = [-1, 7]", limits, "[-1, 7]", "rotors do not pull down");
+    assert_fault(
+        "attitude_deg = [-45, 45]",
+        "attitude_deg = [-65, 45]",
+        "models.slung-load.quad.planning_limits.attitude_deg",
+        "[-65, 45]",
+        "inside",
+    );
+    assert_fault(
+        "load_mass_kg = 0.2",
+        "load_mass_kg = 0",
+        "models.slung-load.quad.load_mass_kg",
+        "0",
+        "greater than 0",
+    );
+}
+
+#[test]
+fn a_slung_load_flies_alone_among_flat_obstacles() {
+    let two = "[[vehicles]]\nname = \"other\"\nmodel = \"quad\"\nstart = { x_m = 2, y_m = 3, z_m = 1 }\n\
+               goal = { x_m = 2, y_m = -3, z_m = 1 }\n\n[planner]";
+    assert_fault("[planner]", two, "vehicles", "2 of them", "fly alone");
+    let pillar =
+        "[[world.cylinders]]\nname = \"pillar\"\ncenter_m = [3, 3]\nradius_m = 0.1\n\n[models.slung-load.quad]";
+    assert_fault("[models.slung-load.quad]", pillar, "world.cylinders", "1 of them", "among boxes and prisms");
+}
+
+#[test]
+fn disturbances_and_options_have_their_ranges() {
+    assert_fault("duration_s = 1,", "duration_s = 0,", "simulation.wind.pulses[0].duration_s", "0", "greater than 0");
+    assert_fault(
+        "attitude_noise_deg = 0.1",
+        "attitude_noise_deg = -1",
+        "simulation.sensors.attitude_noise_deg",
+        "-1",
+        "0 or more",
+    );
+    assert_fault(
+        "load_mass_ratio = 1.05",
+        "load_mass_ratio = 0",
+        "simulation.mismatch.load_mass_ratio",
+        "0",
+        "greater than 0",
+    );
+    assert_fault("flight_time_s = 4, ", "", "planner.collocation.flight_time_s", "nothing", "a duration");
+    assert_fault("points = 4", "points = 1", "planner.collocation.points", "1", "from 2 to 20");
+}
