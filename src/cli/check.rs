@@ -46,6 +46,9 @@ Columns of CSV and Parquet, one row per vehicle and time; x east, y north, z up:
                                               angles also as heading_deg, flight_path_deg); reconstructed if absent
   n_x, n_y, n_z                               load factors, linear between the rows; reconstructed if absent
 
+The plan of a slung load has the columns of its plan.csv, all of them. Which rows are the planner's own nodes only
+plan.json says: in a table all of them are, and the checks nodes.* look at each.
+
 JSON is plan.json as `harness run` writes it, or the same with these columns as arrays in every trajectory.";
 
 impl Check {
