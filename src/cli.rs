@@ -9,6 +9,7 @@ mod plan;
 mod run;
 mod schema;
 mod selection;
+mod selftest;
 mod session;
 
 use clap::{Parser, Subcommand};
@@ -48,6 +49,8 @@ enum Command {
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
+    #[command(name = "selftest")]
+    Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),
     Completions(completions::Completions),
     Man(completions::Man),
@@ -64,6 +67,7 @@ impl Cli {
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),
             Command::Bench(bench) => bench.execute(),
+            Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),
             Command::Completions(completions) => completions.execute(),
             Command::Man(man) => man.execute(),

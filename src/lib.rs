@@ -22,5 +22,6 @@ mod pipeline;
 mod progress;
 pub mod record;
 pub mod report;
+pub mod selftest;
 pub mod submitted;
 pub mod verdict;

@@ -8,20 +8,24 @@ mod blocks;
 mod clearance;
 mod closest;
 mod compare;
+mod conditions;
 mod dynamics;
 mod flight_integrity;
 mod flown;
+mod flown_reference;
 mod given;
 mod integrity;
 mod judge;
 mod limits;
 mod motion;
+mod physics;
 mod planned;
 mod question;
 #[cfg(test)]
 mod random;
 mod separation;
 pub mod slung_load;
+mod touch;
 mod tracking;
 mod worst;
 

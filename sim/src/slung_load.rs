@@ -12,6 +12,7 @@ mod fly;
 mod gains;
 mod linear;
 mod reference;
+mod replay;
 mod shapes;
 mod tracker;
 
@@ -20,6 +21,7 @@ pub use cable_watch::SHORTEST_PHASE_S;
 pub use dynamics::{Plant, impact};
 pub use flow::{Knot, flow};
 pub use reference::{Reference, ReferencePoint};
+pub use replay::{Acting, Replay};
 pub use shapes::{GROUND, Part, Parts};
 
 pub(crate) use fly::fly;

@@ -52,7 +52,9 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
                 let who = [i.min(j), i.max(j)];
                 if search.may_be_within(blocks[i].gap_m(blocks[j]), 0.0) {
                     let segments = who.map(|i| blocks[i].segments.clone());
-                    search.look_at_pair(who.map(|i| &motions[i]), segments, who);
+                    each_common_span(who.map(|i| &motions[i]), segments, |relative, span| {
+                        search.look(&horizontal(relative), span, 0.0, who);
+                    });
                 }
             }
         }
@@ -75,6 +77,37 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approa
                         let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
                         search.look(&relative, &segment, cylinder.radius_m, [i, m]);
                     }
+                }
+            }
+        }
+    }
+    search.found()
+}
+
+/// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
+/// `None` if no two touch.
+pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
+    let frame = Frame::over(motions);
+    let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    let mut search = Search::below(0.0);
+    for index in 0..frame.count() {
+        let present = |i: &usize| !of_motion[*i][index].segments.is_empty();
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(present).collect();
+        eastward.sort_by(|&i, &j| of_motion[i][index].west_m().total_cmp(&of_motion[j][index].west_m()));
+        let widest_m = radii_m.iter().copied().fold(0.0, f64::max);
+        for (place, &i) in eastward.iter().enumerate() {
+            for &j in &eastward[place + 1..] {
+                let (one, other) = (&of_motion[i][index], &of_motion[j][index]);
+                if !search.may_be_within(other.west_m() - one.east_m(), 2.0 * widest_m) {
+                    break;
+                }
+                if search.may_be_within(one.gap_m(other), radii_m[i] + radii_m[j]) {
+                    let who = [i.min(j), i.max(j)];
+                    let segments = who.map(|i| of_motion[i][index].segments.clone());
+                    let pair = who.map(|i| &motions[i]);
+                    each_common_span(pair, segments, |relative, span| {
+                        search.look(&relative, span, radii_m[i] + radii_m[j], who);
+                    });
                 }
             }
         }
@@ -114,6 +147,26 @@ fn squared_gap_to_box(points_m: &[[f64; 3]; 4]) -> f64 {
     x * x + y * y
 }
 
+/// Calls `look` with the motion of the first of two vehicles relative to the second, for each span of time in which neither
+/// goes on to its next segment.
+fn each_common_span(
+    [first, second]: [&Motion; 2],
+    [mut a, mut b]: [Range<usize>; 2],
+    mut look: impl FnMut([[f64; 3]; 4], &Segment),
+) {
+    while a.start < a.end && b.start < b.end {
+        let (one, other) = (first.segment(a.start), second.segment(b.start));
+        let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
+        if from_s < to_s {
+            let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
+            look(std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k])), &one);
+        }
+        let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
+        a.start += usize::from(one_end_s <= other_end_s);
+        b.start += usize::from(other_end_s <= one_end_s);
+    }
+}
+
 /// The search over all segments: bounds of the smallest distance so far.
 struct Search {
     lower_m: f64,
@@ -123,28 +176,17 @@ struct Search {
 
 impl Search {
     fn new() -> Self {
-        Self { lower_m: f64::INFINITY, upper_m: f64::INFINITY, at: None }
+        Self::below(f64::INFINITY)
+    }
+
+    /// Only distances below this count, m.
+    fn below(upper_m: f64) -> Self {
+        Self { lower_m: upper_m, upper_m, at: None }
     }
 
     /// Can something that is `gap_m` or farther from the centre of a circle be nearer to the circle than the best?
     fn may_be_within(&self, gap_m: f64, radius_m: f64) -> bool {
         gap_m - radius_m < self.upper_m
-    }
-
-    /// The segments of two vehicles, each pair while both last.
-    fn look_at_pair(&mut self, [first, second]: [&Motion; 2], [mut a, mut b]: [Range<usize>; 2], who: [usize; 2]) {
-        while a.start < a.end && b.start < b.end {
-            let (one, other) = (first.segment(a.start), second.segment(b.start));
-            let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
-            if from_s < to_s {
-                let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
-                let relative = std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k]));
-                self.look(&horizontal(relative), &one, 0.0, who);
-            }
-            let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
-            a.start += usize::from(one_end_s <= other_end_s);
-            b.start += usize::from(other_end_s <= one_end_s);
-        }
     }
 
     /// One segment, by its control points relative to the centre of a circle of `radius_m`.

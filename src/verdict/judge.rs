@@ -5,8 +5,8 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Given, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits,
-    separation, slung_load, tracking,
+    Check, Given, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity, integrity, limits,
+    physics, separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -54,8 +54,8 @@ fn of_fixed_wings(
     let flown = logged.map_err(str::to_owned).and_then(|flight| Flown::new(scenario, plan, flight));
     let mut checks = nodes_checks(scenario, flyable.as_ref().map(|()| plan).map_err(String::as_str));
     checks.extend(plan_checks(scenario, plan, flyable.as_ref().map_err(String::as_str), planned.as_ref()));
-    checks.extend(log_checks(scenario, plan, logged));
-    checks.extend(flight_checks(scenario, flown.as_ref().map_err(String::as_str)));
+    checks.extend(log_checks(scenario, plan, logged, flown.as_ref().map_err(String::as_str)));
+    checks.extend(flight_checks(scenario, logged, flown.as_ref().map_err(String::as_str)));
     checks
 }
 
@@ -68,7 +68,8 @@ fn of_a_slung_load(
     let judge = slung_load::Judge::new(scenario, plan, flyable.clone());
     let mut checks = judge.nodes_checks();
     checks.extend(judge.plan_checks());
-    checks.extend(log_checks(scenario, plan, logged));
+    // Body, cable and load are judged by their true shapes: what touches has no clearance.
+    checks.extend(log_checks(scenario, plan, logged, Err("")));
     checks.extend(judge.flight_checks(logged));
     checks
 }
@@ -107,20 +108,26 @@ fn plan_checks(
     ]
 }
 
-fn log_checks(scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Vec<Check> {
+fn log_checks(
+    scenario: &Scenario,
+    plan: &Plan,
+    flight: Evidence<'_, Flight>,
+    flown: Evidence<'_, Flown<'_>>,
+) -> Vec<Check> {
     match flight {
         Ok(flight) => vec![
             flight_integrity::check_finite(flight),
             flight_integrity::check_complete(scenario, plan, flight),
-            flight_integrity::check_crash(flight),
+            flight_integrity::check_crash(scenario, flight, flown),
+            conditions::check(scenario, flight),
         ],
-        Err(reason) => [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes")]
+        Err(reason) => [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]
             .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
             .into(),
     }
 }
 
-fn flight_checks(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
+fn flight_checks(scenario: &Scenario, logged: Evidence<'_, Flight>, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
     let motions = flown.map(|flown| flown.motions.as_slice());
     let no_load = |name, unit| Question::new(Group::Flight, name, unit).skip("no vehicle carries a load");
     vec![
@@ -128,6 +135,7 @@ fn flight_checks(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Vec<Che
         clearance::check(Group::Flight, scenario, motions),
         limits::check_flown_states(scenario, flown),
         limits::check_flown_controls(scenario, flown),
+        physics::check(scenario, logged),
         arrival::check_flown_goals(scenario, flown),
         arrival::check_flown_arrival(scenario, flown),
         arrival::check_flown_duration(scenario, flown),

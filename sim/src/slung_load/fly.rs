@@ -234,6 +234,6 @@ impl Sortie {
 }
 
 /// Force of air that moves past a body at a velocity, N: half its density times the drag area times the speed squared.
-fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
+pub(super) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
     relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
 }

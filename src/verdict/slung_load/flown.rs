@@ -38,7 +38,8 @@ impl<'a> Flown<'a> {
     }
 }
 
-fn instant((sample, load): (&Sample, &LoadSample)) -> Instant {
+/// Quadrotor and load at the instant of a sample.
+pub fn instant((sample, load): (&Sample, &LoadSample)) -> Instant {
     let body = Body {
         position_m: sample.position_m.into(),
         velocity_mps: sample.velocity_mps.into(),
