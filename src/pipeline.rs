@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use scenarios::{Plan, Scenario};
-use sim::Flight;
+use sim::{Flight, Setup};
 
 use crate::author::{Author, HandedOver};
 use crate::error::Error;
@@ -17,6 +17,7 @@ use crate::jobs::Job;
 use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
 use crate::report::{Report, Timings};
+use crate::verdict::Integration;
 use crate::{metrics, output, verdict};
 
 /// What an outside planner wrote to its standard error.
@@ -30,6 +31,8 @@ pub struct Outputs {
     pub recorders: Vec<Box<dyn Recorder>>,
     /// Planned and flown paths as TUM files?
     pub tum: bool,
+    /// Is every flight repeated with finer steps?
+    pub fly_again: bool,
 }
 
 /// What a job brought.
@@ -46,10 +49,12 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let HandedOver { answer, log } = timed(&mut timings.planning_s, || plan(job, progress));
     let plan = &answer.plan;
     let flight = timed(&mut timings.flying_s, || fly(job, plan, progress));
+    let again = flight.as_ref().filter(|_| outputs.fly_again);
+    let integration = timed(&mut timings.flying_s, || again.map(|flight| fly_again(job, plan, flight)));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
-            || verdict::judge_given(&job.scenario, plan, &answer.given, flight.as_ref()),
+            || verdict::judge_with(&job.scenario, plan, &answer.given, flight.as_ref(), integration),
             || metrics::measure(&job.scenario, plan, flight.as_ref()),
         )
     });
@@ -57,7 +62,7 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict };
     timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
     export(flight.as_ref(), outputs, folder)?;
-    let report = Report::new(&answer, verdict, metrics, timings);
+    let report = Report::new(&answer, flight.as_ref(), verdict, metrics, timings);
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
     Ok(Done { report, log })
@@ -76,6 +81,13 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
     verdict::is_flyable(&job.scenario, plan).ok()?;
     progress.flying(flight_duration_s(&job.scenario, plan));
     Some(sim::fly(&job.scenario, plan, job.seed, &mut |t_s| progress.flown(t_s)))
+}
+
+/// The same flight with half and with a quarter of the plant's step, and how far they are apart.
+fn fly_again(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
+    let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &Setup::finer(halvings), &mut |_| {});
+    let (half, quarter) = rayon::join(|| finer(1), || finer(2));
+    Integration::by_finer_steps(flight, [&half, &quarter])
 }
 
 fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {

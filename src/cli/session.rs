@@ -21,6 +21,9 @@ pub struct Session {
     /// Recordings to write, separated by commas
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', default_value = DEFAULT_RECORDING)]
     record: Vec<Recording>,
+    /// How to tell what the integrator may be wrong by; a margin below that decides nothing
+    #[arg(long, value_enum, value_name = "FORM", default_value = "cheap")]
+    second_integrator: SecondIntegrator,
     /// Write planned and flown paths as TUM files too, for evo
     #[arg(long)]
     tum: bool,
@@ -51,6 +54,15 @@ enum Recording {
     None,
 }
 
+/// Ways to tell what the integrator may be wrong by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SecondIntegrator {
+    /// Replay the log by an integrator of order 6, in windows
+    Cheap,
+    /// Fly again with half and a quarter of the plant's step as well
+    Full,
+}
+
 /// Formats of standard output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -72,7 +84,7 @@ struct Done {
 impl Session {
     /// Runs everything that can be run, names what cannot, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
-        let outputs = Outputs { recorders: recorders(&self.record)?, tum: self.tum };
+        let outputs = Outputs { recorders: recorders(&self.record)?, tum: self.tum, fly_again: self.second_integrator == SecondIntegrator::Full };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
         start_threads(self.jobs)?;
         let mut done = Done::default();

@@ -26,7 +26,9 @@ pub fn of(specimen: &Specimen) -> Vec<NearMiss> {
 fn just_above(cut: &'static cuts::Cut) -> NearMiss {
     NearMiss::new(cut.name, |it: &mut Specimen| {
         let reached = cut.checks.iter().map(|check| it.value(check)).fold(0.0, f64::max);
-        (cut.set)(it, reached * (1.0 + SHARE));
+        // What two integrators disagree on is no margin.
+        let unsure_m = 2.0 * it.value("flight.dynamics");
+        (cut.set)(it, reached * (1.0 + SHARE) + unsure_m);
     })
 }
 
@@ -51,7 +53,8 @@ fn fixed_wing() -> Vec<NearMiss> {
         NearMiss::new("vehicles as near to each other as they may be", |it| {
             let groups = ["nodes.separation", "plan.separation", "flight.separation"];
             let nearest_m = groups.iter().map(|check| it.value(check)).fold(f64::INFINITY, f64::min);
-            cuts::keep_apart(it, nearest_m - NEAR_M);
+            let unsure_m = 2.0 * it.value("flight.dynamics");
+            cuts::keep_apart(it, nearest_m - NEAR_M - unsure_m);
         }),
         NearMiss::new("a pole that a wing just clears", |it| {
             let (middle, wing_m) = (it.steps() / 2, it.fixed_wing_model().body_radius_m);
@@ -82,7 +85,9 @@ fn slung_load() -> Vec<NearMiss> {
         NearMiss::new("thrusts as large as the rotors give", |it| {
             let flown = it.samples(0).iter_mut().flat_map(|it| super::specimen::thrusts(it).control.thrust_n);
             let largest_n = flown.fold(0.0, f64::max);
-            let planned_n = it.slung_load_model().planning_limits.thrust_n.max + 1e-4;
+            let promised_n = it.slung_load_model().planning_limits.thrust_n.max + 1e-4;
+            let planned = it.slung_load().controls.iter().flat_map(|control| control.thrust_n);
+            let planned_n = planned.fold(promised_n, f64::max);
             it.slung_load_model().limits.thrust_n.max = largest_n.max(planned_n) + NEAR_M;
         }),
     ]

@@ -18,8 +18,9 @@ const RESOLUTION_M: f64 = 1e-9;
 /// Rounding of a squared distance, as a share of the largest coefficient of its polynomial.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`], which are
-/// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m).
+/// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`]. Of curves they are
+/// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m); of motions that
+/// are known at samples only, farther by what they may [deviate](Motion::deviation_m) from their curves, twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// No distance is smaller, m.
@@ -39,6 +40,8 @@ pub struct Approach {
 pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    // A deviation makes a vehicle reach farther, as a radius does.
+    let widest_m = 2.0 * motions.iter().map(Motion::deviation_m).fold(0.0, f64::max);
     let mut search = Search::new();
     for index in 0..frame.count() {
         let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
@@ -46,14 +49,15 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
         eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
         for (place, &i) in eastward.iter().enumerate() {
             for &j in &eastward[place + 1..] {
-                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), 0.0) {
+                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), widest_m) {
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                if search.may_be_within(blocks[i].gap_m(blocks[j]), 0.0) {
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), widest_m) {
                     let segments = who.map(|i| blocks[i].segments.clone());
+                    let deviation_m = motions[i].deviation_m() + motions[j].deviation_m();
                     each_common_span(who.map(|i| &motions[i]), segments, |relative, span| {
-                        search.look(&horizontal(relative), span, 0.0, who);
+                        search.look(&horizontal(relative), span, Reach { radius_m: 0.0, deviation_m }, who);
                     });
                 }
             }
@@ -72,10 +76,11 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approa
         for (m, cylinder) in cylinders.iter().enumerate() {
             let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
             for block in blocks.iter() {
-                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), cylinder.radius_m) {
+                let reach = Reach { radius_m: cylinder.radius_m, deviation_m: motion.deviation_m() };
+                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), reach.total_m()) {
                     for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts) {
                         let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
-                        search.look(&relative, &segment, cylinder.radius_m, [i, m]);
+                        search.look(&relative, &segment, reach, [i, m]);
                     }
                 }
             }
@@ -106,7 +111,8 @@ pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
                     let segments = who.map(|i| of_motion[i][index].segments.clone());
                     let pair = who.map(|i| &motions[i]);
                     each_common_span(pair, segments, |relative, span| {
-                        search.look(&relative, span, radii_m[i] + radii_m[j], who);
+                        let radius_m = radii_m[i] + radii_m[j];
+                        search.look(&relative, span, Reach { radius_m, deviation_m: 0.0 }, who);
                     });
                 }
             }
@@ -120,7 +126,8 @@ pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<Appro
     let mut search = Search::new();
     for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
         let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
-        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, 0.0, [0, 0]);
+        let reach = Reach { radius_m: 0.0, deviation_m: 0.0 };
+        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, reach, [0, 0]);
     }
     search.found()
 }
@@ -167,11 +174,26 @@ fn each_common_span(
     }
 }
 
-/// The search over all segments: bounds of the smallest distance so far.
+/// The search over all segments: bounds of the smallest distance so far, deviations taken off.
 struct Search {
     lower_m: f64,
     upper_m: f64,
-    at: Option<(f64, [usize; 2])>,
+    at: Option<(f64, [usize; 2], f64)>,
+}
+
+/// How far something reaches from its curve.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// As a shape, m.
+    radius_m: f64,
+    /// Because the curve is known no better, m.
+    deviation_m: f64,
+}
+
+impl Reach {
+    fn total_m(self) -> f64 {
+        self.radius_m + self.deviation_m
+    }
 }
 
 impl Search {
@@ -189,8 +211,9 @@ impl Search {
         gap_m - radius_m < self.upper_m
     }
 
-    /// One segment, by its control points relative to the centre of a circle of `radius_m`.
-    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, radius_m: f64, who: [usize; 2]) {
+    /// One segment, by its control points relative to the centre of a circle.
+    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, reach: Reach, who: [usize; 2]) {
+        let radius_m = reach.total_m();
         let reach_m = self.upper_m + radius_m;
         if reach_m <= 0.0 || squared_gap_to_box(relative_m) >= reach_m * reach_m {
             return;
@@ -202,13 +225,14 @@ impl Search {
         self.lower_m = self.lower_m.min((minimum.lower - rounding).max(0.0).sqrt() - radius_m);
         if let Some(u) = minimum.at {
             self.upper_m = (minimum.upper + rounding).sqrt() - radius_m;
-            self.at = Some((span.instant_s(u), who));
+            self.at = Some((span.instant_s(u), who, reach.deviation_m));
         }
     }
 
     fn found(&self) -> Option<Approach> {
-        let (at_s, who) = self.at?;
-        Some(Approach { lower_m: self.lower_m.min(self.upper_m), upper_m: self.upper_m, at_s, who })
+        let (at_s, who, deviation_m) = self.at?;
+        let lower_m = self.lower_m.min(self.upper_m);
+        Some(Approach { lower_m, upper_m: self.upper_m + 2.0 * deviation_m, at_s, who })
     }
 }
 

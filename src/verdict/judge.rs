@@ -5,7 +5,7 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Given, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity, integrity, limits,
+    Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity, integrity, limits,
     physics, separation, slung_load, tracking,
 };
 
@@ -22,6 +22,17 @@ pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdi
 
 /// [`judge`], of a plan that was not whole: what was reconstructed decides nothing that it cannot tell.
 pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Option<&Flight>) -> Verdict {
+    judge_with(scenario, plan, given, flight, None)
+}
+
+/// [`judge_given`], with what a second integrator made of the flight; without it the disagreement is estimated.
+pub fn judge_with(
+    scenario: &Scenario,
+    plan: &Plan,
+    given: &Given,
+    flight: Option<&Flight>,
+    integration: Option<Integration>,
+) -> Verdict {
     let flyable = integrity::is_flyable(scenario, plan);
     let logged = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
     let logged = logged.as_ref().map(|flight| *flight).map_err(String::as_str);
@@ -32,6 +43,10 @@ pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Opti
     };
 
     given.qualify(&mut checks);
+    let integration = integration.or_else(|| Integration::by_replay(&checks));
+    if let Some(integration) = &integration {
+        integration.doubt(&mut checks);
+    }
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     settle(scenario, &mut checks);
     let outcome = if plan.status == PlanStatus::NoPlan || plan.trajectories.is_empty() {
@@ -41,7 +56,7 @@ pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Opti
     } else {
         Outcome::Pass
     };
-    Verdict { outcome, overclaimed, checks }
+    Verdict { outcome, overclaimed, checks, integration }
 }
 
 fn of_fixed_wings(

@@ -15,8 +15,8 @@ use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 
-/// Largest distance between a flight and its replay, m. An honest flight at 10 ms leaves less than a millimetre.
-const LIMIT_M: f64 = 0.01;
+/// Largest distance between a flight and its replay, m. An honest flight at 10 ms leaves some hundredths of a millimetre.
+pub const LIMIT_M: f64 = 1e-3;
 
 /// The largest difference found between a log and its replay.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -127,7 +127,7 @@ impl<'a> Judge<'a> {
     }
 
     fn check_flown_dynamics(&self, flight: Evidence<'_, Flight>) -> Check {
-        shared_physics::answer(self.scenario, flight, physics::LIMIT_M, |vehicle, log| {
+        shared_physics::answer(self.scenario, flight, shared_physics::LIMIT_M, |vehicle, log| {
             let trajectory = self.plan.trajectories[0].slung_load();
             Physics::of(self.scenario, vehicle, trajectory).largest_defect(log)
         })

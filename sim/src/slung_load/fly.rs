@@ -89,7 +89,7 @@ impl Sortie {
             load_velocity_mps: first.body.load_velocity_mps + offset_mps,
             ..first.body
         };
-        let plant_steps = (settings.step_s / LONGEST_PLANT_STEP_S).ceil().max(1.0) as usize;
+        let plant_steps = (settings.step_s / LONGEST_PLANT_STEP_S).ceil().max(1.0) as usize * setup.substeps();
         let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
         Self {
             hoist: Hoist::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),

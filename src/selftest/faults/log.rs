@@ -25,7 +25,10 @@ fn incomplete() -> Vec<Fault> {
         }),
         Fault::new("flight.complete", "a log is that of another vehicle", |it| it.flight().vehicles[0].vehicle.push('?')),
         Fault::new("flight.complete", "a log is empty", |it| keep(it, 0.0)),
-        Fault::new("flight.complete", "the last quarter of a flight is missing", |it| keep(it, 0.75)),
+        Fault::new("flight.complete", "the last quarter of a flight is missing", |it| {
+            let share = it.planned_steps() as f64 / it.steps() as f64;
+            keep(it, 0.75 * share);
+        }),
         Fault::new("flight.complete", "a flight ends just before its plan", |it| {
             let planned = it.planned_steps();
             it.samples(0).truncate(planned - 2);

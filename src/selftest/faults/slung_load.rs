@@ -166,8 +166,9 @@ fn obstacles() -> Vec<Fault> {
         }),
         Fault::new("flight.clearance", "a bar crosses the cable, below the body and above the load", |it| {
             let middle = it.steps() / 2;
-            let z_m = it.samples(0)[middle].position_m[2];
-            place(it, middle, [0.02, 0.02], Some(Range::new(z_m - 0.35, z_m - 0.3)));
+            let (body_m, load_m) = (it.samples(0)[middle].position_m, it.loads()[middle].position_m);
+            let [x_m, y_m, z_m] = [0, 1, 2].map(|axis| f64::midpoint(body_m[axis], load_m[axis]));
+            add(it, [x_m, y_m], [0.02, 0.02], Some(Range::new(z_m - 0.02, z_m + 0.02)));
         }),
         Fault::new("flight.envelope", "a pole stands under a rotor", |it| {
             let middle = it.steps() / 2;

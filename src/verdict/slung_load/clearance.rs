@@ -11,7 +11,7 @@ use scenarios::slung_load::Trajectory;
 use scenarios::{Prism, Scenario, Vehicle};
 use sim::slung_load::{Body, GROUND, Part, Parts};
 
-use super::course::{Course, Speeds};
+use super::course::{Course, Deviation, Speeds};
 use crate::verdict::Check;
 use crate::verdict::compare::is_smaller;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
@@ -42,11 +42,13 @@ pub struct Surroundings<'a> {
     ground_m: Option<f64>,
 }
 
-/// A smallest distance with bounds.
+/// A smallest distance with bounds, deviations of the true motion from the curves taken off.
 #[derive(Clone, Copy, Debug)]
 struct Closest {
     lower_m: f64,
     upper_m: f64,
+    /// What both are less than the distance of the curves, m.
+    deviation_m: f64,
     at_s: f64,
     shape: Shape,
 }
@@ -119,7 +121,8 @@ impl<'a> Surroundings<'a> {
                     Shape::Envelope(obstacle) => ("envelope", self.obstacles[obstacle].name.as_str()),
                     Shape::AboveGround => (Part::Body.name(), GROUND),
                 };
-                let measured = Measured::bounds(closest.lower_m, closest.upper_m).at(closest.at_s);
+                let upper_m = closest.upper_m + 2.0 * closest.deviation_m;
+                let measured = Measured::bounds(closest.lower_m, upper_m).at(closest.at_s);
                 let measured = measured.with(self.vehicle).with(with).because(format!("it is the {what}"));
                 question.at_least(measured, limit_m)
             }
@@ -135,7 +138,7 @@ impl<'a> Surroundings<'a> {
                 let distance_m = self.distance_m(shape, &body);
                 if best.is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
                     let at_s = trajectory.times_s[node];
-                    best = Some(Closest { lower_m: distance_m, upper_m: distance_m, at_s, shape });
+                    best = Some(Closest { lower_m: distance_m, upper_m: distance_m, deviation_m: 0.0, at_s, shape });
                 }
             }
         }
@@ -188,18 +191,19 @@ impl<'a> Surroundings<'a> {
     ) -> Option<Span> {
         let middle = f64::midpoint(share[0], share[1]);
         let body = course.at(segment, middle);
+        let deviation_m = self.deviation_m(shape, course.deviation(segment));
         let moved_m = self.speed_mps(shape, speeds) * course.duration_s(segment) * (share[1] - share[0]) / 2.0;
         let is_far = |distance_m: f64, best: &Option<Closest>| {
             best.is_some_and(|best| distance_m - moved_m >= best.upper_m - RESOLUTION_M)
         };
-        if is_far(self.at_least_m(shape, &body), best) {
+        if is_far(self.at_least_m(shape, &body) - deviation_m, best) {
             return None;
         }
-        let distance_m = self.distance_m(shape, &body);
+        let distance_m = self.distance_m(shape, &body) - deviation_m;
         let lower_m = distance_m - moved_m;
         if best.is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
             let at_s = course.time_s(segment, middle);
-            *best = Some(Closest { lower_m: distance_m, upper_m: distance_m, at_s, shape });
+            *best = Some(Closest { lower_m: distance_m, upper_m: distance_m, deviation_m, at_s, shape });
         }
         (!is_far(distance_m, best)).then_some(Span { lower_m, segment, share, shape })
     }
@@ -216,6 +220,16 @@ impl<'a> Surroundings<'a> {
             Shape::Part(part, obstacle) => self.parts.distance_m(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(obstacle) => self.parts.envelope_distance_m(body, &self.obstacles[obstacle]),
             Shape::AboveGround => self.parts.height_m(body) - self.ground_m.unwrap_or(f64::NEG_INFINITY),
+        }
+    }
+
+    /// How far a point of the shape may be from where the curves have it, m.
+    fn deviation_m(&self, shape: Shape, Deviation { quadrotor_m, load_m, turn_rad }: Deviation) -> f64 {
+        match shape {
+            Shape::Part(Part::Body, _) | Shape::AboveGround => quadrotor_m + turn_rad * self.parts.body_radius_m(),
+            Shape::Part(Part::Load, _) => load_m,
+            Shape::Part(Part::Cable, _) => quadrotor_m.max(load_m),
+            Shape::Envelope(_) => 2.0 * quadrotor_m + load_m,
         }
     }
 

@@ -34,7 +34,7 @@ impl<'a> Flown<'a> {
         if let Some(sample) = log.samples.iter().find(|sample| !is_attitude(sample.world_from_body)) {
             return Err(format!("the attitude of {} is none at {} s", log.vehicle, sample.t_s));
         }
-        Ok(Self { log, course: Course::new(instants), motions })
+        Ok(Self { log, course: Course::new(instants).sampled(), motions })
     }
 }
 

@@ -12,8 +12,6 @@ use super::flown::instant;
 use crate::verdict::compare::is_larger;
 use crate::verdict::physics::{Defect, difference_m};
 
-/// Largest distance between a flight and its replay, m.
-pub const LIMIT_M: f64 = 0.005;
 /// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
 const WINDOW_S: f64 = 0.1;
 /// A load this close to where it lies on the ground may be held by the ground, which the log does not tell of, m.
