@@ -4,6 +4,8 @@ mod bench;
 mod check;
 mod compare;
 mod completions;
+#[cfg(feature = "parquet")]
+mod diverge;
 mod list;
 mod plan;
 mod run;
@@ -11,6 +13,7 @@ mod schema;
 mod selection;
 mod selftest;
 mod session;
+mod stress;
 
 use clap::{Parser, Subcommand};
 
@@ -49,6 +52,10 @@ enum Command {
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
+    #[cfg(feature = "parquet")]
+    Diverge(diverge::Diverge),
+    #[command(name = "stress")]
+    Stress(stress::StressCommand),
     #[command(name = "selftest")]
     Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),
@@ -67,6 +74,9 @@ impl Cli {
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),
             Command::Bench(bench) => bench.execute(),
+            #[cfg(feature = "parquet")]
+            Command::Diverge(diverge) => diverge.execute(),
+            Command::Stress(stress) => stress.execute(),
             Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),
             Command::Completions(completions) => completions.execute(),

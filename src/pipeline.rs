@@ -23,7 +23,7 @@ use crate::{metrics, output, verdict};
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
 /// Names of the recordings that a result folder may hold.
-const RECORDINGS: [&str; 2] = ["flight.rrd", "flight.mcap"];
+const RECORDINGS: [&str; 3] = ["flight.rrd", "flight.mcap", "flight.parquet"];
 
 /// What is written beside plan and report.
 pub struct Outputs {

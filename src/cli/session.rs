@@ -50,6 +50,8 @@ enum Recording {
     Rrd,
     /// With Foxglove schemas, for Foxglove and others
     Mcap,
+    /// The whole flight log as a table, every number to its last bit
+    Parquet,
     /// No recording
     None,
 }
@@ -186,6 +188,9 @@ fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
     if formats.contains(&Recording::Mcap) {
         recorders.push(mcap()?);
     }
+    if formats.contains(&Recording::Parquet) {
+        recorders.push(parquet()?);
+    }
     Ok(recorders)
 }
 
@@ -207,4 +212,14 @@ fn mcap() -> Result<Box<dyn Recorder>, Error> {
 #[cfg(not(feature = "mcap"))]
 fn mcap() -> Result<Box<dyn Recorder>, Error> {
     Err(Error::RecordingNotBuilt { format: "mcap", what: "MCAP recording" })
+}
+
+#[cfg(feature = "parquet")]
+fn parquet() -> Result<Box<dyn Recorder>, Error> {
+    Ok(Box::new(crate::record::log::Log))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet() -> Result<Box<dyn Recorder>, Error> {
+    Err(Error::RecordingNotBuilt { format: "parquet", what: "flight log as a table" })
 }

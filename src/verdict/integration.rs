@@ -37,9 +37,10 @@ pub enum Method {
 }
 
 impl Integration {
-    /// The cheap form, from the check of the flight's dynamics; `None` if it measured nothing.
+    /// The cheap form, from the check of the flight's dynamics; `None` if that did not pass: what its log does not explain is
+    /// not the integrator's doing, and has failed already.
     pub fn by_replay(checks: &[Check]) -> Option<Self> {
-        let check = checks.iter().find(|check| check.name == DYNAMICS)?;
+        let check = checks.iter().find(|check| check.name == DYNAMICS && check.status == Status::Pass)?;
         let disagreement_m = Some(check.value?);
         Some(Self { method: Method::Replay, disagreement_m, half_to_quarter_m: None })
     }
