@@ -92,7 +92,8 @@ mod tests {
     use crate::record::log::{Table, VehicleTable};
 
     fn table() -> Table {
-        let rows = |offset: f64| (0..100).map(|step| vec![f64::from(step) * 0.01, offset, 0.1, 0.2, f64::NAN]).collect();
+        let rows =
+            |offset: f64| (0..100).map(|step| vec![f64::from(step) * 0.01, offset, 0.1, 0.2, f64::NAN]).collect();
         let vehicle = |name: &str, offset| VehicleTable { vehicle: name.to_owned(), rows: rows(offset) };
         let columns = ["t_s", "x_m", "y_m", "z_m", "n_x"].map(str::to_owned).to_vec();
         Table { scenario: "pair".into(), columns, vehicles: vec![vehicle("uav-1", 1.0), vehicle("uav-2", 2.0)] }

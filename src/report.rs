@@ -154,13 +154,7 @@ impl Timings {
 
 impl Report {
     /// The report on a plan that was judged.
-    pub fn new(
-        answer: &Answer,
-        flight: Option<&Flight>,
-        verdict: Verdict,
-        metrics: Metrics,
-        timings: Timings,
-    ) -> Self {
+    pub fn new(answer: &Answer, flight: Option<&Flight>, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
         let plan = &answer.plan;
         Self {
             schema: SCHEMA,

@@ -125,9 +125,8 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
             selftest.near_misses.par_extend(near_misses.par_iter().map(|near_miss| approach(&specimen, near_miss)));
         }
         let of_family = |fault: &&FaultResult| fault.family == family.to_string();
-        let count = |check: &String| {
-            selftest.faults.iter().filter(of_family).filter(|fault| fault.red.contains(check)).count()
-        };
+        let count =
+            |check: &String| selftest.faults.iter().filter(of_family).filter(|fault| fault.red.contains(check)).count();
         let coverage =
             |check: &String| Coverage { family: family.to_string(), check: check.clone(), faults: count(check) };
         let checks: Vec<Coverage> = in_order(family, &asked).map(coverage).collect();

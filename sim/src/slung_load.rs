@@ -22,6 +22,6 @@ pub use dynamics::{Plant, impact};
 pub use flow::{Knot, flow};
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{Acting, Replay};
-pub use shapes::{GROUND, Part, Parts};
+pub use shapes::{GROUND, OVERHANG_M, Part, Parts, Plane};
 
 pub(crate) use fly::fly;

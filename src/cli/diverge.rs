@@ -54,7 +54,8 @@ impl Diverge {
     fn by_hashes(&self) -> Result<Exit, Error> {
         let [one, other] = [hashes(&self.one)?, hashes(&self.other)?];
         let differs = one.running.iter().zip(&other.running).position(|(a, b)| a != b);
-        let parted = differs.or_else(|| (one.running != other.running).then(|| one.running.len().min(other.running.len())));
+        let parted =
+            differs.or_else(|| (one.running != other.running).then(|| one.running.len().min(other.running.len())));
         let Some(index) = parted else { return same() };
         let from_s = index as f64 * one.every_s;
         let text = format!(

@@ -86,7 +86,11 @@ struct Done {
 impl Session {
     /// Runs everything that can be run, names what cannot, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
-        let outputs = Outputs { recorders: recorders(&self.record)?, tum: self.tum, fly_again: self.second_integrator == SecondIntegrator::Full };
+        let outputs = Outputs {
+            recorders: recorders(&self.record)?,
+            tum: self.tum,
+            fly_again: self.second_integrator == SecondIntegrator::Full,
+        };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
         start_threads(self.jobs)?;
         let mut done = Done::default();

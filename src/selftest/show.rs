@@ -54,10 +54,14 @@ fn matrix(selftest: &Selftest, family: &str) -> String {
     }
     let numbered = |(index, check): (usize, &&Coverage)| format!("{:>2} {} ({})", index + 1, check.check, check.faults);
     let legend: Vec<String> = checks.iter().enumerate().map(numbered).collect();
-    let legend: Vec<String> = legend.chunks(3).map(|three| three.iter().map(|it| format!("{it:<34}")).collect()).collect();
+    let legend: Vec<String> =
+        legend.chunks(3).map(|three| three.iter().map(|it| format!("{it:<34}")).collect()).collect();
     let legend = legend.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n");
     let checks = "checks from left to right, with the number of faults that turn each red";
-    format!("{family}\n{}\n{AIM} the check that is aimed at, {RED} another that turned red, {GREEN} green; {checks}:\n{legend}", shown.trim_fmt())
+    format!(
+        "{family}\n{}\n{AIM} the check that is aimed at, {RED} another that turned red, {GREEN} green; {checks}:\n{legend}",
+        shown.trim_fmt()
+    )
 }
 
 fn cell(fault: &FaultResult, check: &str) -> char {

@@ -49,9 +49,9 @@ impl Unflown {
     pub fn flown(self) -> Specimen {
         let seed = self.scenario.simulation.seed;
         let plan = self.planner.plan(&self.scenario, seed, &mut |_| {});
-        let flight = verdict::is_flyable(&self.scenario, &plan).ok().map(|()| {
-            sim::fly(&self.scenario, &plan, seed, &mut |_| {})
-        });
+        let flight = verdict::is_flyable(&self.scenario, &plan)
+            .ok()
+            .map(|()| sim::fly(&self.scenario, &plan, seed, &mut |_| {}));
         Specimen { scenario: self.scenario, plan, flight }
     }
 }

@@ -30,7 +30,9 @@ pub fn check(scenario: &Scenario, flight: &Flight) -> Check {
     let question = Question::new(Group::Flight, "conditions", "vehicles");
     let odd = |log: &VehicleLog| {
         let empty = log.samples.is_empty().then(|| "the log is empty".to_owned());
-        let defect = empty.or_else(|| air_defect(scenario.simulation.wind.as_ref(), log)).or_else(|| sensor_defect(scenario, log));
+        let defect = empty
+            .or_else(|| air_defect(scenario.simulation.wind.as_ref(), log))
+            .or_else(|| sensor_defect(scenario, log));
         defect.map(|defect| format!("{}: {defect}", log.vehicle))
     };
     let defects: Vec<String> = flight.vehicles.iter().filter_map(odd).collect();
@@ -42,7 +44,10 @@ fn air_defect(wind: Option<&Wind>, log: &VehicleLog) -> Option<String> {
     let Some(asked) = wind.and_then(|wind| wind.gusts.as_ref()) else {
         let odd = gusts.iter().position(|gust| exceeds(gust.norm(), AIR_MPS))?;
         let sample = &log.samples[odd];
-        return Some(format!("at {:.3} s the air moves with {:?} m/s, not as the scenario says", sample.t_s, sample.wind_mps));
+        return Some(format!(
+            "at {:.3} s the air moves with {:?} m/s, not as the scenario says",
+            sample.t_s, sample.wind_mps
+        ));
     };
     let sigma_mps = largest_sigma_mps(asked);
     if let Some(odd) = gusts.iter().position(|gust| exceeds(gust.norm(), WILDEST_GUST * sigma_mps + AIR_MPS)) {
@@ -92,7 +97,8 @@ fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
 /// Do measurements differ from the truth as noise of this standard deviation does? Without noise they are the truth.
 fn noise_defect(what: &str, sigma: f64, pairs: &[[[f64; 3]; 2]]) -> Option<String> {
     let errors = pairs.iter().flat_map(|[measured, truth]| (0..3).map(move |axis| measured[axis] - truth[axis]));
-    let largest = errors.clone().fold(0.0, |worst: f64, error| if exceeds(error.abs(), worst) { error.abs() } else { worst });
+    let largest =
+        errors.clone().fold(0.0, |worst: f64, error| if exceeds(error.abs(), worst) { error.abs() } else { worst });
     if sigma == 0.0 {
         return (largest != 0.0).then(|| format!("the measured {what} is off by {largest:.3e}, without noise"));
     }

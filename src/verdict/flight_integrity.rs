@@ -5,9 +5,9 @@ use sim::{EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
+use crate::verdict::flown::Flown;
 use crate::verdict::flown_reference;
 use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
-use crate::verdict::flown::Flown;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 use crate::verdict::touch;
 
@@ -19,10 +19,9 @@ pub fn check_finite(flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
     let impulses = flight.events.iter().filter_map(|event| match event.kind {
         EventKind::CableTaut { impulse_ns } => Some(impulse_ns),
-        EventKind::Crash { .. }
-        | EventKind::SaturationBegan
-        | EventKind::SaturationEnded
-        | EventKind::CableSlack => None,
+        EventKind::Crash { .. } | EventKind::SaturationBegan | EventKind::SaturationEnded | EventKind::CableSlack => {
+            None
+        }
     });
     let mut count = times.chain(impulses).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();

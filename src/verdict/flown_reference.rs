@@ -29,9 +29,8 @@ pub fn defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory, l
             let reference = slung_load::Reference::new(trajectory, &plant);
             log.samples.iter().zip(&log.loads).find_map(|(sample, load)| {
                 let asked = reference.at(sample.t_s).body;
-                strays("", sample.t_s, sample.reference_position_m, &asked.position_m).or_else(|| {
-                    strays(" for the load", sample.t_s, load.reference_position_m, &asked.load_position_m)
-                })
+                strays("", sample.t_s, sample.reference_position_m, &asked.position_m)
+                    .or_else(|| strays(" for the load", sample.t_s, load.reference_position_m, &asked.load_position_m))
             })
         }
     }

@@ -53,9 +53,8 @@ impl Integration {
 
     /// Takes back what is decided by less than the disagreement: checks of the flight that are in metres.
     pub fn doubt(&self, checks: &mut [Check]) {
-        let of_flight = |check: &&mut Check| {
-            check.name.starts_with("flight.") && check.name != DYNAMICS && check.unit == "m"
-        };
+        let of_flight =
+            |check: &&mut Check| check.name.starts_with("flight.") && check.name != DYNAMICS && check.unit == "m";
         for check in checks.iter_mut().filter(of_flight) {
             let decided = matches!(check.status, Status::Pass | Status::Fail);
             let Some(margin_m) = check.margin.filter(|_| decided) else { continue };
@@ -90,7 +89,12 @@ fn log_distance_m(one: &VehicleLog, other: &VehicleLog) -> Option<f64> {
     let vehicles = one.samples.iter().zip(&other.samples).map(|(a, b)| (a.position_m, b.position_m));
     let loads = one.loads.iter().zip(&other.loads).map(|(a, b)| (a.position_m, b.position_m));
     let distance = |(a, b): ([f64; 3], [f64; 3])| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
-    Some(vehicles.chain(loads).map(distance).fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst }))
+    Some(
+        vehicles
+            .chain(loads)
+            .map(distance)
+            .fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst }),
+    )
 }
 
 #[cfg(test)]

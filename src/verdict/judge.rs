@@ -5,8 +5,8 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity, integrity, limits,
-    physics, separation, slung_load, tracking,
+    Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity,
+    integrity, limits, physics, separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -136,9 +136,11 @@ fn log_checks(
             flight_integrity::check_crash(scenario, flight, flown),
             conditions::check(scenario, flight),
         ],
-        Err(reason) => [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]
-            .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
-            .into(),
+        Err(reason) => {
+            [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]
+                .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
+                .into()
+        }
     }
 }
 

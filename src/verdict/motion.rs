@@ -54,8 +54,11 @@ impl Motion {
     ///
     /// with p'''' from the changes of the third derivative from segment to segment, doubled.
     pub fn sampled(mut self) -> Self {
-        let jerks: Vec<(f64, [f64; 3])> =
-            self.segments().filter(Segment::lasts).map(|segment| (segment.t_s[1] - segment.t_s[0], segment.jerk_mps3())).collect();
+        let jerks: Vec<(f64, [f64; 3])> = self
+            .segments()
+            .filter(Segment::lasts)
+            .map(|segment| (segment.t_s[1] - segment.t_s[0], segment.jerk_mps3()))
+            .collect();
         let deviation_m = |pair: &[(f64, [f64; 3])]| {
             let [(one_s, one), (other_s, other)] = [pair[0], pair[1]];
             let change = (0..3).map(|axis| (one[axis] - other[axis]).powi(2)).sum::<f64>().sqrt();

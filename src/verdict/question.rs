@@ -145,8 +145,7 @@ impl Question {
             let failed = self.fail(reason.unwrap_or_else(|| "the measured value is not a finite number".to_owned()));
             return Check { at_s, between, ..failed };
         }
-        let unsure =
-            || format!("between {lower} and {upper} {}: closer to the limit than can be told", self.unit);
+        let unsure = || format!("between {lower} and {upper} {}: closer to the limit than can be told", self.unit);
         let reason = if status == Status::Undecided { Some(unsure()) } else { reason };
         let [lower, upper] = [lower, upper].map(|bound| Some(bound).filter(|bound| is_bounded && bound.is_finite()));
         let (value, limit, margin) = (Some(value), Some(limit), Some(margin));

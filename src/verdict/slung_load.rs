@@ -1,5 +1,6 @@
 //! The judge of quadrotors with slung loads: what it asks beyond what it asks of every vehicle.
 
+mod behind;
 mod cable;
 mod clearance;
 mod course;

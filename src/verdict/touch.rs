@@ -13,8 +13,7 @@ const GRAZE_M: f64 = 1e-3;
 ///
 /// - `motions`: one per vehicle, of their centres
 pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
-    let radii_m: Vec<f64> =
-        scenario.vehicles.iter().map(|vehicle| scenario.model(vehicle).body_radius_m()).collect();
+    let radii_m: Vec<f64> = scenario.vehicles.iter().map(|vehicle| scenario.model(vehicle).body_radius_m()).collect();
     let name = |vehicle: usize| scenario.vehicles[vehicle].name.as_str();
     let is_touch = |approach: &Approach| approach.upper_m < -GRAZE_M;
     let crash = |approach: &Approach| Measured::value(1.0).at(approach.at_s).with(name(approach.who[0]));

@@ -23,7 +23,9 @@ fn incomplete() -> Vec<Fault> {
             let twice = it.flight().vehicles[0].clone();
             it.flight().vehicles.push(twice);
         }),
-        Fault::new("flight.complete", "a log is that of another vehicle", |it| it.flight().vehicles[0].vehicle.push('?')),
+        Fault::new("flight.complete", "a log is that of another vehicle", |it| {
+            it.flight().vehicles[0].vehicle.push('?')
+        }),
         Fault::new("flight.complete", "a log is empty", |it| keep(it, 0.0)),
         Fault::new("flight.complete", "the last quarter of a flight is missing", |it| {
             let share = it.planned_steps() as f64 / it.steps() as f64;
@@ -68,9 +70,13 @@ fn not_numbers() -> Vec<Fault> {
         Fault::new("flight.finite", "one position is not a number", at_middle(|it| it.position_m[1] = f64::NAN)),
         Fault::new("flight.finite", "one velocity is infinite", at_middle(|it| it.velocity_mps[0] = f64::INFINITY)),
         Fault::new("flight.finite", "one time is not a number", at_middle(|it| it.t_s = f64::NAN)),
-        Fault::new("flight.finite", "one measurement is not a number", at_middle(|it| {
-            it.measured_velocity_mps[2] = f64::NAN;
-        })),
+        Fault::new(
+            "flight.finite",
+            "one measurement is not a number",
+            at_middle(|it| {
+                it.measured_velocity_mps[2] = f64::NAN;
+            }),
+        ),
         Fault::new("flight.finite", "an event is at no time", |it| {
             it.flight().events.push(Event { t_s: f64::NAN, kind: EventKind::SaturationBegan, vehicles: vec![] });
         }),
@@ -182,7 +188,9 @@ fn freeze(it: &mut Specimen, from: f64, to: f64) {
 /// The same trajectory, farther to the north.
 fn aside(trajectory: &mut scenarios::Trajectory, by_m: f64) {
     match trajectory {
-        scenarios::Trajectory::FixedWing(trajectory) => trajectory.states.iter_mut().for_each(|state| state.y_m += by_m),
+        scenarios::Trajectory::FixedWing(trajectory) => {
+            trajectory.states.iter_mut().for_each(|state| state.y_m += by_m)
+        }
         scenarios::Trajectory::SlungLoad(trajectory) => trajectory.states.iter_mut().for_each(|state| {
             state.position_m[1] += by_m;
             state.load_position_m[1] += by_m;

@@ -4,6 +4,8 @@
 use nalgebra::Vector3;
 use sim::slung_load::Body;
 
+use crate::verdict::bernstein;
+
 /// A larger mean acceleration than this within a segment is an impact, m/s².
 const IMPACT_MPS2: f64 = 50.0;
 
@@ -90,7 +92,9 @@ impl Course {
     fn deviation_between(&self, one: usize, other: usize) -> Deviation {
         let [one_s, other_s] = [one, other].map(|segment| self.duration_s(segment));
         let (long_s, short_s) = (one_s.max(other_s), one_s.min(other_s));
-        let jerk = |points: &[Vector3<f64>; 4], h: f64| (points[3] - points[0] + (points[1] - points[2]) * 3.0) * 6.0 / h.powi(3);
+        let jerk = |points: &[Vector3<f64>; 4], h: f64| {
+            (points[3] - points[0] + (points[1] - points[2]) * 3.0) * 6.0 / h.powi(3)
+        };
         let [one_points, other_points] = [one, other].map(|segment| self.control_points(segment));
         let deviation_m = |which: usize| {
             let change = (jerk(&one_points[which], one_s) - jerk(&other_points[which], other_s)).norm();
@@ -157,6 +161,20 @@ impl Course {
             relative_mps: fastest(&relative),
             turn_radps: a.attitude.angle_to(&b.attitude) / duration_s,
         }
+    }
+
+    /// Control points of quadrotor and load over a part of a segment, along a direction, m.
+    pub fn along(&self, segment: usize, share: [f64; 2], direction: &Vector3<f64>) -> [[f64; 4]; 2] {
+        self.control_points(segment).map(|points| {
+            let (until, _) = bernstein::split(&points.map(|point| point.dot(direction)), share[1]);
+            bernstein::split(&until, share[0] / share[1]).1
+        })
+    }
+
+    /// The turn of a segment, constant in the world frame: its axis times its angle, rad.
+    pub fn turn_rad(&self, segment: usize) -> Vector3<f64> {
+        let (a, b) = self.ends(segment);
+        a.attitude * (a.attitude.inverse() * b.attitude).scaled_axis()
     }
 
     fn ends(&self, segment: usize) -> (&Body, &Body) {
