@@ -28,3 +28,4 @@ pub mod selftest;
 pub mod stress;
 pub mod submitted;
 pub mod verdict;
+pub mod waterfall;

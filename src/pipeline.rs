@@ -18,7 +18,7 @@ use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
 use crate::report::{Report, Timings};
 use crate::verdict::Integration;
-use crate::{metrics, output, verdict};
+use crate::{metrics, output, verdict, waterfall};
 
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
@@ -33,6 +33,8 @@ pub struct Outputs {
     pub tum: bool,
     /// Is every flight repeated with finer steps?
     pub fly_again: bool,
+    /// Is it told where the margins went?
+    pub waterfall: bool,
 }
 
 /// What a job brought.
@@ -62,7 +64,11 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict };
     timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
     export(flight.as_ref(), outputs, folder)?;
-    let report = Report::new(&answer, flight.as_ref(), verdict, metrics, timings);
+    let waterfall = match outputs.waterfall {
+        true => waterfall::of(&job.scenario, plan, &answer.given, job.seed, &verdict),
+        false => Vec::new(),
+    };
+    let report = Report { waterfall, ..Report::new(&answer, flight.as_ref(), verdict, metrics, timings) };
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
     Ok(Done { report, log })

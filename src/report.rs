@@ -21,6 +21,7 @@ pub use summary::{RefusedFile, Summary, SummaryRun};
 use crate::metrics::Metrics;
 use crate::submitted::Answer;
 use crate::verdict::{Check, Integration, Outcome, Reconstruction, Verdict};
+use crate::waterfall::Waterfall;
 
 /// Version of the form of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
@@ -50,6 +51,9 @@ pub struct Report {
     /// What two integrators disagree on; absent if there is no flight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integration: Option<Integration>,
+    /// Where the margins went, if it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waterfall: Vec<Waterfall>,
     /// Hashes of the flight, to tell at a glance whether two are the same to the last bit; absent if there is no flight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state_hash: Option<StateHashes>,
@@ -166,6 +170,7 @@ impl Report {
             overclaimed: verdict.overclaimed,
             checks: verdict.checks,
             integration: verdict.integration,
+            waterfall: Vec::new(),
             state_hash: flight.map(StateHashes::of),
             plan: PlanSummary::new(answer),
             metrics,

@@ -24,6 +24,9 @@ pub struct Session {
     /// How to tell what the integrator may be wrong by; a margin below that decides nothing
     #[arg(long, value_enum, value_name = "FORM", default_value = "cheap")]
     second_integrator: SecondIntegrator,
+    /// Tell where the margins went: nodes, between the nodes, tracking, model, wind, noise; costs a flight for each
+    #[arg(long)]
+    waterfall: bool,
     /// Write planned and flown paths as TUM files too, for evo
     #[arg(long)]
     tum: bool,
@@ -87,6 +90,7 @@ impl Session {
     /// Runs everything that can be run, names what cannot, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         let outputs = Outputs {
+            waterfall: self.waterfall,
             recorders: recorders(&self.record)?,
             tum: self.tum,
             fly_again: self.second_integrator == SecondIntegrator::Full,

@@ -19,6 +19,7 @@ pub fn of(specimen: &Specimen) -> Vec<Fault> {
     let of_family = match specimen.family() {
         Family::FixedWing => fixed_wing::faults(),
         Family::SlungLoad => slung_load::faults(),
+        Family::Multirotor => Vec::new(),
     };
     [plan::faults(), log::faults(), of_family, cuts::faults(specimen.family())].into_iter().flatten().collect()
 }

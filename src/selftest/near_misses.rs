@@ -18,6 +18,7 @@ pub fn of(specimen: &Specimen) -> Vec<NearMiss> {
     all.extend(match specimen.family() {
         Family::FixedWing => fixed_wing(),
         Family::SlungLoad => slung_load(),
+        Family::Multirotor => Vec::new(),
     });
     all
 }

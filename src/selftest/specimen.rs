@@ -35,6 +35,7 @@ pub fn all(family: Family) -> Vec<Unflown> {
             ("drop-and-catch.toml", include_str!("../../scenarios/slung/drop-and-catch.toml")),
             ("drop-and-catch-wind.toml", include_str!("../../scenarios/slung/drop-and-catch-wind.toml")),
         ],
+        Family::Multirotor => &[],
     };
     let unflown = |(file, text): &(&str, &str)| {
         let scenario = scenarios::parse(file, text).unwrap_or_else(|error| panic!("{file}: {error}"));
@@ -123,6 +124,7 @@ impl Specimen {
         match &mut self.plan.trajectories[vehicle] {
             scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.times_s,
             scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.times_s,
+            scenarios::Trajectory::Multirotor(trajectory) => &mut trajectory.times_s,
         }
     }
 
@@ -135,7 +137,7 @@ impl Specimen {
     pub fn fixed_wing(&mut self, vehicle: usize) -> &mut fixed_wing::Trajectory {
         match &mut self.plan.trajectories[vehicle] {
             scenarios::Trajectory::FixedWing(trajectory) => trajectory,
-            scenarios::Trajectory::SlungLoad(_) => panic!("not a fixed wing"),
+            _ => panic!("not a fixed wing"),
         }
     }
 
@@ -143,7 +145,7 @@ impl Specimen {
     pub fn slung_load(&mut self) -> &mut slung_load::Trajectory {
         match &mut self.plan.trajectories[0] {
             scenarios::Trajectory::SlungLoad(trajectory) => trajectory,
-            scenarios::Trajectory::FixedWing(_) => panic!("not a slung load"),
+            _ => panic!("not a slung load"),
         }
     }
 

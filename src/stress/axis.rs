@@ -40,7 +40,7 @@ impl Axis {
             (Self::Wind, _) => 1.0,
             (Self::Mass, _) => 0.02,
             (Self::Noise, Family::FixedWing) => 0.25,
-            (Self::Noise, Family::SlungLoad) => 0.002,
+            (Self::Noise, Family::SlungLoad | Family::Multirotor) => 0.002,
         }
     }
 

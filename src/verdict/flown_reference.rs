@@ -24,6 +24,8 @@ pub fn defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory, l
                 strays("", sample.t_s, sample.reference_position_m, &reference.at(sample.t_s).position_m)
             })
         }
+        // Who plans in the loop asks for something else before the trajectory that he had last ends.
+        Trajectory::Multirotor(_) => None,
         Trajectory::SlungLoad(trajectory) => {
             let plant = Plant::nominal(scenario.slung_load_model(vehicle), scenario.world.ground_m);
             let reference = slung_load::Reference::new(trajectory, &plant);

@@ -120,7 +120,7 @@ fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
 /// A planner's own node that is none.
 fn stray_node(trajectory: &Trajectory) -> Option<usize> {
     match trajectory {
-        Trajectory::FixedWing(_) => None,
+        Trajectory::FixedWing(_) | Trajectory::Multirotor(_) => None,
         Trajectory::SlungLoad(it) => it.planner_nodes.iter().copied().find(|node| *node >= it.times_s.len()),
     }
 }

@@ -62,6 +62,7 @@ pub fn at_most(family: Family) -> impl Iterator<Item = &'static Cut> {
     let of_family = match family {
         Family::FixedWing => OF_FIXED_WINGS,
         Family::SlungLoad => OF_SLUNG_LOADS,
+        Family::Multirotor => &[],
     };
     AT_MOST.iter().chain(of_family)
 }
@@ -81,6 +82,7 @@ pub fn faults(family: Family) -> Vec<Fault> {
     let distances: &[&'static str] = match family {
         Family::FixedWing => &["nodes.separation", "plan.separation", "flight.separation"],
         Family::SlungLoad => &["nodes.envelope", "plan.envelope"],
+        Family::Multirotor => &[],
     };
     all.extend(distances.iter().map(|check| {
         Fault::new(check, "a distance that is to be kept is longer than the smallest one", move |it| {
@@ -94,7 +96,7 @@ pub fn faults(family: Family) -> Vec<Fault> {
 /// Sets the distance to keep: between vehicles, or of the envelope from obstacles.
 pub fn keep_apart(it: &mut Specimen, limit_m: f64) {
     match it.family() {
-        Family::FixedWing => it.scenario.fleet.separation_m = Some(limit_m),
+        Family::FixedWing | Family::Multirotor => it.scenario.fleet.separation_m = Some(limit_m),
         Family::SlungLoad => it.scenario.verdict.envelope_m = Some(limit_m),
     }
 }

@@ -191,6 +191,9 @@ fn aside(trajectory: &mut scenarios::Trajectory, by_m: f64) {
         scenarios::Trajectory::FixedWing(trajectory) => {
             trajectory.states.iter_mut().for_each(|state| state.y_m += by_m)
         }
+        scenarios::Trajectory::Multirotor(trajectory) => {
+            trajectory.states.iter_mut().for_each(|state| state.position_m[1] += by_m);
+        }
         scenarios::Trajectory::SlungLoad(trajectory) => trajectory.states.iter_mut().for_each(|state| {
             state.position_m[1] += by_m;
             state.load_position_m[1] += by_m;

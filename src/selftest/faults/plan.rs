@@ -60,6 +60,10 @@ fn truncate(it: &mut Specimen, share: f64) {
                 trajectory.states.truncate(kept);
                 trajectory.controls.truncate(kept);
             }
+            scenarios::Trajectory::Multirotor(trajectory) => {
+                trajectory.times_s.truncate(kept);
+                trajectory.states.truncate(kept);
+            }
             scenarios::Trajectory::SlungLoad(trajectory) => {
                 trajectory.times_s.truncate(kept);
                 trajectory.states.truncate(kept);
@@ -75,6 +79,7 @@ fn rename(it: &mut Specimen) {
     let name = match &mut it.plan.trajectories[0] {
         scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.vehicle,
         scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.vehicle,
+        scenarios::Trajectory::Multirotor(trajectory) => &mut trajectory.vehicle,
     };
     name.push('?');
 }
