@@ -167,7 +167,7 @@ fn red(checks: &[Check]) -> Vec<String> {
     checks.iter().filter(|check| check.is_bad()).map(|check| check.name.clone()).collect()
 }
 
-fn in_order<'a>(family: Family, asked: &'a BTreeSet<String>) -> impl Iterator<Item = &'a String> {
+fn in_order(family: Family, asked: &BTreeSet<String>) -> impl Iterator<Item = &String> {
     scenarios::check_names(family).filter_map(|name| asked.get(name))
 }
 

@@ -95,20 +95,20 @@ pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let mut search = Search::below(0.0);
+    let widest_m = radii_m.iter().copied().fold(0.0, f64::max);
     for index in 0..frame.count() {
-        let present = |i: &usize| !of_motion[*i][index].segments.is_empty();
-        let mut eastward: Vec<usize> = (0..motions.len()).filter(present).collect();
-        eastward.sort_by(|&i, &j| of_motion[i][index].west_m().total_cmp(&of_motion[j][index].west_m()));
-        let widest_m = radii_m.iter().copied().fold(0.0, f64::max);
+        let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
+        eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
         for (place, &i) in eastward.iter().enumerate() {
             for &j in &eastward[place + 1..] {
-                let (one, other) = (&of_motion[i][index], &of_motion[j][index]);
+                let (one, other) = (blocks[i], blocks[j]);
                 if !search.may_be_within(other.west_m() - one.east_m(), 2.0 * widest_m) {
                     break;
                 }
                 if search.may_be_within(one.gap_m(other), radii_m[i] + radii_m[j]) {
                     let who = [i.min(j), i.max(j)];
-                    let segments = who.map(|i| of_motion[i][index].segments.clone());
+                    let segments = who.map(|i| blocks[i].segments.clone());
                     let pair = who.map(|i| &motions[i]);
                     each_common_span(pair, segments, |relative, span| {
                         let radius_m = radii_m[i] + radii_m[j];

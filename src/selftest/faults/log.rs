@@ -24,7 +24,7 @@ fn incomplete() -> Vec<Fault> {
             it.flight().vehicles.push(twice);
         }),
         Fault::new("flight.complete", "a log is that of another vehicle", |it| {
-            it.flight().vehicles[0].vehicle.push('?')
+            it.flight().vehicles[0].vehicle.push('?');
         }),
         Fault::new("flight.complete", "a log is empty", |it| keep(it, 0.0)),
         Fault::new("flight.complete", "the last quarter of a flight is missing", |it| {
@@ -189,7 +189,7 @@ fn freeze(it: &mut Specimen, from: f64, to: f64) {
 fn aside(trajectory: &mut scenarios::Trajectory, by_m: f64) {
     match trajectory {
         scenarios::Trajectory::FixedWing(trajectory) => {
-            trajectory.states.iter_mut().for_each(|state| state.y_m += by_m)
+            trajectory.states.iter_mut().for_each(|state| state.y_m += by_m);
         }
         scenarios::Trajectory::Multirotor(trajectory) => {
             trajectory.states.iter_mut().for_each(|state| state.position_m[1] += by_m);

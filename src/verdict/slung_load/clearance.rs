@@ -15,7 +15,7 @@ use sim::slung_load::{Body, GROUND, OVERHANG_M, Part, Parts, Plane};
 use super::behind;
 use super::course::{Course, Deviation, Speeds};
 use crate::verdict::Check;
-use crate::verdict::compare::is_smaller;
+use crate::verdict::compare::{exceeds, is_smaller};
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -214,7 +214,7 @@ impl<'a> Surroundings<'a> {
             let at_s = course.time_s(segment, middle);
             *best = Some(Closest { lower_m: distance_m, upper_m: distance_m, deviation_m, at_s, shape });
         }
-        let is_worth = best.is_none_or(|best| !(lower_m >= best.upper_m - RESOLUTION_M));
+        let is_worth = best.is_none_or(|best| exceeds(best.upper_m - RESOLUTION_M, lower_m));
         is_worth.then_some(Span { lower_m, segment, share, shape })
     }
 
