@@ -22,6 +22,7 @@ pub mod evaluate;
 pub mod group;
 pub mod motion;
 pub mod optimise;
+pub mod outlook;
 pub mod pilot;
 pub mod question;
 pub mod roadmap;

@@ -78,6 +78,17 @@ impl Obstacle {
         self.least_distance_m(point, point)
     }
 
+    /// Could the segment from `p` to `q` come nearer than `distance_m`? Asks the circle around the obstacle.
+    pub fn may_be_within(&self, p: Point, q: Point, distance_m: f64) -> bool {
+        let ([x, y], radius_m) = self.circle;
+        let (d, to_p) = ([q[0] - p[0], q[1] - p[1]], [p[0] - x, p[1] - y]);
+        let length2 = dot(d, d);
+        let share = if length2 > 0.0 { (-dot(to_p, d) / length2).clamp(0.0, 1.0) } else { 0.0 };
+        let nearest = [to_p[0] + share * d[0], to_p[1] + share * d[1]];
+        let reach_m = radius_m + distance_m;
+        reach_m > 0.0 && dot(nearest, nearest) < reach_m * reach_m
+    }
+
     /// Bound from below of the distance between the obstacle and the segment from `p` to `q`, m; the distance itself
     /// where the segment is level or a point. Inside, minus a depth.
     ///

@@ -1,5 +1,6 @@
 //! What is left to the goal from anywhere, by the whole map: the charge on the end of a horizon (eq. 10).
 
+use super::outlook::Outlook;
 use super::roadmap::{CostToGo, Roadmap};
 use super::{visibility, voronoi};
 use crate::free_space::FreeSpace;
@@ -56,6 +57,11 @@ impl CostMap {
     /// What is left from `point`, which keeps the clearance; nothing if it sees no node from which the goal is reached.
     pub fn cost_to_go(&self, point: Point, space: &FreeSpace) -> Option<CostToGo> {
         self.roadmap.cost_to_go(point, space, self.clearance_m - ROUNDING_M)
+    }
+
+    /// The same for many points around `origin`.
+    pub fn outlook<'a>(&self, space: &'a FreeSpace, origin: Point) -> Outlook<'a> {
+        Outlook::new(&self.roadmap, space, self.clearance_m - ROUNDING_M, origin)
     }
 }
 

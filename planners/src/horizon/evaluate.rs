@@ -40,7 +40,7 @@ impl Machine {
         for lane in 0..WIDTH {
             let violation = group.violation[lane];
             let is_costed = violation <= 0.0 || question.rules.costs_infeasible;
-            let cost = if is_costed { cost(question, group, lane) } else { f64::INFINITY };
+            let cost = if is_costed { cost(question, surroundings, group, lane) } else { f64::INFINITY };
             group.fitness[lane] = Fitness { violation, cost };
         }
     }
@@ -67,7 +67,7 @@ impl<S: Vector> pulp::WithSimd for Fly<'_, S> {
 }
 
 /// Cost of one particle (eq. 10, 16, 17), m.
-fn cost(question: &Question<'_>, group: &Group, lane: usize) -> f64 {
+fn cost(question: &Question<'_>, surroundings: &Surroundings<'_>, group: &mut Group, lane: usize) -> f64 {
     let smoothness = question.smoothness * group.roughness[lane];
     let arrival = if question.charges_speed {
         let velocity = group.end_velocity.map(|quad| quad[lane]);
@@ -80,7 +80,7 @@ fn cost(question: &Question<'_>, group: &Group, lane: usize) -> f64 {
         + match question.cost {
             Cost::Map { map, repulsion } => {
                 let repulsion = if repulsion.is_some() { group.repulsion[lane] } else { 0.0 };
-                by_map(question, map, group, lane) + repulsion
+                by_map(question, surroundings, map, group, lane) + repulsion
             }
             Cost::Field { attraction, .. } => {
                 let left_m = distance(end(question, group, lane), question.goal);
@@ -90,9 +90,16 @@ fn cost(question: &Question<'_>, group: &Group, lane: usize) -> f64 {
 }
 
 /// The way left from the end, and the mean over the horizon of the way left by the same node.
-fn by_map(question: &Question<'_>, map: &CostMap, group: &Group, lane: usize) -> f64 {
+fn by_map(
+    question: &Question<'_>,
+    surroundings: &Surroundings<'_>,
+    map: &CostMap,
+    group: &mut Group,
+    lane: usize,
+) -> f64 {
     let end = end(question, group, lane);
-    let Some(left) = map.cost_to_go(end, question.space) else {
+    let left = surroundings.outlook.as_ref().and_then(|outlook| outlook.cost_to_go(end, &mut group.hints));
+    let Some(left) = left else {
         return BLIND_M + distance(end, question.goal);
     };
     let node = map.roadmap().nodes()[left.node];

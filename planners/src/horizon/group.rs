@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::outlook::Hints;
 use super::question::Grid;
 use crate::free_space::vector::Point;
 use crate::lanes::WIDTH;
@@ -63,6 +64,8 @@ pub struct Group {
     pub repulsion: Quad,
     /// How good they are.
     pub fitness: [Fitness; WIDTH],
+    /// What hid the nodes of the cost map.
+    pub hints: Hints,
 }
 
 impl Group {
@@ -78,6 +81,7 @@ impl Group {
             roughness: zero,
             repulsion: zero,
             fitness: [Fitness::WORST; WIDTH],
+            hints: Hints::new(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::cost_map::CostMap;
 use super::motion::{State, sagitta_m};
+use super::outlook::Outlook;
 use crate::free_space::vector::{Point, distance, norm};
 use crate::free_space::{FreeSpace, Mover, Obstacle};
 
@@ -141,6 +142,8 @@ pub struct Surroundings<'a> {
     pub moving: Vec<(&'a Mover, Vec<Point>)>,
     /// Distance that chords must keep, arcs included, at each step, m.
     pub required_m: Vec<f64>,
+    /// Ways to the goal, where the cost is by a map.
+    pub outlook: Option<Outlook<'a>>,
 }
 
 impl<'a> Question<'a> {
@@ -159,6 +162,10 @@ impl<'a> Question<'a> {
             standing: standing.filter(|obstacle| obstacle.distance_m(self.start.position) <= reach_m).collect(),
             moving: self.space.moving.iter().map(|mover| (mover, self.displacements(mover))).collect(),
             required_m: (0..=self.grid.steps).map(required_m).collect(),
+            outlook: match self.cost {
+                Cost::Map { map, .. } => Some(map.outlook(self.space, self.start.position)),
+                Cost::Field { .. } => None,
+            },
         }
     }
 
