@@ -41,6 +41,7 @@ pub fn complete(scenario: &Scenario, header: PlanHeader, tracks: Vec<GivenTrack>
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
         match track {
             GivenTrack::SlungLoad(trajectory) => trajectories.push(trajectory.into()),
+            GivenTrack::Multirotor(trajectory) => trajectories.push(trajectory.into()),
             GivenTrack::FixedWing(track) => {
                 let (trajectory, own) = whole_trajectory(vehicle, track);
                 reconstruction = worse(reconstruction, own);

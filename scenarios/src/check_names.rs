@@ -48,20 +48,22 @@ pub const CHECK_NAMES: &[&str] = &[
     "flight.swing",
 ];
 
+/// Checks that are put to vehicles alone that come to rest.
+const OF_HOVERING: [&str; 2] = ["plan.rest", "flight.rest"];
+
 /// Checks that are put to slung loads alone.
-const OF_SLUNG_LOADS: [&str; 8] = [
-    "nodes.envelope",
-    "plan.envelope",
-    "plan.rest",
-    "plan.tension",
-    "plan.slack",
-    "plan.swing",
-    "flight.envelope",
-    "flight.rest",
-];
+const OF_SLUNG_LOADS: [&str; 6] =
+    ["nodes.envelope", "plan.envelope", "plan.tension", "plan.slack", "plan.swing", "flight.envelope"];
+
+/// Checks of loads, which of fixed wings are skipped.
+const OF_LOADS: [&str; 3] = ["flight.tension", "flight.slack", "flight.swing"];
 
 /// The checks of a verdict on vehicles of this family, in its order.
 pub fn check_names(family: Family) -> impl Iterator<Item = &'static str> {
-    let is_put = move |name: &&str| family == Family::SlungLoad || !OF_SLUNG_LOADS.contains(name);
+    let is_put = move |name: &&str| match family {
+        Family::FixedWing => !OF_SLUNG_LOADS.contains(name) && !OF_HOVERING.contains(name),
+        Family::SlungLoad => true,
+        Family::Multirotor => !OF_SLUNG_LOADS.contains(name) && !OF_LOADS.contains(name),
+    };
     CHECK_NAMES.iter().copied().filter(is_put)
 }

@@ -10,4 +10,7 @@ pub struct FleetRules {
     /// Do all vehicles have to arrive at the same time?
     #[serde(default)]
     pub simultaneous_arrival: bool,
+    /// Do vehicles that plan in the loop tell each other what they are going to fly?
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub plans_shared: bool,
 }

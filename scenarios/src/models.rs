@@ -4,10 +4,10 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{fixed_wing, slung_load};
+use crate::{fixed_wing, multirotor, slung_load};
 
-/// Vehicle models by family, then by name: `[models.fixed-wing.NAME]`, `[models.slung-load.NAME]`. A name is unique over
-/// all families.
+/// Vehicle models by family, then by name: `[models.fixed-wing.NAME]`, `[models.slung-load.NAME]`,
+/// `[models.multirotor.NAME]`. A name is unique over all families.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Models {
@@ -17,6 +17,9 @@ pub struct Models {
     /// Quadrotors that carry a load on a cable.
     #[serde(default, rename = "slung-load", skip_serializing_if = "BTreeMap::is_empty")]
     pub slung_load: BTreeMap<String, slung_load::Model>,
+    /// Multirotors without a load.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub multirotor: BTreeMap<String, multirotor::Model>,
 }
 
 /// Kinds of vehicles: each has its own state, control, limits, plant, tracker, and way to be judged and drawn.
@@ -26,6 +29,8 @@ pub enum Family {
     FixedWing,
     /// A quadrotor with a load on a cable.
     SlungLoad,
+    /// A multirotor without a load.
+    Multirotor,
 }
 
 /// A model of some family.
@@ -35,18 +40,21 @@ pub enum Model<'a> {
     FixedWing(&'a fixed_wing::Model),
     /// A quadrotor with a load on a cable.
     SlungLoad(&'a slung_load::Model),
+    /// A multirotor without a load.
+    Multirotor(&'a multirotor::Model),
 }
 
 impl Models {
     /// The model of this name, of whichever family.
     pub fn get(&self, name: &str) -> Option<Model<'_>> {
-        let fixed_wing = self.fixed_wing.get(name).map(Model::FixedWing);
-        fixed_wing.or_else(|| self.slung_load.get(name).map(Model::SlungLoad))
+        let fixed_wing = || self.fixed_wing.get(name).map(Model::FixedWing);
+        let slung_load = || self.slung_load.get(name).map(Model::SlungLoad);
+        fixed_wing().or_else(slung_load).or_else(|| self.multirotor.get(name).map(Model::Multirotor))
     }
 
     /// The names of all models, family by family.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.fixed_wing.keys().chain(self.slung_load.keys()).map(String::as_str)
+        self.fixed_wing.keys().chain(self.slung_load.keys()).chain(self.multirotor.keys()).map(String::as_str)
     }
 }
 
@@ -56,6 +64,7 @@ impl Model<'_> {
         match self {
             Self::FixedWing(_) => Family::FixedWing,
             Self::SlungLoad(_) => Family::SlungLoad,
+            Self::Multirotor(_) => Family::Multirotor,
         }
     }
 
@@ -64,6 +73,7 @@ impl Model<'_> {
         match self {
             Self::FixedWing(model) => model.body_radius_m,
             Self::SlungLoad(model) => model.body_radius_m(),
+            Self::Multirotor(model) => model.body_radius_m,
         }
     }
 }
@@ -73,6 +83,7 @@ impl fmt::Display for Family {
         f.write_str(match self {
             Self::FixedWing => "fixed wing",
             Self::SlungLoad => "quadrotor with a slung load",
+            Self::Multirotor => "multirotor",
         })
     }
 }

@@ -18,9 +18,14 @@ pub struct PlannerSettings {
     /// one JSON reply to its standard output. It is started in the folder of the scenario file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
-    /// Time after which a planner with a `command` is ended, s. [default: 60]
+    /// Time after which a planner with a `command` is ended, s. [default: 60] In the loop: time for one answer, s.
+    /// [default: 10]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_limit_s: Option<f64>,
+    /// Does the `command` plan in the loop? Then it reads one JSON request per line for as long as its vehicles fly, and
+    /// answers each with one line.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub in_loop: bool,
     /// Options of a planner with a `command`, handed over as they are.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub options: BTreeMap<String, serde_json::Value>,

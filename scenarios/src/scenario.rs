@@ -2,8 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    AppliedLimits, Family, FleetRules, Model, Models, PlannerSettings, Simulation, Vehicle, VerdictLimits, World,
-    fixed_wing, slung_load,
+    AppliedLimits, Family, FleetRules, Mismatch, Model, Models, PlannerSettings, Sensors, Simulation, Vehicle,
+    VerdictLimits, World, fixed_wing, multirotor, slung_load,
 };
 
 /// One scenario: everything a planner, the simulator and the judge need to know. One TOML file holds one scenario.
@@ -58,9 +58,36 @@ impl Scenario {
         &self.models.slung_load[&vehicle.model]
     }
 
+    /// The model of a multirotor. Panics if there is none: validation has seen to that.
+    pub fn multirotor_model(&self, vehicle: &Vehicle) -> &multirotor::Model {
+        &self.models.multirotor[&vehicle.model]
+    }
+
+    /// Is there nothing to gain from altitude: every goal at its start's height, no obstacle that ends below or above?
+    pub fn is_planar(&self) -> bool {
+        let world = &self.world;
+        let ends = world.boxes.iter().map(|it| it.z_m).chain(world.prisms.iter().map(|it| it.z_m));
+        let is_level = |vehicle: &Vehicle| vehicle.start.z_m == vehicle.goal.z_m;
+        ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none()) && self.vehicles.iter().all(is_level)
+    }
+
     /// The limits that the verdict applies: those of the file, and for those that it leaves out the family's.
     pub fn limits(&self) -> AppliedLimits {
         self.verdict.applied_to(self.family())
+    }
+}
+
+/// What a planner is told.
+impl Scenario {
+    /// The scenario without the obstacles that nobody knows of beforehand, and without what disturbs the flight.
+    pub fn briefing(&self) -> Self {
+        let simulation = Simulation {
+            wind: None,
+            sensors: Sensors::default(),
+            mismatch: Mismatch::default(),
+            ..self.simulation.clone()
+        };
+        Self { world: self.world.known_beforehand(), simulation, ..self.clone() }
     }
 }
 

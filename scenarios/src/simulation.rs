@@ -1,5 +1,9 @@
+mod planning;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use planning::{Planning, PlanningClock};
 
 /// How a plan is flown. Everything that disturbs a flight is off unless it is named.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,6 +26,8 @@ pub struct Simulation {
     pub sensors: Sensors,
     /// How the true vehicle differs from its model.
     pub mismatch: Mismatch,
+    /// When planners in the loop are asked, and how long they take.
+    pub planning: Planning,
 }
 
 impl Default for Simulation {
@@ -35,6 +41,7 @@ impl Default for Simulation {
             wind: None,
             sensors: Sensors::default(),
             mismatch: Mismatch::default(),
+            planning: Planning::default(),
         }
     }
 }
@@ -109,6 +116,10 @@ pub struct Sensors {
     pub load_position_noise_m: f64,
     /// Velocity of a slung load, m/s.
     pub load_velocity_noise_mps: f64,
+    /// Position of moving obstacles and of other vehicles, m.
+    pub sighting_position_noise_m: f64,
+    /// Velocity of moving obstacles and of other vehicles, m/s.
+    pub sighting_velocity_noise_mps: f64,
 }
 
 /// Difference between the model that plans and the vehicle that flies.

@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::{Family, fixed_wing, slung_load};
+use crate::{Family, fixed_wing, multirotor, slung_load};
 
 /// The planned motion of one vehicle, given at nodes; state and control are those of its family.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,6 +10,8 @@ pub enum Trajectory {
     FixedWing(fixed_wing::Trajectory),
     /// Of a quadrotor with a load.
     SlungLoad(slung_load::Trajectory),
+    /// Of a multirotor.
+    Multirotor(multirotor::Trajectory),
 }
 
 /// How controls run between two nodes.
@@ -46,6 +48,7 @@ impl Trajectory {
         match self {
             Self::FixedWing(_) => Family::FixedWing,
             Self::SlungLoad(_) => Family::SlungLoad,
+            Self::Multirotor(_) => Family::Multirotor,
         }
     }
 
@@ -54,6 +57,7 @@ impl Trajectory {
         match self {
             Self::FixedWing(trajectory) => trajectory,
             Self::SlungLoad(trajectory) => trajectory,
+            Self::Multirotor(trajectory) => trajectory,
         }
     }
 
@@ -78,16 +82,17 @@ impl Trajectory {
         self.times_s().last().copied()
     }
 
-    /// May two nodes share a time, before and after a jump of the velocity? A cable that becomes taut makes one.
+    /// May two nodes share a time, before and after a jump? A cable that becomes taut makes one, and so does a planner in the
+    /// loop that changes its mind.
     pub fn may_jump(&self) -> bool {
-        self.family() == Family::SlungLoad
+        self.family() != Family::FixedWing
     }
 
     /// As one of a fixed wing. Panics if it is another's: whoever took the plan in has seen to that.
     pub fn fixed_wing(&self) -> &fixed_wing::Trajectory {
         match self {
             Self::FixedWing(trajectory) => trajectory,
-            Self::SlungLoad(_) => panic!("the trajectory of {} is not that of a fixed wing", self.vehicle()),
+            _ => panic!("the trajectory of {} is not that of a fixed wing", self.vehicle()),
         }
     }
 
@@ -95,7 +100,15 @@ impl Trajectory {
     pub fn slung_load(&self) -> &slung_load::Trajectory {
         match self {
             Self::SlungLoad(trajectory) => trajectory,
-            Self::FixedWing(_) => panic!("the trajectory of {} is not that of a slung load", self.vehicle()),
+            _ => panic!("the trajectory of {} is not that of a slung load", self.vehicle()),
+        }
+    }
+
+    /// As one of a multirotor. Panics if it is another's.
+    pub fn multirotor(&self) -> &multirotor::Trajectory {
+        match self {
+            Self::Multirotor(trajectory) => trajectory,
+            _ => panic!("the trajectory of {} is not that of a multirotor", self.vehicle()),
         }
     }
 }
@@ -109,5 +122,11 @@ impl From<fixed_wing::Trajectory> for Trajectory {
 impl From<slung_load::Trajectory> for Trajectory {
     fn from(trajectory: slung_load::Trajectory) -> Self {
         Self::SlungLoad(trajectory)
+    }
+}
+
+impl From<multirotor::Trajectory> for Trajectory {
+    fn from(trajectory: multirotor::Trajectory) -> Self {
+        Self::Multirotor(trajectory)
     }
 }

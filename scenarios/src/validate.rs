@@ -6,6 +6,7 @@ mod identifier;
 mod model;
 mod planner;
 mod quantity;
+mod sensing;
 mod simulation;
 mod vehicle;
 mod verdict;
@@ -25,6 +26,7 @@ pub fn validate(scenario: &Scenario) -> Vec<Problem> {
     problems.extend(vehicle::problems(scenario));
     problems.extend(family::problems(scenario));
     problems.extend(fleet::problems(scenario));
+    problems.extend(sensing::problems(scenario));
     problems.extend(planner::problems(&scenario.planner));
     problems.extend(simulation::problems(&scenario.simulation));
     problems.extend(verdict::problems(&scenario.verdict));

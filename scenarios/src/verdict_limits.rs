@@ -4,24 +4,24 @@ use serde::{Deserialize, Serialize};
 use crate::Family;
 
 /// The limits that the judge applies beyond those of the vehicles and of the fleet. Those that are left out are the
-/// family's: the first figure is for fixed wings, the second for slung loads.
+/// family's: the first figure is for fixed wings, the second for slung loads, the third for multirotors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerdictLimits {
-    /// Largest distance from the plan while it is flown, m. Default: 5 m, 0.05 m.
+    /// Largest distance from the plan while it is flown, m. Default: 5 m, 0.05 m, 0.5 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tracking_max_m: Option<f64>,
-    /// Largest root mean square of that distance, m. Default: 2 m, 0.03 m.
+    /// Largest root mean square of that distance, m. Default: 2 m, 0.03 m, 0.2 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tracking_rms_m: Option<f64>,
     /// Largest difference between the arrival times of a fleet that must arrive together, s. Default: 0.5 s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arrival_spread_s: Option<f64>,
-    /// Largest distance from the goal at arrival, m. Default: 5 m, 0.05 m.
+    /// Largest distance from the goal at arrival, m. Default: 5 m, 0.05 m, 0.5 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal_m: Option<f64>,
     /// Largest speed of quadrotor and load, relative to the goal's, at the end, m/s; fixed wings do not come to rest.
-    /// Default: 0.1 m/s.
+    /// Default: 0.1 m/s, of multirotors 0.2 m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_mps: Option<f64>,
     /// Largest distance between the end of an interval of the plan and where its controls lead through the nonlinear
@@ -93,12 +93,17 @@ const FIXED_WING: AppliedLimits = AppliedLimits {
 const SLUNG_LOAD: AppliedLimits =
     AppliedLimits { tracking_max_m: 0.05, tracking_rms_m: 0.03, goal_m: 0.05, dynamics_m: 0.01, ..FIXED_WING };
 
+/// Limits for multirotors.
+const MULTIROTOR: AppliedLimits =
+    AppliedLimits { tracking_max_m: 0.5, tracking_rms_m: 0.2, goal_m: 0.5, rest_mps: 0.2, ..FIXED_WING };
+
 impl VerdictLimits {
     /// The limits for vehicles of this family.
     pub fn applied_to(&self, family: Family) -> AppliedLimits {
         let default = match family {
             Family::FixedWing => FIXED_WING,
             Family::SlungLoad => SLUNG_LOAD,
+            Family::Multirotor => MULTIROTOR,
         };
         AppliedLimits {
             tracking_max_m: self.tracking_max_m.unwrap_or(default.tracking_max_m),

@@ -3,9 +3,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+mod moving;
 mod prism;
 
+pub use moving::Moving;
 pub use prism::{Block, Prism};
+
+/// In a list of hidden obstacles: all that do not move.
+const EVERY_OBSTACLE: &str = "*";
 
 /// The map and the obstacles on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,12 +30,49 @@ pub struct World {
     /// Height of the level ground on which a load may lie, m. Absent: there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_m: Option<f64>,
+    /// Obstacles that move; multirotors sense them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub moving: Vec<Moving>,
+    /// Names of the cylinders, boxes and prisms that nobody knows of until a part of them comes within sensor range; `"*"`
+    /// stands for all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hidden: Vec<String>,
 }
 
 impl World {
     /// A map with nothing on it.
     pub fn empty(map: Map) -> Self {
-        Self { map, cylinders: Vec::new(), boxes: Vec::new(), prisms: Vec::new(), ground_m: None }
+        Self {
+            map,
+            cylinders: Vec::new(),
+            boxes: Vec::new(),
+            prisms: Vec::new(),
+            ground_m: None,
+            moving: Vec::new(),
+            hidden: Vec::new(),
+        }
+    }
+
+    /// Does nobody know of the obstacle of this name until it is sensed? (Of those that do not move.)
+    pub fn is_hidden(&self, name: &str) -> bool {
+        self.hidden.iter().any(|hidden| hidden == name || hidden == EVERY_OBSTACLE)
+    }
+
+    /// What is known of it before anything was sensed: without hidden and without moving obstacles.
+    pub fn known_beforehand(&self) -> Self {
+        self.only(|name| !self.is_hidden(name))
+    }
+
+    /// The same map with those of the obstacles that do not move whose names are `wanted`, in the same order, and nothing
+    /// that is hidden.
+    pub fn only(&self, wanted: impl Fn(&str) -> bool) -> Self {
+        Self {
+            cylinders: self.cylinders.iter().filter(|it| wanted(&it.name)).cloned().collect(),
+            boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
+            prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),
+            ground_m: self.ground_m,
+            ..Self::empty(self.map.clone())
+        }
     }
 
     /// Everything with flat faces as prisms: the boxes, then the prisms, each with its corners counterclockwise.
@@ -39,11 +81,14 @@ impl World {
         self.boxes.iter().map(Block::as_prism).chain(prisms).collect()
     }
 
-    /// The names of all obstacles: cylinders, boxes, prisms.
+    /// The names of all obstacles: cylinders, boxes, prisms, moving ones.
     pub fn obstacle_names(&self) -> impl Iterator<Item = &str> {
         let cylinders = self.cylinders.iter().map(|cylinder| cylinder.name.as_str());
         let boxes = self.boxes.iter().map(|block| block.name.as_str());
-        cylinders.chain(boxes).chain(self.prisms.iter().map(|prism| prism.name.as_str()))
+        cylinders
+            .chain(boxes)
+            .chain(self.prisms.iter().map(|prism| prism.name.as_str()))
+            .chain(self.moving.iter().map(|moving| moving.name.as_str()))
     }
 }
 

@@ -46,6 +46,7 @@ pub fn fly_with(scenario: &Scenario, plan: &Plan, seed: u64, setup: &Setup, prog
     let (vehicles, mut events) = match scenario.family() {
         Family::FixedWing => fixed_wing::fly(scenario, plan, seed, setup, steps, progress),
         Family::SlungLoad => slung_load::fly(scenario, plan, seed, setup, steps, progress),
+        Family::Multirotor => unimplemented!("the plant of multirotors"),
     };
     events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     Flight {

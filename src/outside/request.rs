@@ -1,8 +1,8 @@
 //! The question, with everything in it that a planner may know: no file has to be read, no model to be looked up.
 
 use scenarios::fixed_wing::{self, GRAVITY_MPS2, Limits};
-use scenarios::slung_load;
 use scenarios::{Model, Range, Scenario, Vehicle, Waypoint};
+use scenarios::{multirotor, slung_load};
 use serde_json::{Value, json};
 
 use super::PROTOCOL;
@@ -35,6 +35,7 @@ fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
     match scenario.model(vehicle) {
         Model::FixedWing(model) => fixed_wing(vehicle, model),
         Model::SlungLoad(model) => slung_load(vehicle, model),
+        Model::Multirotor(model) => multirotor(vehicle, model),
     }
 }
 
@@ -64,6 +65,22 @@ fn slung_load(vehicle: &Vehicle, model: &slung_load::Model) -> Value {
         "name": vehicle.name,
         "family": "slung-load",
         "model": told,
+        "start": state(&vehicle.start),
+        "goal": state(&vehicle.goal),
+    })
+}
+
+/// What a planner may know: how large, how fast, how far it sees.
+fn multirotor(vehicle: &Vehicle, model: &multirotor::Model) -> Value {
+    let state =
+        |waypoint: &Waypoint| json!({ "position_m": waypoint.position_m(), "velocity_mps": waypoint.velocity_mps() });
+    json!({
+        "name": vehicle.name,
+        "family": "multirotor",
+        "body_radius_m": model.body_radius_m,
+        "sensor_range_m": model.sensor_range_m,
+        "limits": model.limits,
+        "planning_limits": model.planning_limits,
         "start": state(&vehicle.start),
         "goal": state(&vehicle.goal),
     })

@@ -50,6 +50,7 @@ fn about_phases(scenario: &Scenario, flight: &Flight) -> [Line; 2] {
     let text = match scenario.family() {
         Family::FixedWing => "the plan ends, the vehicles fly straight on".to_owned(),
         Family::SlungLoad => "the plan ends, the vehicle hovers".to_owned(),
+        Family::Multirotor => "the flight is over".to_owned(),
     };
     [start, Line { t_s: flight.plan_end_s, level: Level::Info, text }]
 }

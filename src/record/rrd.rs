@@ -79,6 +79,7 @@ impl Recorder for Rrd {
                     series::log(&stream, run.scenario, flight, distances)?;
                 }
                 Family::SlungLoad => slung_load::log(&stream, run, flight)?,
+                Family::Multirotor => {}
             }
         }
         stream.flush_blocking()?;

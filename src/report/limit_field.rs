@@ -65,6 +65,7 @@ fn limits(check: &Check, scenario: &Scenario) -> Vec<String> {
     let family = match scenario.family() {
         Family::FixedWing => "fixed-wing",
         Family::SlungLoad => "slung-load",
+        Family::Multirotor => "multirotor",
     };
     let model = vehicles.map(|vehicle| format!("models.{family}.{}.{table}", vehicle.model)).next();
     let on_map = MAP.iter().find(|(name, _)| is_about(name)).map(|(_, field)| (*field).to_owned());

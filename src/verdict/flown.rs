@@ -83,7 +83,9 @@ fn part_that_counts<'a>(
         log_end_s: motion.end_s(),
         approach: match trajectory {
             Trajectory::FixedWing(_) => closest::to_point(&motion, window_s, vehicle.goal.position_m()),
-            Trajectory::SlungLoad(_) => hovering(&motion, planned_end_s, vehicle.goal.position_m()),
+            Trajectory::SlungLoad(_) | Trajectory::Multirotor(_) => {
+                hovering(&motion, planned_end_s, vehicle.goal.position_m())
+            }
         },
     };
     let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(planned_end_s);

@@ -103,7 +103,7 @@ fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
     }
     time_defect(trajectory).or_else(|| {
         let load = match trajectory {
-            Trajectory::FixedWing(_) => None,
+            Trajectory::FixedWing(_) | Trajectory::Multirotor(_) => None,
             Trajectory::SlungLoad(trajectory) => {
                 load_defect(scenario.slung_load_model(vehicle), vehicle, &trajectory.states[0])
             }

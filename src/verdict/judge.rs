@@ -28,6 +28,7 @@ pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Opti
     let mut checks = match scenario.family() {
         Family::FixedWing => of_fixed_wings(scenario, plan, &flyable, logged),
         Family::SlungLoad => of_a_slung_load(scenario, plan, &flyable, logged),
+        Family::Multirotor => unimplemented!("the judge of multirotors"),
     };
 
     given.qualify(&mut checks);

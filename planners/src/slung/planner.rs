@@ -12,7 +12,7 @@ use super::problem::Problem;
 use super::question;
 use super::route::{Route, routes};
 use crate::nlp::Status;
-use crate::planner::{Planner, Progress};
+use crate::planner::{Answers, Planner, Progress};
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -20,7 +20,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Legendre-Gauss-Radau collocation with the switchable envelope circle (Kang, Huang, Wen 2020)",
     handles: "a quadrotor with a slung load among convex prisms",
     refuses: question::refuses,
-    answer: plan,
+    answers: Answers::Ahead(plan),
 };
 
 const NAME: &str = "slung-lgr";

@@ -87,12 +87,25 @@ const SLUNG_LOAD: Columns = Columns {
     may_jump: true,
 };
 
+/// The multirotor, whole: position and velocity.
+const MULTIROTOR: Columns = Columns {
+    family: "multirotor",
+    required: &["x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"],
+    velocity: &[],
+    controls: &[],
+    converted: &[],
+    words: &[],
+    arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],
+    may_jump: true,
+};
+
 impl Columns {
     /// The columns of a family.
     pub fn of(family: Family) -> &'static Self {
         match family {
             Family::FixedWing => &FIXED_WING,
             Family::SlungLoad => &SLUNG_LOAD,
+            Family::Multirotor => &MULTIROTOR,
         }
     }
 
@@ -129,13 +142,16 @@ impl Columns {
 #[cfg(test)]
 mod tests {
     use super::{Columns, TIME, VEHICLE};
-    use crate::{Family, fixed_wing, slung_load};
+    use crate::{Family, fixed_wing, multirotor, slung_load};
 
     /// What we write, we read.
     #[test]
     fn the_columns_of_our_own_files_are_known() {
-        let families =
-            [(Family::FixedWing, &fixed_wing::CSV_COLUMNS[..]), (Family::SlungLoad, &slung_load::CSV_COLUMNS[..])];
+        let families = [
+            (Family::FixedWing, &fixed_wing::CSV_COLUMNS[..]),
+            (Family::SlungLoad, &slung_load::CSV_COLUMNS[..]),
+            (Family::Multirotor, &multirotor::CSV_COLUMNS[..]),
+        ];
         for (family, written) in families {
             let known = Columns::of(family).names();
             assert_eq!(written[..2], [VEHICLE, TIME]);

@@ -1,6 +1,6 @@
 use super::Track;
 use crate::slung_load::{Cable, Trajectory};
-use crate::{Family, Interpolation, fixed_wing, slung_load};
+use crate::{Family, Interpolation, fixed_wing, multirotor, slung_load};
 
 /// The planned motion of one vehicle as far as it was given.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub enum GivenTrack {
     FixedWing(FixedWingTrack),
     /// Of a quadrotor with a load: whole.
     SlungLoad(Trajectory),
+    /// Of a multirotor: whole.
+    Multirotor(multirotor::Trajectory),
 }
 
 /// The planned motion of one fixed-wing aircraft: velocities and controls complete at every node, or not at all.
@@ -32,6 +34,7 @@ impl GivenTrack {
         match family {
             Family::FixedWing => Self::FixedWing(FixedWingTrack::of(track)),
             Family::SlungLoad => Self::SlungLoad(slung_load_trajectory(track)),
+            Family::Multirotor => Self::Multirotor(multirotor_trajectory(track)),
         }
     }
 
@@ -40,6 +43,7 @@ impl GivenTrack {
         match self {
             Self::FixedWing(track) => track.positions_m[0],
             Self::SlungLoad(trajectory) => trajectory.states[0].position_m,
+            Self::Multirotor(trajectory) => trajectory.states[0].position_m,
         }
     }
 }
@@ -74,6 +78,17 @@ fn slung_load_trajectory(track: &Track) -> Trajectory {
         controls: nodes.clone().map(control).collect(),
         cable: nodes.map(cable).collect(),
         planner_nodes: track.planner_nodes.clone(),
+    }
+}
+
+fn multirotor_trajectory(track: &Track) -> multirotor::Trajectory {
+    let positions_m = rows(track, ["x_m", "y_m", "z_m"]).unwrap_or_default();
+    let velocities_mps = rows(track, ["vx_mps", "vy_mps", "vz_mps"]).unwrap_or_default();
+    let states = positions_m.into_iter().zip(velocities_mps);
+    multirotor::Trajectory {
+        vehicle: track.vehicle.clone(),
+        times_s: track.times_s.clone(),
+        states: states.map(|(position_m, velocity_mps)| multirotor::State { position_m, velocity_mps }).collect(),
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn suspicions(track: &GivenTrack, vehicle: &Vehicle) -> Vec<(usize, P
     };
     let of_motion = match track {
         GivenTrack::FixedWing(track) => [angles(track), heading(track), speed(track)],
-        GivenTrack::SlungLoad(_) => [None, None, None],
+        GivenTrack::SlungLoad(_) | GivenTrack::Multirotor(_) => [None, None, None],
     };
     [position(track, vehicle)].into_iter().chain(of_motion).flatten().map(named).collect()
 }

@@ -6,9 +6,25 @@ pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
     let first = scenario.vehicles.first().and_then(|vehicle| scenario.models.get(&vehicle.model));
     match first.map(|model| model.family()) {
         None => Vec::new(),
-        Some(Family::FixedWing) => among_cylinders(scenario),
-        Some(Family::SlungLoad) => alone_among_flat_obstacles(scenario),
+        Some(Family::FixedWing) => [among_cylinders(scenario), nothing_to_sense(scenario)].concat(),
+        Some(Family::SlungLoad) => [alone_among_flat_obstacles(scenario), nothing_to_sense(scenario)].concat(),
+        Some(Family::Multirotor) => without_ground(scenario).into_iter().collect(),
     }
+}
+
+fn nothing_to_sense(scenario: &Scenario) -> Vec<Problem> {
+    let (hidden, moving) = (scenario.world.hidden.len(), scenario.world.moving.len());
+    let counts = [("world.hidden", hidden), ("world.moving", moving)].into_iter().filter(|(_, count)| *count > 0);
+    let problem = |(field, count): (&str, usize)| {
+        Problem::new(field, format!("{count} of them"), "none: only multirotors sense obstacles")
+    };
+    counts.map(problem).collect()
+}
+
+fn without_ground(scenario: &Scenario) -> Option<Problem> {
+    let ground_m = scenario.world.ground_m?;
+    let expected = "nothing: multirotors stay above the map's lowest altitude";
+    Some(Problem::new("world.ground_m", ground_m.to_string(), expected).remedy("remove it, and raise world.map.z_m"))
 }
 
 fn among_cylinders(scenario: &Scenario) -> Vec<Problem> {

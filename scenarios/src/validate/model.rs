@@ -1,6 +1,7 @@
 //! Vehicle models: their names here, the rest by family.
 
 mod fixed_wing;
+mod multirotor;
 mod slung_load;
 
 use crate::{Models, Problem, Range};
@@ -8,17 +9,22 @@ use crate::{Models, Problem, Range};
 pub(super) fn problems(models: &Models) -> Vec<Problem> {
     let fixed_wing = models.fixed_wing.iter().flat_map(|(name, model)| fixed_wing::problems(name, model));
     let slung_load = models.slung_load.iter().flat_map(|(name, model)| slung_load::problems(name, model));
-    fixed_wing.chain(slung_load).chain(names_of_two_families(models)).collect()
+    let multirotor = models.multirotor.iter().flat_map(|(name, model)| multirotor::problems(name, model));
+    fixed_wing.chain(slung_load).chain(multirotor).chain(names_of_two_families(models)).collect()
 }
 
 fn names_of_two_families(models: &Models) -> Vec<Problem> {
-    let shared = models.slung_load.keys().filter(|name| models.fixed_wing.contains_key(*name));
-    let problem = |name: &String| {
-        let expected = "a name of its own; a fixed-wing model has this one already";
-        Problem::new(format!("models.slung-load.{name}"), format!("\"{name}\""), expected)
-            .remedy("rename one of the two")
+    let problem = |family: &str, name: &String, other: &str| {
+        let expected = format!("a name of its own; a {other} model has this one already");
+        Problem::new(format!("models.{family}.{name}"), format!("\"{name}\""), expected).remedy("rename one of the two")
     };
-    shared.map(problem).collect()
+    let is_fixed_wing = |name: &&String| models.fixed_wing.contains_key(*name);
+    let slung = models.slung_load.keys().filter(is_fixed_wing).map(|name| problem("slung-load", name, "fixed-wing"));
+    let multirotors = models.multirotor.keys().filter_map(|name| {
+        let other = if is_fixed_wing(&name) { "fixed-wing" } else { "slung-load" };
+        (is_fixed_wing(&name) || models.slung_load.contains_key(name)).then(|| problem("multirotor", name, other))
+    });
+    slung.chain(multirotors).collect()
 }
 
 /// Ranges of planning limits that reach beyond the physical ones of the same name. What is not in order says nothing.

@@ -33,7 +33,11 @@ pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
 /// What only a planner with a command needs, or must have.
 fn outside_problems(settings: &PlannerSettings) -> Vec<Problem> {
     let Some(command) = &settings.command else {
-        let lost = [("time_limit_s", settings.time_limit_s.is_some()), ("options", !settings.options.is_empty())];
+        let lost = [
+            ("time_limit_s", settings.time_limit_s.is_some()),
+            ("in_loop", settings.in_loop),
+            ("options", !settings.options.is_empty()),
+        ];
         let without = |(key, _): (&str, bool)| {
             let found = "an option of planners outside the harness";
             let problem = Problem::new(format!("planner.{key}"), found, "`planner.command` beside it, or not this key");

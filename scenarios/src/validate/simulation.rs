@@ -1,7 +1,7 @@
 //! The simulation: step, duration, tracker, and disturbances.
 
 use super::quantity::{above_up_to, not_negative, positive};
-use crate::{GustPulse, Gusts, Problem, Simulation};
+use crate::{GustPulse, Gusts, Planning, PlanningClock, Problem, Simulation};
 
 /// Longest step that the simulator takes, s.
 const LONGEST_STEP_S: f64 = 0.1;
@@ -20,18 +20,42 @@ pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
         not_negative("simulation.sensors.rate_noise_degps", simulation.sensors.rate_noise_degps),
         not_negative("simulation.sensors.load_position_noise_m", simulation.sensors.load_position_noise_m),
         not_negative("simulation.sensors.load_velocity_noise_mps", simulation.sensors.load_velocity_noise_mps),
+        not_negative("simulation.sensors.sighting_position_noise_m", simulation.sensors.sighting_position_noise_m),
+        not_negative("simulation.sensors.sighting_velocity_noise_mps", simulation.sensors.sighting_velocity_noise_mps),
         positive("simulation.mismatch.mass_ratio", simulation.mismatch.mass_ratio),
         positive("simulation.mismatch.load_mass_ratio", simulation.mismatch.load_mass_ratio),
     ];
     let gusts = simulation.wind.iter().flat_map(|wind| &wind.gusts).flat_map(gusts);
     let pulses = simulation.wind.iter().flat_map(|wind| wind.pulses.iter().enumerate()).flat_map(pulse);
-    rules.into_iter().flatten().chain(gusts).chain(pulses).collect()
+    rules.into_iter().flatten().chain(gusts).chain(pulses).chain(planning(simulation)).collect()
 }
 
 fn pulse((index, pulse): (usize, &GustPulse)) -> Vec<Problem> {
     let field = format!("simulation.wind.pulses[{index}]");
     let start = not_negative(&format!("{field}.start_s"), pulse.start_s);
     start.into_iter().chain(positive(&format!("{field}.duration_s"), pulse.duration_s)).collect()
+}
+
+fn planning(simulation: &Simulation) -> Vec<Problem> {
+    let Planning { period_s, deadline_s, time, median_s, spread, recorded_s } = &simulation.planning;
+    let rules = [
+        positive("simulation.planning.period_s", *period_s),
+        not_negative("simulation.planning.deadline_s", *deadline_s),
+        not_negative("simulation.planning.median_s", *median_s),
+        not_negative("simulation.planning.spread", *spread),
+        (*period_s > 0.0 && *period_s < simulation.step_s).then(|| {
+            let expected = format!("{} s, the simulator's step, or more", simulation.step_s);
+            Problem::new("simulation.planning.period_s", period_s.to_string(), expected)
+        }),
+        (*time == PlanningClock::Recorded && recorded_s.is_empty()).then(|| {
+            let expected = "planning times, s: `time` is `recorded`";
+            Problem::new("simulation.planning.recorded_s", "none", expected).remedy("add them, or use `modelled` times")
+        }),
+    ];
+    let recorded = recorded_s.iter().enumerate();
+    let recorded =
+        recorded.filter_map(|(i, time_s)| not_negative(&format!("simulation.planning.recorded_s[{i}]"), *time_s));
+    rules.into_iter().flatten().chain(recorded).collect()
 }
 
 fn gusts(gusts: &Gusts) -> Vec<Problem> {

@@ -1,6 +1,7 @@
 //! Each vehicle by itself: its name, its model, and its start and goal against map, obstacles and limits.
 
 mod fixed_wing;
+mod multirotor;
 mod slung_load;
 
 use super::identifier::entity_names;
@@ -22,6 +23,7 @@ pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
             problems.extend(match scenario.models.get(&vehicle.model) {
                 Some(Model::FixedWing(model)) => fixed_wing::problems(model, &field, waypoint),
                 Some(Model::SlungLoad(model)) => slung_load::problems(model, &scenario.world, &field, waypoint),
+                Some(Model::Multirotor(model)) => multirotor::problems(model, &scenario.world, &field, waypoint),
                 None => Vec::new(),
             });
         }

@@ -1,8 +1,8 @@
 //! The map and its obstacles.
 
 use super::identifier::entity_names;
-use super::quantity::{ordered, positive};
-use crate::{Block, Prism, Problem, World};
+use super::quantity::{not_negative, ordered, positive};
+use crate::{Block, Moving, Prism, Problem, World, nearest};
 
 pub(super) fn problems(world: &World) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -17,8 +17,43 @@ pub(super) fn problems(world: &World) -> Vec<Problem> {
     problems.extend(world.boxes.iter().enumerate().flat_map(|(index, block)| of_box(index, block)));
     problems.extend(entity_names("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str())));
     problems.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| of_prism(index, prism)));
+    problems.extend(entity_names("world.moving", world.moving.iter().map(|moving| moving.name.as_str())));
+    problems.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
     problems.extend(names_of_two_kinds(world));
+    problems.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
     problems
+}
+
+fn of_moving(index: usize, moving: &Moving) -> Vec<Problem> {
+    let field = format!("world.moving[{index}]");
+    let path = (!moving.has_a_path()).then(|| {
+        let found = format!("{} corners, or two in a row that are the same", moving.path_m.len());
+        Problem::new(
+            format!("{field}.path_m"),
+            found,
+            "two corners at least, each at some distance from the one before",
+        )
+    });
+    let rules = [
+        positive(&format!("{field}.radius_m"), moving.radius_m),
+        not_negative(&format!("{field}.speed_mps"), moving.speed_mps),
+        not_negative(&format!("{field}.offset_m"), moving.offset_m),
+        moving.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range)),
+    ];
+    rules.into_iter().flatten().chain(path).collect()
+}
+
+/// A name that is hidden must be there to be hidden.
+fn hidden(world: &World, index: usize, name: &str) -> Option<Problem> {
+    let moving: Vec<&str> = world.moving.iter().map(|moving| moving.name.as_str()).collect();
+    let names: Vec<&str> = world.obstacle_names().filter(|name| !moving.contains(name)).collect();
+    let expected = "the name of a cylinder, a box or a prism, or \"*\" for all of them";
+    let problem = Problem::new(format!("world.hidden[{index}]"), format!("\"{name}\""), expected);
+    let is_known = name == "*" || names.contains(&name);
+    (!is_known).then(|| match nearest(name, names) {
+        Some(known) => problem.remedy(format!("did you mean \"{known}\"?")),
+        None => problem.remedy("what moves has to be sensed in any case"),
+    })
 }
 
 fn of_box(index: usize, block: &Block) -> Vec<Problem> {
@@ -42,10 +77,11 @@ fn of_prism(index: usize, prism: &Prism) -> Vec<Problem> {
 
 /// A name that obstacles of two kinds share. (Within one kind it is reported with the kind.)
 fn names_of_two_kinds(world: &World) -> Vec<Problem> {
-    let kinds: [(&str, Vec<&str>); 3] = [
+    let kinds: [(&str, Vec<&str>); 4] = [
         ("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str()).collect()),
         ("world.boxes", world.boxes.iter().map(|block| block.name.as_str()).collect()),
         ("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str()).collect()),
+        ("world.moving", world.moving.iter().map(|moving| moving.name.as_str()).collect()),
     ];
     let mut problems = Vec::new();
     for (later, (kind, names)) in kinds.iter().enumerate() {

@@ -89,6 +89,12 @@ impl Prism {
         if inside > 0.0 { outside } else { inside }
     }
 
+    /// Signed distance from a point in space to the surface, m: negative inside. The corners are convex and
+    /// counterclockwise.
+    pub fn signed_distance_in_space_m(&self, [x_m, y_m, z_m]: [f64; 3]) -> f64 {
+        upright(self.signed_distance_m([x_m, y_m]), self.z_m, z_m)
+    }
+
     fn doubled_area_m2(&self) -> f64 {
         let n = self.corners_m.len();
         (0..n).map(|i| cross([0.0, 0.0], self.corners_m[i], self.corners_m[(i + 1) % n])).sum()
@@ -101,6 +107,14 @@ impl Prism {
         let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
         (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
     }
+}
+
+/// Signed distance to something upright, m, from the one to its outline in the plane and its height range: outside both
+/// the way goes to the edge between side and top (or bottom); inside to the nearer of the two.
+pub(crate) fn upright(in_plane_m: f64, range: Option<Range>, z_m: f64) -> f64 {
+    let Some(range) = range else { return in_plane_m };
+    let above_m = -range.margin(z_m);
+    if in_plane_m > 0.0 && above_m > 0.0 { in_plane_m.hypot(above_m) } else { in_plane_m.max(above_m) }
 }
 
 /// Twice the area of the triangle a, b, c, positive counterclockwise.

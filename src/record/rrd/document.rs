@@ -111,7 +111,21 @@ fn legend(scenario: &Scenario) -> String {
     match scenario.family() {
         Family::FixedWing => legend_of_fixed_wings(scenario),
         Family::SlungLoad => legend_of_a_slung_load(),
+        Family::Multirotor => legend_of_multirotors(),
     }
+}
+
+fn legend_of_multirotors() -> String {
+    [
+        "## How to read the picture",
+        "- everything is to scale; obstacles without bottom or top end at floor and ceiling of the map",
+        "- obstacles: red where a vehicle knows of them, pale violet until they are sensed; orange: what moves",
+        "- sphere around a vehicle: its body; large ring: how far it senses",
+        "- thin lines: the edges of the cost map; dim ones: the best candidates of the last replan",
+        "- thick line ahead of a vehicle: its horizon; those of earlier replans fade behind it",
+        "- bright line: flown; line with a label: where it came closest to an obstacle, green if the limit was kept",
+    ]
+    .join("\n")
 }
 
 fn legend_of_a_slung_load() -> String {

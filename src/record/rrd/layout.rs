@@ -39,6 +39,7 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
                 tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
             }
             Family::SlungLoad => tabs.push(slung_load::forces(&layout, flight)?),
+            Family::Multirotor => {}
         }
     }
     if !run.plan.history.is_empty() {

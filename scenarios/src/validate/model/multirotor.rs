@@ -1,0 +1,72 @@
+//! Models of multirotors: what is positive, planning limits inside the physical ones, room to hover.
+
+use crate::multirotor::{Airframe, GRAVITY_MPS2, Limits, Model, Plant};
+use crate::validate::identifier::entity_name;
+use crate::validate::quantity::{above_up_to, not_negative, ordered, positive, positive_if_given};
+use crate::{Problem, Range};
+
+use super::planning_inside_physical;
+
+pub(super) fn problems(name: &str, model: &Model) -> Vec<Problem> {
+    let field = format!("models.multirotor.{name}");
+    let mut problems: Vec<Problem> = entity_name(&field, name).into_iter().collect();
+    let positive_ones = [
+        ("mass_kg", model.mass_kg),
+        ("body_radius_m", model.body_radius_m),
+        ("sensor_range_m", model.sensor_range_m),
+        ("limits.speed_mps", model.limits.speed_mps),
+        ("limits.acceleration_mps2", model.limits.acceleration_mps2),
+        ("planning_limits.speed_mps", model.planning_limits.speed_mps),
+        ("planning_limits.acceleration_mps2", model.planning_limits.acceleration_mps2),
+    ];
+    problems.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
+    problems.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
+    problems.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
+    problems.extend(no_airframe(&field, model));
+    problems.extend(model.airframe.iter().flat_map(|airframe| of_airframe(&format!("{field}.airframe"), airframe)));
+    problems.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(&field, model, airframe)));
+    problems
+}
+
+fn no_airframe(field: &str, model: &Model) -> Option<Problem> {
+    (model.plant == Plant::Quadrotor && model.airframe.is_none()).then(|| {
+        let expected = "a table with inertia, lever arm and thrusts: the plant is a quadrotor";
+        Problem::new(format!("{field}.airframe"), "nothing", expected).remedy("add it, or fly a `point-mass`")
+    })
+}
+
+fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Problem> {
+    let [ix, iy, iz] = airframe.inertia_kgm2;
+    let positive_ones = [
+        ("inertia_kgm2[0]", ix),
+        ("inertia_kgm2[1]", iy),
+        ("inertia_kgm2[2]", iz),
+        ("arm_m", airframe.arm_m),
+        ("torque_per_thrust_m", airframe.torque_per_thrust_m),
+    ];
+    let positive_ones =
+        positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
+    let others = [
+        positive_if_given(&format!("{field}.rotor_time_constant_s"), airframe.rotor_time_constant_s),
+        ordered(&format!("{field}.thrust_n"), airframe.thrust_n),
+        not_negative(&format!("{field}.thrust_n"), airframe.thrust_n.min),
+        above_up_to(&format!("{field}.tilt_deg"), airframe.tilt_deg, 0.0, 80.0),
+    ];
+    positive_ones.chain(others.into_iter().flatten()).collect()
+}
+
+/// Four rotors have to carry the weight, tilted as far as the planned acceleration asks for.
+fn room_to_hover(field: &str, model: &Model, airframe: &Airframe) -> Option<Problem> {
+    let hover_n = model.mass_kg * GRAVITY_MPS2 / 4.0;
+    let needed_n = model.mass_kg * GRAVITY_MPS2.hypot(model.planning_limits.acceleration_mps2) / 4.0;
+    let Range { min, max } = airframe.thrust_n;
+    (min < max && !(min < hover_n && needed_n < max)).then(|| {
+        let expected = format!("less than {hover_n:.3} N, which holds it still, to more than {needed_n:.3} N, planned");
+        Problem::new(format!("{field}.airframe.thrust_n"), airframe.thrust_n.to_string(), expected)
+            .remedy("give the rotors more thrust, or plan with less acceleration")
+    })
+}
+
+fn named(limits: &Limits) -> [(&'static str, Range); 2] {
+    [("speed_mps", Range::new(0.0, limits.speed_mps)), ("acceleration_mps2", Range::new(0.0, limits.acceleration_mps2))]
+}

@@ -1,0 +1,61 @@
+//! Start and goal of a multirotor: body and all in the open, on the map, and slow enough.
+
+use crate::multirotor::Model;
+use crate::{Problem, Waypoint, World};
+
+pub(super) fn problems(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+    let mut problems = too_near_edges(model, world, field, waypoint);
+    problems.extend(too_near_obstacles(model, world, field, waypoint));
+    if field.ends_with(".start") {
+        problems.extend(under_moving(model, world, field, waypoint));
+    }
+    let most_mps = model.planning_limits.speed_mps;
+    if waypoint.speed_mps < 0.0 || waypoint.speed_mps > most_mps {
+        let expected = format!("a value inside [0, {most_mps}], the planning limit of speed, m/s");
+        problems.push(Problem::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), expected));
+    }
+    if field.ends_with(".goal") && waypoint.speed_mps > 0.0 {
+        let problem = Problem::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0, or nothing");
+        problems.push(problem.remedy("remove it: multirotors come to rest at their goal"));
+    }
+    problems.extend(waypoint.load.map(|_| {
+        Problem::new(format!("{field}.load"), "a load", "nothing: this vehicle carries none").remedy("remove it")
+    }));
+    problems
+}
+
+fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+    let axes = ["x_m", "y_m", "z_m"].into_iter().zip(waypoint.position_m()).zip(world.map.axes());
+    let is_near = |margin_m: f64| (0.0..model.body_radius_m).contains(&margin_m);
+    axes.filter(|((_, value), range)| is_near(range.margin(*value)))
+        .map(|((axis, value), range)| {
+            let expected = format!("{} m, the body's radius, or more from the ends of {range}", model.body_radius_m);
+            Problem::new(format!("{field}.{axis}"), value.to_string(), expected).remedy("move the point, or the frame")
+        })
+        .collect()
+}
+
+/// A point inside an obstacle is reported for every family; here it is the body that has no room.
+fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+    let [x_m, y_m, z_m] = waypoint.position_m();
+    let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
+    let flat = world.flat_obstacles();
+    let prisms = flat.iter().map(|it| (it.name.clone(), it.signed_distance_in_space_m([x_m, y_m, z_m])));
+    let is_near = |(_, distance_m): &(String, f64)| (0.0..model.body_radius_m).contains(distance_m);
+    cylinders.chain(prisms).filter(is_near).map(|(name, distance_m)| no_room(model, field, &name, distance_m)).collect()
+}
+
+fn under_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+    let good = world.moving.iter().filter(|moving| moving.has_a_path());
+    good.filter_map(|moving| {
+        let distance_m = moving.signed_distance_m(0.0, waypoint.position_m());
+        (distance_m < model.body_radius_m).then(|| no_room(model, field, &moving.name, distance_m))
+    })
+    .collect()
+}
+
+fn no_room(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Problem {
+    let found = format!("a point {distance_m:.3} m from `{obstacle}`");
+    let expected = format!("{} m, the body's radius, or more", model.body_radius_m);
+    Problem::new(field, found, expected).remedy("move the point or the obstacle")
+}
