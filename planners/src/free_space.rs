@@ -6,6 +6,7 @@
 //! Distances hold between the samples, not at them: [`FreeSpace::is_clear`] asks for a whole segment, and
 //! [`sweep`] bounds the distance of four segments at once from below.
 
+pub mod known;
 mod mover;
 mod obstacle;
 pub mod sweep;
@@ -41,6 +42,12 @@ impl FreeSpace {
         sides.fold(f64::INFINITY, f64::min)
     }
 
+    /// Does a point keep `clearance_m` from the frame? Not if it is no number.
+    fn is_in_frame(&self, point: Point, clearance_m: f64) -> bool {
+        let mut sides = self.frame_m.iter().zip(point);
+        sides.all(|([low, high], x)| x - low >= clearance_m && high - x >= clearance_m)
+    }
+
     /// Signed distance from a point to the nearest of the frame and what stands still, m.
     pub fn distance_m(&self, point: Point) -> f64 {
         let obstacles = self.standing.iter().map(|obstacle| obstacle.distance_m(point));
@@ -56,7 +63,8 @@ impl FreeSpace {
     /// Does every point between `from` and `to` keep `clearance_m` from the frame and from what stands still?
     pub fn is_clear(&self, from: Point, to: Point, clearance_m: f64) -> bool {
         // the frame is convex, so its distance is smallest at an end
-        self.distance_to_frame_m(from).min(self.distance_to_frame_m(to)) >= clearance_m
+        self.is_in_frame(from, clearance_m)
+            && self.is_in_frame(to, clearance_m)
             && self.standing.iter().all(|obstacle| is_beside(obstacle, from, to, clearance_m))
     }
 

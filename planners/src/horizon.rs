@@ -16,16 +16,22 @@
 )]
 mod flight;
 
+mod brief;
 pub mod cost_map;
 pub mod draw;
 pub mod evaluate;
 pub mod group;
 pub mod motion;
 pub mod optimise;
+mod others;
 pub mod outlook;
 pub mod pilot;
+mod planner;
 pub mod question;
+mod reference;
 pub mod roadmap;
 pub mod sampler;
 mod visibility;
 mod voronoi;
+
+pub use planner::{RHC, RHC_APF, RHC_FPSO, RHC_PSO};

@@ -59,6 +59,12 @@ impl CostMap {
         self.roadmap.cost_to_go(point, space, self.clearance_m - ROUNDING_M)
     }
 
+    /// The way from `point` to the goal; nothing if there is none.
+    pub fn route(&self, point: Point, space: &FreeSpace) -> Vec<Point> {
+        let rest = self.cost_to_go(point, space).map(|left| self.roadmap.way_from(left.node));
+        rest.map_or_else(Vec::new, |rest| [point].into_iter().chain(rest).collect())
+    }
+
     /// The same for many points around `origin`.
     pub fn outlook<'a>(&self, space: &'a FreeSpace, origin: Point) -> Outlook<'a> {
         Outlook::new(&self.roadmap, space, self.clearance_m - ROUNDING_M, origin)

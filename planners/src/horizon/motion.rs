@@ -42,6 +42,17 @@ impl Motion {
         Self { knots: vec![(0.0, state)], accelerations: Vec::new() }
     }
 
+    /// Through states at times, s, increasing; between two of them with their mean acceleration.
+    pub fn through(knots: Vec<(f64, State)>) -> Self {
+        assert!(!knots.is_empty(), "a motion has a state");
+        let mean = |ends: &[(f64, State)]| {
+            let [(from_s, from), (to_s, to)] = [ends[0], ends[1]];
+            scaled(minus(to.velocity, from.velocity), 1.0 / (to_s - from_s))
+        };
+        let accelerations = knots.windows(2).map(mean).collect();
+        Self { knots, accelerations }
+    }
+
     /// Goes on at a constant acceleration, m/s².
     pub fn accelerate(&mut self, acceleration: Point, time_s: f64) {
         let &(at_s, state) = self.last();
@@ -85,17 +96,12 @@ impl Motion {
         state.after(self.accelerations[next - 1], time_s - at_s)
     }
 
-    /// The same motion with time 0 later by `since_s`.
-    pub fn continued(&self, since_s: f64) -> Self {
-        let mut rest = Self::from(self.state_at(since_s));
-        for (ends, &acceleration) in self.knots.windows(2).zip(&self.accelerations) {
-            let (begin_s, end_s) = (ends[0].0.max(since_s), ends[1].0);
-            if end_s > begin_s {
-                rest.accelerate(acceleration, end_s - begin_s);
-            }
-        }
-        rest.knots.last_mut().expect("a motion has a state").1 = self.last().1;
-        rest
+    /// What is left of it from a time on, which becomes time 0.
+    pub fn rest_from(&self, since_s: f64) -> Self {
+        let mut knots = vec![(0.0, self.state_at(since_s))];
+        let later = self.knots.iter().filter(|(at_s, _)| *at_s > since_s);
+        knots.extend(later.map(|&(at_s, state)| (at_s - since_s, state)));
+        Self::through(knots)
     }
 
     /// Mean accelerations over `count` steps of `step_s` from `from_s` on, m/s².

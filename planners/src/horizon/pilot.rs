@@ -5,7 +5,7 @@ use rand::Rng;
 use super::cost_map::{CostMap, Ways};
 use super::draw::Draws;
 use super::evaluate::Machine;
-use super::motion::{Motion, State};
+use super::motion::{Motion, State, sagitta_m};
 use super::optimise::{Budget, Found, optimise};
 use super::question::{Cost, Grid, Limits, Question, Repulsion, Rules};
 use super::sampler::Method;
@@ -65,8 +65,6 @@ pub struct Pilot<R> {
     map: CostMap,
     stream: R,
     machine: Machine,
-    /// The motion in force.
-    flown: Option<Motion>,
 }
 
 /// What a pilot decides.
@@ -95,7 +93,7 @@ impl<R: Rng> Pilot<R> {
             Charge::Field(..) => Ways::Visibility,
         };
         let map = CostMap::new(ways, goal, options.clearance_m, levels_m);
-        Self { options, goal, map, stream, machine: Machine::detect(), flown: None }
+        Self { options, goal, map, stream, machine: Machine::detect() }
     }
 
     /// The cost map.
@@ -103,37 +101,29 @@ impl<R: Rng> Pilot<R> {
         &self.map
     }
 
-    /// Plans from `start`, which is where the vehicle will be `since_s` after the beginning of the motion in force; times
-    /// in `space` are from then on.
-    pub fn replan(&mut self, start: State, since_s: f64, space: &FreeSpace) -> Replan {
+    /// Plans from `start` at time 0, where also `space` and `flown` begin: the rest of the motion in force, for the case
+    /// that nothing better is found.
+    pub fn replan(&mut self, start: State, flown: &Motion, applied: Point, space: &FreeSpace) -> Replan {
         let start = State { velocity: shortened(start.velocity, self.options.limits.speed_mps), ..start };
         if matches!(self.options.charge, Charge::Map(..)) {
             self.map.update(space);
         }
         let draws = Draws::new(self.stream.next_u64());
-        let question = self.question(start, since_s, space);
-        let seeds = self.seeds(since_s);
+        let question = self.question(start, applied, space);
+        let seeds = self.seeds(flown);
         let found = optimise(&question, self.options.method, self.options.budget, &seeds, draws, self.machine);
-        let decision = self.decide(&question, &found, since_s);
-        if let Decision::Fly(motion) = &decision {
-            self.flown = Some(motion.clone());
-        } else if let Some(flown) = &mut self.flown {
-            *flown = flown.continued(since_s);
-        }
-        Replan { decision, found }
+        Replan { decision: self.decide(&question, &found, flown), found }
     }
 
-    fn question<'a>(&'a self, start: State, since_s: f64, space: &'a FreeSpace) -> Question<'a> {
+    fn question<'a>(&'a self, start: State, applied: Point, space: &'a FreeSpace) -> Question<'a> {
         let options = &self.options;
         let cost = match options.charge {
             Charge::Map(_, repulsion) => Cost::Map { map: &self.map, repulsion },
             Charge::Field(attraction, repulsion) => Cost::Field { attraction, repulsion },
         };
-        let applied =
-            self.flown.as_ref().map(|flown| flown.mean_accelerations(since_s - options.step_s, options.step_s, 1)[0]);
         let mut question = Question {
             start,
-            applied: applied.unwrap_or_default(),
+            applied,
             goal: self.goal,
             space,
             limits: options.limits,
@@ -162,40 +152,35 @@ impl<R: Rng> Pilot<R> {
         (steps.max(1.0) as usize).min(options.grid.steps)
     }
 
-    /// First particles: the motion in force, shifted.
-    fn seeds(&self, since_s: f64) -> Vec<Vec<f64>> {
+    /// First particles: the motion in force.
+    fn seeds(&self, flown: &Motion) -> Vec<Vec<f64>> {
         let Grid { steps, axes } = self.options.grid;
-        let shifted = self.flown.as_ref().filter(|_| self.options.starts_warm).map(|flown| {
-            let accelerations = flown.mean_accelerations(since_s, self.options.step_s, steps);
-            accelerations.iter().flat_map(|acceleration| acceleration[..axes].to_vec()).collect()
-        });
-        shifted.into_iter().collect()
+        if !self.options.starts_warm {
+            return Vec::new();
+        }
+        let accelerations = flown.mean_accelerations(0.0, self.options.step_s, steps);
+        vec![accelerations.iter().flat_map(|acceleration| acceleration[..axes].to_vec()).collect()]
     }
 
     /// What is flown: the best particle if it is feasible, else the motion in force while that is clear, else a stop
     /// here, else the particle that violates least.
     ///
     /// Acceptance does not rest on the swarm's arithmetic alone: the motion is looked at once more, arc by arc.
-    fn decide(&self, question: &Question<'_>, found: &Found, since_s: f64) -> Decision {
+    fn decide(&self, question: &Question<'_>, found: &Found, flown: &Motion) -> Decision {
         let options = &self.options;
         let best = self.motion(question, found);
-        let clearance_m = question.clearance_m - ROUNDING_M;
-        if found.fitness.is_feasible()
-            && (!options.stops || best.is_clear(0.0, question.space, self.reachable_m(question)))
-        {
+        let is_safe =
+            |motion: &Motion, clearance_m: f64| motion.is_clear(0.0, question.space, clearance_m - ROUNDING_M);
+        if found.fitness.is_feasible() && (!options.stops || is_safe(&best, self.reachable_m(question))) {
             return Decision::Fly(best);
         }
-        if self.flown.as_ref().is_some_and(|flown| flown.continued(since_s).is_clear(0.0, question.space, clearance_m))
-        {
+        if is_safe(flown, question.clearance_m) {
             return Decision::Keep;
         }
         let mut halt = Motion::from(question.start);
         halt.brake(options.limits.acceleration_mps2, options.step_s);
-        if options.stops && found.fitness.violation < f64::INFINITY && !halt.is_clear(0.0, question.space, clearance_m)
-        {
-            return Decision::Fly(best);
-        }
-        Decision::Fly(halt)
+        let is_halt_better = !options.stops || is_safe(&halt, question.clearance_m);
+        Decision::Fly(if is_halt_better { halt } else { best })
     }
 
     /// The clearance that a motion from here can have, m.
@@ -203,8 +188,7 @@ impl<R: Rng> Pilot<R> {
         let here = question.start.position;
         let now_m = question.space.distance_m(here).min(question.space.distance_to_moving_m(here, 0.0));
         // a step that begins mid-way on an arc may fall short by the arc's height
-        question.clearance_m.min(now_m - super::motion::sagitta_m(question.limits.acceleration_mps2, question.step_s))
-            - ROUNDING_M
+        question.clearance_m.min(now_m - sagitta_m(question.limits.acceleration_mps2, question.step_s))
     }
 
     /// The motion that a particle stands for: so far as all is known, then to a stop.

@@ -116,6 +116,22 @@ impl Roadmap {
         }
     }
 
+    /// The nodes from `node` to the goal.
+    pub fn way_from(&self, node: usize) -> Vec<Point> {
+        let mut way = vec![self.nodes[node]];
+        let mut at = node;
+        while at != 0 {
+            let left_m = |&(next, step_m): &(usize, f64)| step_m + self.cost_to_go_m[next];
+            let next = self.neighbours[at].iter().min_by(|a, b| left_m(a).total_cmp(&left_m(b)));
+            match next {
+                Some(&(next, _)) if self.cost_to_go_m[next] < self.cost_to_go_m[at] => at = next,
+                _ => break,
+            }
+            way.push(self.nodes[at]);
+        }
+        way
+    }
+
     /// The best node after the one that has been tried last, as if all were seen.
     fn next_best(&self, point: Point, tried: Option<Reached>) -> Option<Reached> {
         let mut best: Option<Reached> = None;

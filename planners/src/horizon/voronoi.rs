@@ -19,6 +19,9 @@ const SPACING_M: f64 = 1.0;
 /// Samples around a cylinder, at least.
 const AROUND: usize = 12;
 
+/// Vertices nearer to each other than this are one, m.
+const SAME_M: f64 = 1e-6;
+
 /// Owner of the frame's samples.
 const FRAME: usize = usize::MAX;
 
@@ -66,15 +69,20 @@ fn add_level(roadmap: &mut Roadmap, space: &FreeSpace, z_m: f64, clearance_m: f6
     for edge in diagram.undirected_voronoi_edges() {
         let [a, b] = edge.as_delaunay_edge().vertices().map(|vertex| vertex.data().owner);
         let [VoronoiVertex::Inner(from), VoronoiVertex::Inner(to)] = edge.vertices() else { continue };
-        let ends = [from, to].map(|face| (face.index(), face.circumcenter()));
-        let [p, q] = ends.map(|(_, center)| [center.x, center.y, z_m]);
+        let [p, q] = [from, to].map(|face| face.circumcenter()).map(|center| [center.x, center.y, z_m]);
         if a == b || !space.is_clear(p, q, clearance_m) {
             continue;
         }
-        let [i, j] = [(ends[0].0, p), (ends[1].0, q)]
-            .map(|(face, node)| *nodes.entry(face).or_insert_with(|| roadmap.add_node(node)));
-        roadmap.connect(i, j);
+        let [i, j] = [p, q].map(|node| *nodes.entry(place(node)).or_insert_with(|| roadmap.add_node(node)));
+        if i != j {
+            roadmap.connect(i, j);
+        }
     }
+}
+
+/// Where four samples or more lie on one circle, several vertices of the diagram are one point.
+fn place([x, y, _]: Point) -> [i64; 2] {
+    [x, y].map(|coordinate| (coordinate / SAME_M).round() as i64)
 }
 
 /// Connects a node with the nearest of `others` that it sees.

@@ -7,7 +7,7 @@ use planners::horizon::motion::{Motion, State};
 use planners::horizon::optimise::Budget;
 use planners::horizon::pilot::{Charge, Decision, Options, Pilot, Replan};
 use planners::horizon::question::{Grid, Limits};
-use planners::horizon::sampler::{Inertia, Method, Swarm};
+use planners::horizon::sampler::{Method, Swarm};
 use rand::RngExt;
 
 /// A map with a way through it.
@@ -76,8 +76,7 @@ pub const LIMITS: Limits = Limits { speed_mps: 3.0, acceleration_mps2: 3.0 };
 
 /// The swarm of eq. 13 and 14, with eq. 15 if asked for.
 pub fn swarm(by_violation: bool) -> Method {
-    let swarm = Swarm::default();
-    Method::Swarm(Swarm { inertia: Inertia { by_violation, ..swarm.inertia }, ..swarm })
+    Method::Swarm(if by_violation { Swarm::FEASIBILITY } else { Swarm::USUAL })
 }
 
 /// Our rules.
@@ -134,28 +133,28 @@ pub fn fly(arena: &Arena, options: &Options, seed: u64, range_m: f64, limit_s: f
     let mut motion = Motion::from(State::at_rest(arena.start));
     let mut flight =
         Flight { arrived_s: None, length_m: 0.0, replans: Vec::new(), clearance_m: f64::INFINITY, wall_s: 0.0 };
-    let mut since_s = 0.0;
+    let mut applied = [0.0; 3];
     while flight.replans.len() as f64 * options.step_s < limit_s {
-        let state = motion.state_at(since_s);
+        let state = motion.state_at(0.0);
         let (seen, rest) = unknown.into_iter().partition(|obstacle| obstacle.distance_m(state.position) <= range_m);
         unknown = rest;
         known.standing.extend::<Vec<_>>(seen);
         let begin = std::time::Instant::now();
-        let replan = pilot.replan(state, since_s, &known);
+        let replan = pilot.replan(state, &motion, applied, &known);
         flight.wall_s += begin.elapsed().as_secs_f64();
         if let Decision::Fly(new) = &replan.decision {
             motion = new.clone();
-        } else {
-            motion = motion.continued(since_s);
         }
-        since_s = options.step_s;
         flight.replans.push(replan);
         for tick in 0..20 {
-            let [here, next] = [tick, tick + 1].map(|tick| motion.state_at(since_s * f64::from(tick) / 20.0).position);
+            let [here, next] =
+                [tick, tick + 1].map(|tick| motion.state_at(options.step_s * f64::from(tick) / 20.0).position);
             flight.length_m += distance(here, next);
             flight.clearance_m = flight.clearance_m.min(arena.space.distance_m(here));
         }
-        let now = motion.state_at(since_s);
+        applied = motion.mean_accelerations(0.0, options.step_s, 1)[0];
+        motion = motion.rest_from(options.step_s);
+        let now = motion.state_at(0.0);
         if distance(now.position, arena.goal) < 0.3 && distance(now.velocity, [0.0; 3]) < 0.3 {
             flight.arrived_s = Some(flight.replans.len() as f64 * options.step_s);
             break;

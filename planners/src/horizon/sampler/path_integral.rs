@@ -49,10 +49,8 @@ impl Sampler for PathIntegral {
         let fitness = |&(group, lane): &(usize, usize)| groups[group].fitness[lane];
         let feasible = ranking.iter().take_while(|at| fitness(at).is_feasible()).count();
         // where none is feasible the violation takes the cost's place
-        let (count, worth): (usize, &dyn Fn(&(usize, usize)) -> f64) = match feasible {
-            0 => (ranking.len(), &|at| fitness(at).violation),
-            _ => (feasible, &|at| fitness(at).cost),
-        };
+        let count = if feasible > 0 { feasible } else { ranking.len() };
+        let worth = |at: &(usize, usize)| if feasible > 0 { fitness(at).cost } else { fitness(at).violation };
         let best = worth(&ranking[0]);
         let λ = (TEMPERATURE * (worth(&ranking[count / 2]) - best)).max(f64::MIN_POSITIVE);
         let weights: Vec<f64> = ranking[..count].iter().map(|at| falling((worth(at) - best) / λ)).collect();

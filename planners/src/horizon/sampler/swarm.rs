@@ -32,16 +32,19 @@ pub struct Inertia {
     pub by_violation: bool,
 }
 
-impl Default for Swarm {
-    fn default() -> Self {
-        Self {
-            cognitive: 1.5,
-            social: 1.5,
-            inertia: Inertia { first: 0.9, last: 0.4, by_violation: false },
-            velocity_share: 0.5,
-            moves_as_printed: false,
-        }
-    }
+impl Swarm {
+    /// The swarm of eq. 13 and 14.
+    pub const USUAL: Self = Self {
+        cognitive: 1.5,
+        social: 1.5,
+        inertia: Inertia { first: 0.9, last: 0.4, by_violation: false },
+        velocity_share: 0.5,
+        moves_as_printed: false,
+    };
+
+    /// The same with eq. 15.
+    pub const FEASIBILITY: Self =
+        Self { inertia: Inertia { by_violation: true, ..Self::USUAL.inertia }, ..Self::USUAL };
 }
 
 impl Inertia {
