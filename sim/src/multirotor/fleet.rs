@@ -13,7 +13,7 @@ use crate::{Event, EventKind, Flight, Pilot, Setup, VehicleLog};
 
 /// Longest step of a quadrotor's plant, s: an ordinary step of the simulator, for which a command is held, is divided into
 /// such.
-const LONGEST_PLANT_STEP_S: f64 = 1e-3;
+const LONGEST_PLANT_STEP_S: f64 = 5e-4;
 
 /// Flies a plan of multirotors for so many steps, and returns their logs and what happened.
 pub(crate) fn fly(
