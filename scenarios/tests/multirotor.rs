@@ -1,6 +1,6 @@
 //! Scenarios of multirotors: what makes no sense is refused, with its place.
 
-use scenarios::{LoadError, Scenario, parse};
+use scenarios::{Scenario, parse};
 
 const TEXT: &str = r#"name = "quad"
 description = "Past a box and a cart."
@@ -49,12 +49,10 @@ fn scenario() -> Scenario {
 #[track_caller]
 fn assert_fault(old: &str, new: &str, field: &str, found: &str, expected: &str) {
     assert!(TEXT.contains(old), "{old}");
-    let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("a fault");
-    let LoadError::Invalid(invalid) = error else { panic!("{error}") };
-    let [fault] = invalid.faults() else { panic!("{:#?}", invalid.faults()) };
-    assert_eq!(fault.problem().field, field);
-    assert!(fault.problem().found.contains(found), "{}", fault.problem().found);
-    assert!(fault.problem().expected.contains(expected), "{}", fault.problem().expected);
+    let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
+    let [fault] = error.faults() else { panic!("expected one fault, found {:#?}", error.faults()) };
+    assert_eq!(fault.problem.field, field, "{fault}");
+    assert!(fault.problem.found.contains(found) && fault.problem.expected.contains(expected), "{fault}");
 }
 
 #[test]
