@@ -57,10 +57,10 @@ impl Craft {
         let mass_kg = model.mass_kg * settings.mismatch.mass_ratio;
         let [position_m, velocity_mps] = start;
         match &autopilot {
-            None => world.add_body(mass_kg, model.body_radius_m, position_m, velocity_mps),
+            None => world.add_body(mass_kg, position_m, velocity_mps),
             Some(autopilot) => {
                 let inertia_kgm2 = autopilot.airframe().inertia_kgm2.into();
-                world.add_turning_body(mass_kg, inertia_kgm2, model.body_radius_m, position_m, velocity_mps);
+                world.add_turning_body(mass_kg, inertia_kgm2, position_m, velocity_mps);
             }
         }
         let hover_n = autopilot.as_ref().map_or_else(Vector4::zeros, Autopilot::hover_n);

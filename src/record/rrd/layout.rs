@@ -156,8 +156,7 @@ fn quantity(
 ) -> Result<Part, Error> {
     let view = plot(layout, quantity.group(), quantity.title(), end_s(flight), legend)?;
     let limits = quantity.limits(scenario).into_iter().map(|(_, value)| value);
-    let measured = flight.vehicles.iter().flat_map(|log| &log.samples).map(|sample| quantity.of(sample));
-    let shown: Curve = limits.chain(measured).map(|value| (0.0, value)).collect();
+    let shown: Curve = limits.chain(quantity.extremes(flight)).map(|value| (0.0, value)).collect();
     if let (Some(lowest), Some(highest)) = (shown.min(), shown.max()) {
         values(layout, &view, lowest, highest)?;
     }
