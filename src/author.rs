@@ -1,6 +1,7 @@
 //! Who makes the plan of a job.
 
 use planners::Planner;
+use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Iteration, Scenario};
 
 use crate::outside::OutsidePlanner;
@@ -35,14 +36,28 @@ impl Author {
         }
     }
 
-    /// The plan. `progress` receives the iterations of a planner of ours as they end.
+    /// Does it answer during the flight?
+    pub fn plans_in_the_loop(&self) -> bool {
+        matches!(self, Self::Registered(planner) if planner.plans_in_the_loop())
+    }
+
+    /// Those who plan in the loop, one per vehicle; `None` if it answers before the flight. They are told what is known
+    /// beforehand, and no more.
+    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<Vec<Box<dyn InLoopPlanner>>> {
+        let Self::Registered(planner) = self else { return None };
+        let briefing = scenario.briefing();
+        let vehicles = 0..scenario.vehicles.len();
+        planner.plans_in_the_loop().then(|| vehicles.map(|index| planner.in_loop(&briefing, index, seed)).collect())
+    }
+
+    /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a planner of ours as they end.
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> HandedOver {
         match self {
             Self::Registered(planner) => {
-                HandedOver { answer: Answer::whole(planner.plan(scenario, seed, progress)), log: None }
+                HandedOver { answer: Answer::whole(planner.plan(&scenario.briefing(), seed, progress)), log: None }
             }
             Self::Outside(planner) => {
-                let outside = planner.plan(scenario, seed);
+                let outside = planner.plan(&scenario.briefing(), seed);
                 HandedOver { answer: outside.answer, log: Some(outside.log) }
             }
             Self::Submitted(answer) => HandedOver { answer: (**answer).clone(), log: None },

@@ -7,6 +7,7 @@
 use std::path::Path;
 use std::time::Instant;
 
+use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
@@ -16,8 +17,9 @@ use crate::export::tum;
 use crate::jobs::Job;
 use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
-use crate::report::{Report, Timings};
-use crate::{metrics, output, verdict};
+use crate::report::{ReplanTimes, Report, Timings};
+use crate::submitted::Answer;
+use crate::{in_loop, metrics, output, verdict};
 
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
@@ -40,12 +42,18 @@ pub struct Done {
     pub log: Option<String>,
 }
 
-/// Plans, flies, judges, records and reports one job into `folder`, which is made if it is not there.
+/// Plans, flies (or both at once), judges, records and reports one job into `folder`, which is made if it is not there.
 pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<Done, Error> {
     let mut timings = Timings::default();
-    let HandedOver { answer, log } = timed(&mut timings.planning_s, || plan(job, progress));
+    let (HandedOver { answer, log }, flight) = match job.author.crew(&job.scenario, job.seed) {
+        Some(crew) => fly_in_loop(job, crew, &mut timings, progress),
+        None => {
+            let handed_over = timed(&mut timings.planning_s, || plan(job, progress));
+            let flight = timed(&mut timings.flying_s, || fly(job, &handed_over.answer.plan, progress));
+            (handed_over, flight)
+        }
+    };
     let plan = &answer.plan;
-    let flight = timed(&mut timings.flying_s, || fly(job, plan, progress));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
@@ -76,6 +84,24 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
     verdict::is_flyable(&job.scenario, plan).ok()?;
     progress.flying(flight_duration_s(&job.scenario, plan));
     Some(sim::fly(&job.scenario, plan, job.seed, &mut |t_s| progress.flown(t_s)))
+}
+
+/// The flight of a planner in the loop, and what was planned during it as a plan. Planning is timed apart from flying.
+fn fly_in_loop(
+    job: &Job,
+    crew: Vec<Box<dyn InLoopPlanner>>,
+    timings: &mut Timings,
+    progress: &mut Progress,
+) -> (HandedOver, Option<Flight>) {
+    progress.flying(job.scenario.simulation.max_duration_s);
+    let mut both_s = 0.0;
+    let flight = timed(&mut both_s, || sim::fly_in_loop(&job.scenario, crew, job.seed, &mut |t_s| progress.flown(t_s)));
+    let log = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
+    let plan = in_loop::as_plan(&job.scenario, job.author.name(), job.seed, log);
+    timings.planning_s = plan.timings.wall_s;
+    timings.flying_s = (both_s - plan.timings.wall_s).max(0.0);
+    timings.replans = ReplanTimes::of(log);
+    (HandedOver { answer: Answer::whole(plan), log: None }, Some(flight))
 }
 
 fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {

@@ -16,6 +16,7 @@ mod integrity;
 mod judge;
 mod limits;
 mod motion;
+pub mod multirotor;
 mod planned;
 mod question;
 #[cfg(test)]

@@ -30,7 +30,7 @@ fn tracks(text: &str) -> Vec<FixedWingTrack> {
 fn fixed_wings(tracks: Vec<GivenTrack>) -> Vec<FixedWingTrack> {
     let fixed_wing = |track| match track {
         GivenTrack::FixedWing(track) => track,
-        GivenTrack::SlungLoad(_) => panic!("no load was asked for"),
+        _ => panic!("no other family was asked for"),
     };
     tracks.into_iter().map(fixed_wing).collect()
 }

@@ -2,9 +2,9 @@
 
 mod hoist;
 
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{
-    ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
+    ColliderBuilder, ColliderHandle, MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
 };
 use scenarios::{Cylinder, Map};
 
@@ -44,6 +44,7 @@ struct Body {
     handle: Option<RigidBodyHandle>,
     radius_m: f64,
     force_n: Vector3<f64>,
+    torque_nm: Vector3<f64>,
     step_start_m: Vector3<f64>,
 }
 
@@ -111,6 +112,29 @@ impl RapierWorld {
             .additional_mass(mass_kg)
             .lock_rotations()
             .can_sleep(false);
+        self.insert(body, radius_m, position_m);
+    }
+
+    /// Adds a ball of `radius_m` that turns: level, at rest about its axes.
+    ///
+    /// - `inertia_kgm2`: moments of inertia about the body axes, kg m²
+    pub fn add_turning_body(
+        &mut self,
+        mass_kg: f64,
+        inertia_kgm2: Vector3<f64>,
+        radius_m: f64,
+        position_m: Vector3<f64>,
+        velocity_mps: Vector3<f64>,
+    ) {
+        let body = RigidBodyBuilder::dynamic()
+            .translation(to_rapier(&position_m))
+            .linvel(to_rapier(&velocity_mps))
+            .additional_mass_properties(MassProperties::new(Vector::ZERO, mass_kg, to_rapier(&inertia_kgm2)))
+            .can_sleep(false);
+        self.insert(body, radius_m, position_m);
+    }
+
+    fn insert(&mut self, body: RigidBodyBuilder, radius_m: f64, position_m: Vector3<f64>) {
         let reach_m = MAX_SPEED_MPS * self.step_s();
         let collider = ColliderBuilder::ball(radius_m + reach_m)
             .density(0.0)
@@ -120,7 +144,13 @@ impl RapierWorld {
         // Without this the body has no mass before its first step, and loses the impulse that comes first.
         let PhysicsWorld { bodies, colliders, .. } = &mut self.physics;
         bodies[handle].recompute_mass_properties_from_colliders(colliders);
-        self.bodies.push(Body { handle: Some(handle), radius_m, force_n: Vector3::zeros(), step_start_m: position_m });
+        self.bodies.push(Body {
+            handle: Some(handle),
+            radius_m,
+            force_n: Vector3::zeros(),
+            torque_nm: Vector3::zeros(),
+            step_start_m: position_m,
+        });
     }
 
     /// Takes a body out of the world.
@@ -143,6 +173,22 @@ impl RapierWorld {
     /// Mass, kg.
     pub fn mass_kg(&self, body: usize) -> f64 {
         self.rigid_body(body).mass()
+    }
+
+    /// Attitude, world from body.
+    pub fn attitude(&self, body: usize) -> UnitQuaternion<f64> {
+        let rotation = self.rigid_body(body).rotation();
+        UnitQuaternion::new_normalize(Quaternion::new(rotation.w, rotation.x, rotation.y, rotation.z))
+    }
+
+    /// Angular velocity in body axes, rad/s.
+    pub fn body_rate_radps(&self, body: usize) -> Vector3<f64> {
+        self.attitude(body).inverse() * from_rapier(self.rigid_body(body).angvel())
+    }
+
+    /// Sets the torque on a body in the middle of the coming step, world frame, N m.
+    pub fn set_torque_nm(&mut self, body: usize, torque_nm: Vector3<f64>) {
+        self.bodies[body].torque_nm = torque_nm;
     }
 
     /// Sets the force on a body in the middle of the coming step, N; gravity comes on top.
@@ -179,6 +225,7 @@ impl RapierWorld {
             }
             let force = to_rapier(&body.force_n) + gravity * rigid_body.mass();
             rigid_body.apply_impulse(force * half_step_s, true);
+            rigid_body.apply_torque_impulse(to_rapier(&body.torque_nm) * half_step_s, true);
         }
     }
 

@@ -53,10 +53,7 @@ pub fn check_crash(flight: &Flight) -> Check {
     let question = Question::new(Group::Flight, "crash", "crashes");
     let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
-        EventKind::SaturationBegan
-        | EventKind::SaturationEnded
-        | EventKind::CableTaut { .. }
-        | EventKind::CableSlack => None,
+        _ => None,
     });
     let Some((t_s, concerned)) = crashes.next() else { return question.at_most(Measured::value(0.0), 0.0) };
     let count = 1 + crashes.count();
