@@ -13,7 +13,7 @@ pub mod compare;
 mod damage;
 pub mod error;
 mod export;
-mod in_loop;
+pub mod in_loop;
 mod jobs;
 pub mod metrics;
 pub mod notation;

@@ -145,7 +145,10 @@ impl Helm {
     /// What was flown to `end_s`, as a trajectory.
     pub fn followed(mut self, vehicle: &str, end_s: f64) -> Trajectory {
         self.follow_until(end_s);
-        self.followed.retain(|node| node.t_s <= end_s + ROUNDING_S);
+        // What was flown beyond it belongs to the coast.
+        let end = Reference::new(self.followed.clone()).at(end_s).node();
+        self.followed.retain(|node| node.t_s < end_s - ROUNDING_S);
+        self.followed.push(end);
         Trajectory::through(vehicle, &self.followed)
     }
 

@@ -40,6 +40,11 @@ impl Tracker {
     }
 }
 
+/// So far inside a limit a vector is scaled that rounding leaves it there.
+const INSIDE: f64 = 1.0 - 1e-12;
+/// Rate with which a quadrotor turns its nose back to the east, per rad of error, rad/s: yaw is the dearest of torques.
+const YAW_RATE_PER_RAD: f64 = 0.5;
+
 /// An acceleration inside the vehicle's limits: no larger than it can be, and none that leads beyond the largest speed
 /// within a step.
 ///
@@ -51,6 +56,7 @@ pub(super) fn limited_mps2(
     step_s: f64,
 ) -> Vector3<f64> {
     let most_mps2 = limits.acceleration_mps2;
+    let most_mps2 = most_mps2 * INSIDE;
     let cut = wanted_mps2 * (most_mps2 / wanted_mps2.norm().max(most_mps2));
     let next_mps = velocity_mps + cut * step_s;
     let most_mps = limits.speed_mps.max(velocity_mps.norm());
@@ -108,13 +114,17 @@ impl Autopilot {
         [command_n, allocation::limited(&rotors, inside.0, &inside.1, limits)]
     }
 
-    /// Total thrust, N, and torque, N m, for an acceleration: the thrust axis turns towards the force, the nose stays east.
+    /// Total thrust, N, and torque, N m, for an acceleration: the thrust axis turns towards the force by the shortest way,
+    /// the nose slowly back to the east.
     fn wrench(&self, turning: &Turning, acceleration_mps2: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let force_n = (acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.mass_kg;
-        let attitude = upright_towards(&force_n);
-        let wanted = Turning { attitude, rate_radps: Vector3::zeros() };
+        let axis = turning.attitude * Vector3::z();
+        let tilt = UnitQuaternion::rotation_between(&axis, &force_n).unwrap_or_else(UnitQuaternion::identity);
+        let (_, _, yaw) = turning.attitude.euler_angles();
+        let rate_radps = Vector3::z() * (-YAW_RATE_PER_RAD * yaw);
+        let wanted = Turning { attitude: tilt * turning.attitude, rate_radps };
         let torque_nm = torque_nm(turning, &wanted, &Vector3::zeros(), &self.airframe.inertia_kgm2.into());
-        (force_n.dot(&(turning.attitude * Vector3::z())), torque_nm)
+        (force_n.dot(&axis), torque_nm)
     }
 }
 

@@ -11,6 +11,7 @@ use sim::Flight;
 
 use super::blueprint::{Blueprint, Part, ViewClass};
 use super::distances::Distances;
+use super::multirotor;
 use super::quantity::Quantity;
 use super::series::end_s;
 use super::thinning::Curve;
@@ -39,7 +40,7 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
                 tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
             }
             Family::SlungLoad => tabs.push(slung_load::forces(&layout, flight)?),
-            Family::Multirotor => {}
+            Family::Multirotor => tabs.extend(multirotor::tabs(&layout, flight)?),
         }
     }
     if !run.plan.history.is_empty() {
