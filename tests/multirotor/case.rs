@@ -80,11 +80,8 @@ impl Case {
     fn flown() -> Self {
         let scenario = scenario();
         let trajectory = |name: &str, y_m: f64| {
-            let node = |(t_s, x_m, speed_mps)| Node {
-                t_s,
-                position_m: [x_m, y_m, 2.0],
-                velocity_mps: [speed_mps, 0.0, 0.0],
-            };
+            let node =
+                |(t_s, x_m, speed_mps)| Node { t_s, position_m: [x_m, y_m, 2.0], velocity_mps: [speed_mps, 0.0, 0.0] };
             let nodes = [(0.0, 0.0, 0.0), (2.0, 2.0, 2.0), (3.0, 4.0, 2.0), (5.0, 6.0, 0.0)].map(node);
             Trajectory::through(name, &nodes).into()
         };

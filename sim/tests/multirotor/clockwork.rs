@@ -35,11 +35,8 @@ impl InLoopPlanner for Scribe {
             known: observation.known.obstacle_names().map(str::to_owned).collect(),
             discovered: observation.discovered.to_vec(),
         });
-        let node = |t_s: f64, speed_mps: f64| Node {
-            t_s,
-            position_m: [t_s, 0.0, 5.0],
-            velocity_mps: [speed_mps, 0.0, 0.0],
-        };
+        let node =
+            |t_s: f64, speed_mps: f64| Node { t_s, position_m: [t_s, 0.0, 5.0], velocity_mps: [speed_mps, 0.0, 0.0] };
         let from_s = observation.takes_effect_s;
         // The last metre per second goes within half a metre.
         let end = Node { t_s: from_s + 1.0, position_m: [from_s + 0.5, 0.0, 5.0], velocity_mps: [0.0; 3] };
