@@ -16,7 +16,7 @@
 )]
 mod flight;
 
-mod brief;
+pub(crate) mod brief;
 pub mod cost_map;
 pub mod draw;
 pub mod evaluate;
@@ -28,7 +28,7 @@ pub mod outlook;
 pub mod pilot;
 mod planner;
 pub mod question;
-mod reference;
+pub(crate) mod reference;
 pub mod roadmap;
 pub mod sampler;
 mod visibility;

@@ -1,5 +1,5 @@
 use crate::planner::Planner;
-use crate::{horizon, scp, slung};
+use crate::{horizon, scp, search, slung};
 
 /// Every planner.
 pub fn registry() -> &'static [Planner] {
@@ -14,6 +14,9 @@ pub fn registry() -> &'static [Planner] {
         horizon::RHC_PSO,
         horizon::RHC_FPSO,
         horizon::RHC_APF,
+        search::SPARSE_ASTAR,
+        search::RRT,
+        search::RRT_STAR,
     ]
 }
 

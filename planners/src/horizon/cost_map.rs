@@ -1,7 +1,7 @@
 //! What is left to the goal from anywhere, by the whole map: the charge on the end of a horizon (eq. 10).
 
 use super::outlook::Outlook;
-use super::roadmap::{CostToGo, Roadmap};
+use super::roadmap::{CostToGo, Roadmap, Sight};
 use super::{visibility, voronoi};
 use crate::free_space::FreeSpace;
 use crate::free_space::vector::Point;
@@ -56,7 +56,7 @@ impl CostMap {
 
     /// What is left from `point`, which keeps the clearance; nothing if it sees no node from which the goal is reached.
     pub fn cost_to_go(&self, point: Point, space: &FreeSpace) -> Option<CostToGo> {
-        self.roadmap.cost_to_go(point, space, self.clearance_m - ROUNDING_M)
+        self.roadmap.cost_to_go(point, space, self.sight())
     }
 
     /// The way from `point` to the goal; nothing if there is none.
@@ -67,7 +67,16 @@ impl CostMap {
 
     /// The same for many points around `origin`.
     pub fn outlook<'a>(&self, space: &'a FreeSpace, origin: Point) -> Outlook<'a> {
-        Outlook::new(&self.roadmap, space, self.clearance_m - ROUNDING_M, origin)
+        Outlook::new(&self.roadmap, space, self.sight(), origin)
+    }
+
+    /// Along the middle ways one gets by joining them soon: from far away, straight lines to them pass close to corners.
+    fn sight(&self) -> Sight {
+        let reach_m = match self.ways {
+            Ways::Visibility => f64::INFINITY,
+            Ways::Voronoi => voronoi::JOIN_M,
+        };
+        Sight { clearance_m: self.clearance_m - ROUNDING_M, reach_m }
     }
 }
 

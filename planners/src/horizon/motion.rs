@@ -72,8 +72,12 @@ impl Motion {
                 self.accelerate(acceleration, time_s / steps);
             }
         }
-        // what rounding has left of the velocity
-        self.knots.last_mut().expect("a motion has a state").1.velocity = [0.0; 3];
+        self.settle(self.last().1.position);
+    }
+
+    /// Ends at rest at a place that it has come to but for rounding.
+    pub fn settle(&mut self, place: Point) {
+        self.knots.last_mut().expect("a motion has a state").1 = State::at_rest(place);
     }
 
     /// Times from the beginning, s, with the states there.

@@ -25,6 +25,15 @@ pub struct CostToGo {
     pub node: usize,
 }
 
+/// Which nodes a point may go to first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// Distance that the way keeps from everything, m.
+    pub clearance_m: f64,
+    /// Length that the way has at most, m; if no node is seen within it, any node will do.
+    pub reach_m: f64,
+}
+
 impl Roadmap {
     /// The goal alone.
     pub fn to(goal: Point) -> Self {
@@ -101,19 +110,22 @@ impl Roadmap {
         }
     }
 
-    /// The shortest way from `point` to a node that it sees with that clearance, and on along the graph (eq. 10);
-    /// nothing if it sees none.
+    /// The shortest way from `point` to a node that it sees by that rule, and on along the graph (eq. 10); nothing if it
+    /// sees none.
     ///
     /// Nodes are tried in the order of what the way by them would cost, so that the first one that is seen is the best.
-    pub fn cost_to_go(&self, point: Point, space: &FreeSpace, clearance_m: f64) -> Option<CostToGo> {
-        let mut tried: Option<Reached> = None;
-        loop {
-            let best = self.next_best(point, tried)?;
-            if space.is_clear(point, self.nodes[best.node], clearance_m) {
-                return Some(CostToGo { length_m: best.length_m, node: best.node });
+    pub fn cost_to_go(&self, point: Point, space: &FreeSpace, sight: Sight) -> Option<CostToGo> {
+        let within = |reach_m: f64| {
+            let mut tried: Option<Reached> = None;
+            loop {
+                let best = self.next_best(point, reach_m, tried)?;
+                if space.is_clear(point, self.nodes[best.node], sight.clearance_m) {
+                    return Some(CostToGo { length_m: best.length_m, node: best.node });
+                }
+                tried = Some(best);
             }
-            tried = Some(best);
-        }
+        };
+        within(sight.reach_m).or_else(|| within(f64::INFINITY))
     }
 
     /// The nodes from `node` to the goal.
@@ -133,14 +145,13 @@ impl Roadmap {
     }
 
     /// The best node after the one that has been tried last, as if all were seen.
-    fn next_best(&self, point: Point, tried: Option<Reached>) -> Option<Reached> {
+    fn next_best(&self, point: Point, reach_m: f64, tried: Option<Reached>) -> Option<Reached> {
         let mut best: Option<Reached> = None;
         for (node, (&at, &rest_m)) in self.nodes.iter().zip(&self.cost_to_go_m).enumerate() {
-            let way = Reached { length_m: distance(point, at) + rest_m, node };
-            if way.length_m < f64::INFINITY
-                && tried.is_none_or(|tried| way > tried)
-                && best.is_none_or(|best| way < best)
-            {
+            let away_m = distance(point, at);
+            let way = Reached { length_m: away_m + rest_m, node };
+            let is_next = tried.is_none_or(|tried| way > tried) && best.is_none_or(|best| way < best);
+            if is_next && away_m <= reach_m && way.length_m < f64::INFINITY {
                 best = Some(way);
             }
         }

@@ -16,6 +16,9 @@ use crate::free_space::{FreeSpace, Obstacle};
 /// Distance between samples of a boundary, m.
 const SPACING_M: f64 = 1.0;
 
+/// Length of a way from or to the graph, m at most, where there is one so short.
+pub const JOIN_M: f64 = 4.0;
+
 /// Samples around a cylinder, at least.
 const AROUND: usize = 12;
 
@@ -52,12 +55,21 @@ pub fn build(goal: Point, space: &FreeSpace, clearance_m: f64, levels_m: &[f64])
         }
         below = level;
     }
-    for node in 1..roadmap.nodes().len() {
-        if space.is_clear(goal, roadmap.nodes()[node], clearance_m) {
-            roadmap.connect(0, node);
-        }
-    }
+    join_goal(&mut roadmap, space, clearance_m);
     roadmap
+}
+
+/// Connects the goal with the nodes within [`JOIN_M`] that it sees, or else with the nearest that it sees.
+fn join_goal(roadmap: &mut Roadmap, space: &FreeSpace, clearance_m: f64) {
+    let goal = roadmap.nodes()[0];
+    let all = 1..roadmap.nodes().len();
+    let is_near = |node: &usize| distance(goal, roadmap.nodes()[*node]) <= JOIN_M;
+    let is_seen = |node: &usize| space.is_clear(goal, roadmap.nodes()[*node], clearance_m);
+    let near: Vec<usize> = all.clone().filter(is_near).filter(is_seen).collect();
+    if near.is_empty() {
+        connect_to_nearest(roadmap, 0, all, space, clearance_m);
+    }
+    near.into_iter().for_each(|node| roadmap.connect(0, node));
 }
 
 fn add_level(roadmap: &mut Roadmap, space: &FreeSpace, z_m: f64, clearance_m: f64) {
