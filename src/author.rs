@@ -1,10 +1,17 @@
 //! Who makes the plan of a job.
 
 use planners::Planner;
+use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Iteration, Scenario};
 
-use crate::outside::OutsidePlanner;
+use crate::outside::{self, OutsidePlanner};
 use crate::submitted::Answer;
+
+/// Those who plan in the loop, one per vehicle.
+pub type Crew = Vec<Box<dyn InLoopPlanner>>;
+
+/// Ends a command that plans in the loop, and returns what it wrote to its standard error.
+pub type Log = Box<dyn FnOnce() -> String>;
 
 /// Who answers a scenario.
 #[derive(Clone)]
@@ -35,14 +42,41 @@ impl Author {
         }
     }
 
-    /// The plan. `progress` receives the iterations of a planner of ours as they end.
+    /// Does it answer during the flight?
+    pub fn plans_in_the_loop(&self) -> bool {
+        match self {
+            Self::Registered(planner) => planner.plans_in_the_loop(),
+            Self::Outside(planner) => planner.in_loop,
+            Self::Submitted(_) => false,
+        }
+    }
+
+    /// Those who plan in the loop, one per vehicle, and how to come by what a command writes to its standard error; `None`
+    /// if it answers before the flight. They are told what is known beforehand, and no more.
+    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(Crew, Option<Log>)> {
+        let briefing = scenario.briefing();
+        match self {
+            Self::Registered(planner) if planner.plans_in_the_loop() => {
+                let vehicles = 0..scenario.vehicles.len();
+                Some((vehicles.map(|index| planner.in_loop(&briefing, index, seed)).collect(), None))
+            }
+            Self::Outside(planner) if planner.in_loop => {
+                let crew = outside::Crew::start(planner, &briefing, seed);
+                let log: Log = Box::new(crew.log());
+                Some((crew.planners, Some(log)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a planner of ours as they end.
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> HandedOver {
         match self {
             Self::Registered(planner) => {
-                HandedOver { answer: Answer::whole(planner.plan(scenario, seed, progress)), log: None }
+                HandedOver { answer: Answer::whole(planner.plan(&scenario.briefing(), seed, progress)), log: None }
             }
             Self::Outside(planner) => {
-                let outside = planner.plan(scenario, seed);
+                let outside = planner.plan(&scenario.briefing(), seed);
                 HandedOver { answer: outside.answer, log: Some(outside.log) }
             }
             Self::Submitted(answer) => HandedOver { answer: (**answer).clone(), log: None },

@@ -3,6 +3,7 @@
 pub mod cooperative;
 mod entry;
 pub mod fleets;
+pub mod horizon;
 pub mod ipm;
 pub mod slung;
 pub mod subproblems;

@@ -70,6 +70,13 @@ pub enum Error {
     /// `harness plan` with several planners.
     #[error("one planner makes one plan: --planner was given more than once")]
     OnePlanner,
+    /// `harness plan` with a planner that plans in the loop.
+    #[error("{planner} plans in the loop: there is no plan before the flight")]
+    #[diagnostic(help("`harness run` flies it, and writes what it followed as plan.json and plan.csv"))]
+    PlansInTheLoop {
+        /// The planner.
+        planner: String,
+    },
     /// `harness plan --output` with an unknown ending.
     #[error("{}: a plan is written as .json or .csv", path.display())]
     #[diagnostic(help("`-o plan.csv`, or `-o -` for JSON on standard output"))]

@@ -15,6 +15,7 @@ mod damage;
 pub mod diverge;
 pub mod error;
 mod export;
+pub mod in_loop;
 mod jobs;
 pub mod metrics;
 pub mod notation;

@@ -3,6 +3,7 @@
 //! Wang, Xu, Long (2020), section 5, give for a fleet: flight time, mean speed, standard deviations of speed and
 //! altitude, sums of the absolute load factors, smallest distance between vehicles.
 
+mod in_loop;
 mod over_time;
 mod slung_load;
 pub mod trajectory_error;
@@ -16,6 +17,7 @@ use sim::{Flight, Sample};
 use self::trajectory_error::VehicleErrors;
 use crate::verdict::{self, Flown, Motion, Planned};
 
+pub use in_loop::InLoopMetrics;
 pub use over_time::{Nearest, clearance_over_time, separation_over_time};
 pub use slung_load::{CableSwitch, SlungLoadMetrics};
 
@@ -31,6 +33,9 @@ pub struct Metrics {
     /// Of a quadrotor with a slung load, in the place of the two above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slung_load: Option<SlungLoadMetrics>,
+    /// Of planning in the loop.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_loop: Option<InLoopMetrics>,
     /// Pose errors by the definitions of evo, per vehicle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pose_errors: Vec<VehicleErrors>,
@@ -85,7 +90,8 @@ pub struct FlightMetrics {
 pub struct SmallestDistances {
     /// Horizontal distance between two vehicles, m.
     pub separation_m: Option<f64>,
-    /// Signed horizontal distance from a vehicle to an obstacle's surface, m.
+    /// Signed horizontal distance from a vehicle to an obstacle's surface, m; of multirotors in space, from the surface of
+    /// their bodies, to the map's frame too.
     pub clearance_m: Option<f64>,
 }
 
@@ -101,9 +107,10 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
     }
     let flown = flight.and_then(|flight| Flown::new(scenario, plan, flight).ok());
     Metrics {
-        plan: Some(of_plan(scenario, plan)),
+        plan: (scenario.family() == Family::FixedWing).then(|| of_plan(scenario, plan)),
         flight: flown.map(|flown| of_flight(scenario, &flown)),
         slung_load: None,
+        in_loop: flight.and_then(|flight| Some(in_loop::measure(flight, flight.planning.as_ref()?))),
         pose_errors,
     }
 }
@@ -158,11 +165,11 @@ fn of_flight(scenario: &Scenario, flown: &Flown<'_>) -> FlightMetrics {
 }
 
 fn distances(scenario: &Scenario, motions: &[Motion]) -> SmallestDistances {
-    let clearance = verdict::closest_to_cylinders(motions, &scenario.world.cylinders);
-    SmallestDistances {
-        separation_m: verdict::closest_vehicles(motions).map(|nearest| nearest.lower_m),
-        clearance_m: clearance.map(|nearest| nearest.lower_m),
-    }
+    let clearance_m = match scenario.family() {
+        Family::Multirotor => verdict::multirotor::closest(scenario, motions).map(|nearest| nearest.lower_m),
+        _ => verdict::closest_to_cylinders(motions, &scenario.world.cylinders).map(|nearest| nearest.lower_m),
+    };
+    SmallestDistances { separation_m: verdict::closest_vehicles(motions).map(|nearest| nearest.lower_m), clearance_m }
 }
 
 fn airspeed_mps(sample: &Sample) -> f64 {

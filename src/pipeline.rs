@@ -10,15 +10,16 @@ use std::time::Instant;
 use scenarios::{Plan, Scenario};
 use sim::{Flight, Setup};
 
-use crate::author::{Author, HandedOver};
+use crate::author::{Author, Crew, HandedOver, Log};
 use crate::error::Error;
 use crate::export::tum;
 use crate::jobs::Job;
 use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
-use crate::report::{Report, Timings};
+use crate::report::{ReplanTimes, Report, Timings};
+use crate::submitted::Answer;
 use crate::verdict::Integration;
-use crate::{metrics, output, verdict, waterfall};
+use crate::{in_loop, metrics, output, verdict, waterfall};
 
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
@@ -45,13 +46,19 @@ pub struct Done {
     pub log: Option<String>,
 }
 
-/// Plans, flies, judges, records and reports one job into `folder`, which is made if it is not there.
+/// Plans, flies (or both at once), judges, records and reports one job into `folder`, which is made if it is not there.
 pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<Done, Error> {
     let mut timings = Timings::default();
-    let HandedOver { answer, log } = timed(&mut timings.planning_s, || plan(job, progress));
+    let (HandedOver { answer, log }, flight) = match job.author.crew(&job.scenario, job.seed) {
+        Some((crew, log)) => fly_in_loop(job, crew, log, &mut timings, progress),
+        None => {
+            let handed_over = timed(&mut timings.planning_s, || plan(job, progress));
+            let flight = timed(&mut timings.flying_s, || fly(job, &handed_over.answer.plan, progress));
+            (handed_over, flight)
+        }
+    };
     let plan = &answer.plan;
-    let flight = timed(&mut timings.flying_s, || fly(job, plan, progress));
-    let again = flight.as_ref().filter(|_| outputs.fly_again);
+    let again = flight.as_ref().filter(|flight| outputs.fly_again && flight.planning.is_none());
     let integration = timed(&mut timings.flying_s, || again.map(|flight| fly_again(job, plan, flight)));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
@@ -94,6 +101,25 @@ fn fly_again(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
     let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &Setup::finer(halvings), &mut |_| {});
     let (half, quarter) = rayon::join(|| finer(1), || finer(2));
     Integration::by_finer_steps(flight, [&half, &quarter])
+}
+
+/// The flight of a planner in the loop, and what was planned during it as a plan. Planning is timed apart from flying.
+fn fly_in_loop(
+    job: &Job,
+    crew: Crew,
+    log: Option<Log>,
+    timings: &mut Timings,
+    progress: &mut Progress,
+) -> (HandedOver, Option<Flight>) {
+    progress.flying(job.scenario.simulation.max_duration_s);
+    let mut both_s = 0.0;
+    let flight = timed(&mut both_s, || sim::fly_in_loop(&job.scenario, crew, job.seed, &mut |t_s| progress.flown(t_s)));
+    let planning = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
+    let plan = in_loop::as_plan(&job.scenario, job.author.name(), job.seed, planning);
+    timings.planning_s = plan.timings.wall_s;
+    timings.flying_s = (both_s - plan.timings.wall_s).max(0.0);
+    timings.replans = ReplanTimes::of(planning);
+    (HandedOver { answer: Answer::whole(plan), log: log.map(|log| log()) }, Some(flight))
 }
 
 fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {

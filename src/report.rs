@@ -14,7 +14,7 @@ pub mod terminal;
 use scenarios::{Alternative, PlanStatus, PlannedEvent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sim::{Flight, StateHash};
+use sim::{Flight, PlanningLog, StateHash};
 
 pub use summary::{RefusedFile, Summary, SummaryRun};
 
@@ -147,6 +147,33 @@ pub struct Timings {
     pub judging_s: f64,
     /// Writing the recordings.
     pub recording_s: f64,
+    /// Of a planner in the loop, how long single answers took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub replans: Option<ReplanTimes>,
+}
+
+/// How long the answers of a planner in the loop took on this machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ReplanTimes {
+    /// Mean, s.
+    pub mean_s: f64,
+    /// Shortest, s.
+    pub min_s: f64,
+    /// Median, s.
+    pub median_s: f64,
+    /// Longest, s.
+    pub max_s: f64,
+}
+
+impl ReplanTimes {
+    /// Of all answers of a flight; `None` if there were none.
+    pub fn of(log: &PlanningLog) -> Option<Self> {
+        let mut walls_s: Vec<f64> = log.replans.iter().map(|replan| replan.wall_s).collect();
+        walls_s.sort_by(f64::total_cmp);
+        let (min_s, max_s) = (*walls_s.first()?, *walls_s.last()?);
+        let mean_s = walls_s.iter().sum::<f64>() / walls_s.len() as f64;
+        Some(Self { mean_s, min_s, median_s: walls_s[walls_s.len() / 2], max_s })
+    }
 }
 
 impl Timings {

@@ -19,6 +19,7 @@ mod integrity;
 mod judge;
 mod limits;
 mod motion;
+pub mod multirotor;
 mod physics;
 mod planned;
 mod question;

@@ -39,7 +39,6 @@ mod interior_point;
 mod iterate;
 #[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod kernels;
-mod lanes;
 mod many;
 mod newton;
 mod paper;
@@ -47,6 +46,8 @@ mod program;
 mod progress;
 mod solution;
 mod ties;
+
+use crate::lanes;
 
 pub use self::backend::Backend;
 pub use self::clarabel::solve as solve_with_clarabel;

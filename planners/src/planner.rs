@@ -22,7 +22,6 @@ pub(crate) enum Answers {
     /// Before the flight, for all vehicles at once.
     Ahead(fn(&Scenario, u64, Progress<'_>) -> Plan),
     /// During the flight: made for one vehicle, by its index, and a seed.
-    #[expect(dead_code, reason = "no planner of the registry plans in the loop yet")]
     InLoop(fn(&Scenario, usize, u64) -> Box<dyn InLoopPlanner>),
 }
 

@@ -1,5 +1,5 @@
 use crate::planner::Planner;
-use crate::{scp, slung};
+use crate::{horizon, scp, search, slung};
 
 /// Every planner.
 pub fn registry() -> &'static [Planner] {
@@ -10,6 +10,13 @@ pub fn registry() -> &'static [Planner] {
         scp::parallel::PLANNER,
         scp::dynamic_priority::PLANNER,
         slung::PLANNER,
+        horizon::RHC,
+        horizon::RHC_PSO,
+        horizon::RHC_FPSO,
+        horizon::RHC_APF,
+        search::SPARSE_ASTAR,
+        search::RRT,
+        search::RRT_STAR,
     ]
 }
 

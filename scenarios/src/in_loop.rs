@@ -110,8 +110,11 @@ pub enum LastAnswer {
         /// By how much, s.
         by_s: f64,
     },
-    /// It said to keep the reference in force.
-    Kept,
+    /// It said to keep the reference in force, for this reason.
+    Kept {
+        /// Why.
+        reason: String,
+    },
     /// It could not be flown, for this reason; the reference in force was flown on.
     Rejected {
         /// Why.

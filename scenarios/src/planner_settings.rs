@@ -1,4 +1,5 @@
 mod collocation;
+mod horizon;
 
 use std::collections::BTreeMap;
 
@@ -6,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use collocation::{Collocation, Objective, Shape};
+pub use horizon::{CostMap, Field, FieldForm, Horizon, RepulsionForm, Sampler};
 
 /// Which planner answers, and its options. An option that is absent takes the planner's own default, in most cases the
 /// value of its paper (`harness list` shows the planners).
@@ -60,6 +62,9 @@ pub struct PlannerSettings {
     /// Options of planners by collocation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub collocation: Option<Collocation>,
+    /// Options of planners by receding horizon.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizon: Option<Horizon>,
 }
 
 /// Transcription of the equations of motion.

@@ -2,6 +2,8 @@
 
 use scenarios::{fixed_wing, slung_load};
 
+use crate::PlanningLog;
+
 /// A simulated flight of the whole fleet. Positions and velocities in the world frame (ENU).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
@@ -13,6 +15,8 @@ pub struct Flight {
     pub vehicles: Vec<VehicleLog>,
     /// What happened, in the order of time.
     pub events: Vec<Event>,
+    /// What was planned in the loop; `None` for a plan that was there before the flight.
+    pub planning: Option<PlanningLog>,
     /// Wall time of the simulation, s.
     pub wall_s: f64,
 }
@@ -60,6 +64,8 @@ pub enum Actuation {
     LoadFactors(Commanded<fixed_wing::Control>),
     /// Rotor thrusts of a quadrotor.
     Thrusts(Commanded<slung_load::Control>),
+    /// Acceleration of a point mass beyond what carries its weight, world frame, m/s².
+    Acceleration(Commanded<[f64; 3]>),
 }
 
 /// What was asked for, and what was given.
@@ -101,6 +107,7 @@ impl Sample {
         match self.actuation {
             Actuation::LoadFactors(Commanded { command, control }) => command != control,
             Actuation::Thrusts(Commanded { command, control }) => command != control,
+            Actuation::Acceleration(Commanded { command, control }) => command != control,
         }
     }
 
@@ -120,6 +127,7 @@ impl Sample {
                 [command, control].map(|it| it.to_array()).concat()
             }
             Actuation::Thrusts(Commanded { command, control }) => [command.thrust_n, control.thrust_n].concat(),
+            Actuation::Acceleration(Commanded { command, control }) => [command, control].concat(),
         };
         let others = self.world_from_body.into_iter().chain([self.t_s]);
         vectors.into_iter().flatten().chain(controls).chain(others)
@@ -129,7 +137,7 @@ impl Sample {
     pub fn load_factors(&self) -> &Commanded<fixed_wing::Control> {
         match &self.actuation {
             Actuation::LoadFactors(factors) => factors,
-            Actuation::Thrusts(_) => panic!("the sample is not that of a fixed wing"),
+            _ => panic!("the sample is not that of a fixed wing"),
         }
     }
 }
@@ -178,4 +186,21 @@ pub enum EventKind {
     },
     /// A taut cable became slack.
     CableSlack,
+    /// A vehicle's sensors found an obstacle that it had not known of.
+    Discovered {
+        /// Its name.
+        obstacle: String,
+    },
+    /// A planner's answer came too late, and was joined in its middle.
+    AnswerLate {
+        /// By how much, s.
+        by_s: f64,
+    },
+    /// A planner's answer could not be flown.
+    AnswerRejected {
+        /// Why.
+        reason: String,
+    },
+    /// All vehicles have come to rest at their goals.
+    Arrived,
 }

@@ -1,8 +1,9 @@
 use std::time::Instant;
 
+use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Family, Plan, Scenario};
 
-use crate::{Flight, fixed_wing, slung_load};
+use crate::{Flight, fixed_wing, multirotor, slung_load};
 
 /// Who decides on the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +61,7 @@ pub fn fly_with(scenario: &Scenario, plan: &Plan, seed: u64, setup: &Setup, prog
     let (vehicles, mut events) = match scenario.family() {
         Family::FixedWing => fixed_wing::fly(scenario, plan, seed, setup, steps, progress),
         Family::SlungLoad => slung_load::fly(scenario, plan, seed, setup, steps, progress),
-        Family::Multirotor => unimplemented!("the plant of multirotors"),
+        Family::Multirotor => multirotor::fly(scenario, plan, seed, setup, steps, progress),
     };
     events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     Flight {
@@ -68,8 +69,32 @@ pub fn fly_with(scenario: &Scenario, plan: &Plan, seed: u64, setup: &Setup, prog
         plan_end_s: plan.flight_time_s().unwrap_or(0.0),
         vehicles,
         events,
+        planning: None,
         wall_s: began.elapsed().as_secs_f64(),
     }
+}
+
+/// Flies multirotors whose planners are asked again and again during the flight, until all have come to rest at their
+/// goals and `coast_s` more, or until `max_duration_s`.
+///
+/// - `planners`: one per vehicle, in the scenario's order
+/// - `seed`: of gusts, sensors and planning times
+/// - `progress`: is called about once per simulated second with the simulated time, s
+///
+/// Panics if the vehicles are no multirotors, or the planners not as many.
+pub fn fly_in_loop(
+    scenario: &Scenario,
+    planners: Vec<Box<dyn InLoopPlanner>>,
+    seed: u64,
+    progress: &mut dyn FnMut(f64),
+) -> Flight {
+    let began = Instant::now();
+    assert_eq!(scenario.family(), Family::Multirotor, "multirotors alone are planned for in the loop");
+    assert_eq!(scenario.vehicles.len(), planners.len(), "every vehicle has a planner");
+    let mut flight = multirotor::fly_in_loop(scenario, planners, seed, progress);
+    flight.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    flight.wall_s = began.elapsed().as_secs_f64();
+    flight
 }
 
 /// Number of steps to the end of the coast, but not beyond the longest duration.

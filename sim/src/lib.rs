@@ -10,6 +10,9 @@ mod air;
 pub mod fixed_wing;
 mod flight;
 mod fly;
+mod in_loop;
+pub mod multirotor;
+mod quadrotor;
 mod rapier_world;
 mod runge_kutta;
 mod saturation;
@@ -19,5 +22,6 @@ mod state_hash;
 mod touch;
 
 pub use flight::{Actuation, Commanded, Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
-pub use fly::{Pilot, Setup, fly, fly_with};
+pub use fly::{Pilot, Setup, fly, fly_in_loop, fly_with};
+pub use in_loop::{PlanningLog, Replan};
 pub use state_hash::StateHash;

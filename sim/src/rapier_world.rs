@@ -2,8 +2,8 @@
 
 mod hoist;
 
-use nalgebra::Vector3;
-use rapier3d_f64::prelude::{PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use rapier3d_f64::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
 use crate::fixed_wing::gravity_mps2;
 
@@ -12,7 +12,7 @@ pub(crate) use hoist::{Hoist, Loads};
 /// Rapier cuts off faster bodies.
 const MAX_SPEED_MPS: f64 = 1000.0;
 
-/// Points with mass under gravity and forces, at a fixed step.
+/// Bodies under gravity and forces, at a fixed step: points with mass, or such as turn.
 ///
 /// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse given before its step
 /// and half after it, gravity's included, the position moves with the mean velocity of the step:
@@ -34,6 +34,7 @@ struct Body {
     /// `None` once removed.
     handle: Option<RigidBodyHandle>,
     force_n: Vector3<f64>,
+    torque_nm: Vector3<f64>,
 }
 
 impl RapierWorld {
@@ -56,11 +57,33 @@ impl RapierWorld {
             .additional_mass(mass_kg)
             .lock_rotations()
             .can_sleep(false);
+        self.insert(body);
+    }
+
+    /// Adds a body that turns: level, at rest about its axes.
+    ///
+    /// - `inertia_kgm2`: moments of inertia about the body axes, kg m²
+    pub fn add_turning_body(
+        &mut self,
+        mass_kg: f64,
+        inertia_kgm2: Vector3<f64>,
+        position_m: Vector3<f64>,
+        velocity_mps: Vector3<f64>,
+    ) {
+        let body = RigidBodyBuilder::dynamic()
+            .translation(to_rapier(&position_m))
+            .linvel(to_rapier(&velocity_mps))
+            .additional_mass_properties(MassProperties::new(Vector::ZERO, mass_kg, to_rapier(&inertia_kgm2)))
+            .can_sleep(false);
+        self.insert(body);
+    }
+
+    fn insert(&mut self, body: RigidBodyBuilder) {
         let PhysicsWorld { bodies, colliders, .. } = &mut self.physics;
         let handle = bodies.insert(body);
         // Without this the body has no mass before its first step, and loses the impulse that comes first.
         bodies[handle].recompute_mass_properties_from_colliders(colliders);
-        self.bodies.push(Body { handle: Some(handle), force_n: Vector3::zeros() });
+        self.bodies.push(Body { handle: Some(handle), force_n: Vector3::zeros(), torque_nm: Vector3::zeros() });
     }
 
     /// Takes a body out of the world.
@@ -83,6 +106,22 @@ impl RapierWorld {
     /// Mass, kg.
     pub fn mass_kg(&self, body: usize) -> f64 {
         self.rigid_body(body).mass()
+    }
+
+    /// Attitude, world from body.
+    pub fn attitude(&self, body: usize) -> UnitQuaternion<f64> {
+        let rotation = self.rigid_body(body).rotation();
+        UnitQuaternion::new_normalize(Quaternion::new(rotation.w, rotation.x, rotation.y, rotation.z))
+    }
+
+    /// Angular velocity in body axes, rad/s.
+    pub fn body_rate_radps(&self, body: usize) -> Vector3<f64> {
+        self.attitude(body).inverse() * from_rapier(self.rigid_body(body).angvel())
+    }
+
+    /// Sets the torque on a body in the middle of the coming step, world frame, N m.
+    pub fn set_torque_nm(&mut self, body: usize, torque_nm: Vector3<f64>) {
+        self.bodies[body].torque_nm = torque_nm;
     }
 
     /// Sets the force on a body in the middle of the coming step, N; gravity comes on top.
@@ -115,6 +154,7 @@ impl RapierWorld {
             let rigid_body = &mut self.physics.bodies[handle];
             let force = to_rapier(&body.force_n) + gravity * rigid_body.mass();
             rigid_body.apply_impulse(force * half_step_s, true);
+            rigid_body.apply_torque_impulse(to_rapier(&body.torque_nm) * half_step_s, true);
         }
     }
 }

@@ -2,6 +2,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::quadrotor::Turning;
 use crate::slung_load::Body;
 
 /// What the sensors say of position (m) and velocity over ground (m/s), world frame.
@@ -31,16 +32,34 @@ impl Sensors {
         }
     }
 
+    /// What is measured of the attitude (world from body) and of the angular velocity in body axes, rad/s.
+    pub fn measure_turning(&mut self, truth: &Turning) -> Turning {
+        let scenarios::Sensors { attitude_noise_deg, rate_noise_degps, .. } = self.settings;
+        let turn = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
+        Turning {
+            attitude: truth.attitude * UnitQuaternion::from_scaled_axis(turn),
+            rate_radps: self.disturbed(truth.rate_radps, rate_noise_degps.to_radians()),
+        }
+    }
+
+    /// What is measured of something else that moves: position, m, and velocity, m/s.
+    pub fn sight(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
+        Measurement {
+            position_m: self.disturbed(position_m, self.settings.sighting_position_noise_m),
+            velocity_mps: self.disturbed(velocity_mps, self.settings.sighting_velocity_noise_mps),
+        }
+    }
+
     /// One measurement of a quadrotor and its load.
     pub fn measure_slung_load(&mut self, truth: &Body) -> Body {
-        let scenarios::Sensors { attitude_noise_deg, rate_noise_degps, .. } = self.settings;
         let Measurement { position_m, velocity_mps } = self.measure(truth.position_m, truth.velocity_mps);
-        let turn = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
+        let turning = Turning { attitude: truth.attitude, rate_radps: truth.body_rate_radps };
+        let Turning { attitude, rate_radps } = self.measure_turning(&turning);
         Body {
             position_m,
             velocity_mps,
-            attitude: truth.attitude * UnitQuaternion::from_scaled_axis(turn),
-            body_rate_radps: self.disturbed(truth.body_rate_radps, rate_noise_degps.to_radians()),
+            attitude,
+            body_rate_radps: rate_radps,
             load_position_m: self.disturbed(truth.load_position_m, self.settings.load_position_noise_m),
             load_velocity_mps: self.disturbed(truth.load_velocity_mps, self.settings.load_velocity_noise_mps),
         }

@@ -3,7 +3,6 @@
 //!
 //! Planners write the same motion in cable angles (Kang, Huang, Wen 2020); the two share no formula.
 
-mod allocation;
 mod body;
 mod cable_watch;
 mod dynamics;

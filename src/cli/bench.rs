@@ -5,7 +5,7 @@ use planners::Planner;
 use scenarios::Scenario;
 use serde::Serialize;
 
-use crate::bench::{cooperative, fleets, ipm, slung};
+use crate::bench::{cooperative, fleets, horizon, ipm, slung};
 use crate::error::{Error, Exit};
 use crate::output;
 
@@ -18,13 +18,16 @@ use crate::output;
 /// and ours, over fleets of several sizes, and how the cost of ours grows.
 ///
 /// `slung`: the nonlinear programmes of the planner slung-lgr, by mesh and formulation.
+///
+/// `horizon`: the experiments of the paper on receding horizons with a particle swarm, flown and judged, and samplers at
+/// equal budget.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Bench {
     /// What to measure
     #[arg(value_enum)]
     name: Name,
-    /// Scenario that poses the problem, for `cooperative` and `fleets` the folder with their scenarios; by default those of
+    /// Scenario that poses the problem, for `cooperative`, `fleets` and `horizon` the folder with their scenarios; by default those of
     /// the papers
     #[arg(value_name = "PATH")]
     path: Option<PathBuf>,
@@ -49,13 +52,15 @@ Examples:
   harness bench cooperative    takes about a minute
   harness bench fleets         takes several minutes: some entries end by their time limit
   harness bench slung          takes about ten seconds
+  harness bench horizon        takes several minutes
 
 Results:
   out/bench/ipm.json           one row per subproblem and backend
   out/bench/ipm.md             the same as a page
   out/bench/cooperative.json, .md  one row per mission, fleet and solver
   out/bench/fleets.json, .md   one row per mission, fleet and planner
-  out/bench/slung.json, .md    one row per mesh and formulation";
+  out/bench/slung.json, .md    one row per mesh and formulation
+  out/bench/horizon.json, .md  one row per case";
 
 /// What can be measured.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -68,6 +73,8 @@ enum Name {
     Fleets,
     /// Collocation of the slung load
     Slung,
+    /// Receding horizons in the loop
+    Horizon,
 }
 
 impl Bench {
@@ -78,6 +85,7 @@ impl Bench {
             Name::Cooperative => self.cooperative(),
             Name::Fleets => self.fleets(),
             Name::Slung => self.slung(),
+            Name::Horizon => self.horizon(),
         }
     }
 
@@ -93,6 +101,17 @@ impl Bench {
         let plan = if self.quick { slung::Plan::quick() } else { slung::Plan::full() };
         let results = slung::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
         self.publish("slung", &results, &slung::markdown(&results), &slung::text(&results))
+    }
+
+    fn horizon(&self) -> Result<Exit, Error> {
+        let plan = horizon::Plan {
+            paper_map: self.multirotor("paper-map")?,
+            trap: self.multirotor("trap")?,
+            pop_up: self.multirotor("pop-up")?,
+            seeds: if self.quick { 2 } else { 20 },
+        };
+        let results = horizon::run(&plan, &mut |case| self.tell(case));
+        self.publish("horizon", &results, &horizon::markdown(&results), &horizon::text(&results))
     }
 
     fn cooperative(&self) -> Result<Exit, Error> {
@@ -128,6 +147,12 @@ impl Bench {
     fn fleet(&self, name: &str) -> Result<Scenario, Error> {
         let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/fixed-wing"));
         load(&folder.join(format!("{name}.toml")), &planners::scp::parallel::PLANNER)
+    }
+
+    /// One of several scenarios of a multirotor, from the folder with all of them.
+    fn multirotor(&self, name: &str) -> Result<Scenario, Error> {
+        let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/multirotor"));
+        load(&folder.join(format!("{name}.toml")), &planners::horizon::RHC)
     }
 
     fn tell(&self, stage: &str) {

@@ -45,6 +45,9 @@ impl PlanCommand {
             return Err(refusal.error);
         }
         let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
+        if job.author.plans_in_the_loop() {
+            return Err(Error::PlansInTheLoop { planner: job.author.name().to_owned() });
+        }
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let handed_over = pipeline::plan(job, &mut progress);
         progress.finish();

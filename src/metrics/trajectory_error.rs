@@ -89,7 +89,7 @@ fn poses(log: &VehicleLog, flight: &Flight, of: impl Fn(&Sample) -> ([f64; 3], [
             let world_from_body = match sample.actuation {
                 Actuation::LoadFactors(_) => world_from_body(&Vector3::from(velocity_mps), Control::CRUISE),
                 // what hovers has no direction of motion
-                Actuation::Thrusts(_) => [0.0, 0.0, 0.0, 1.0],
+                Actuation::Thrusts(_) | Actuation::Acceleration(_) => [0.0, 0.0, 0.0, 1.0],
             };
             Pose { t_s: sample.t_s, position_m, world_from_body }
         })

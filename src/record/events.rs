@@ -66,6 +66,10 @@ fn about_event(event: &Event) -> Line {
             (Level::Info, format!("{who}: cable taut, with an impulse of {}", quantity(*impulse_ns, "N s")))
         }
         EventKind::CableSlack => (Level::Info, format!("{who}: cable slack")),
+        EventKind::Discovered { obstacle } => (Level::Info, format!("{who} discovers {obstacle}")),
+        EventKind::AnswerLate { by_s } => (Level::Warning, format!("{who}: new plan late by {}", quantity(*by_s, "s"))),
+        EventKind::AnswerRejected { reason } => (Level::Warning, format!("{who}: new plan cannot be flown: {reason}")),
+        EventKind::Arrived => (Level::Info, format!("{who}: at rest at the goal")),
     };
     Line { t_s: event.t_s, level, text }
 }

@@ -54,7 +54,14 @@ impl Recorder for Log {
     }
 
     fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        let nothing = Flight { step_s: 0.0, plan_end_s: 0.0, vehicles: Vec::new(), events: Vec::new(), wall_s: 0.0 };
+        let nothing = Flight {
+            step_s: 0.0,
+            plan_end_s: 0.0,
+            vehicles: Vec::new(),
+            events: Vec::new(),
+            planning: None,
+            wall_s: 0.0,
+        };
         write(&run.scenario.name, run.flight.unwrap_or(&nothing), path)
     }
 }

@@ -39,6 +39,8 @@ const THRUSTS: [&str; 8] = [
     "thrust_3_n",
     "thrust_4_n",
 ];
+const ACCELERATION: [&str; 6] =
+    ["command_ax_mps2", "command_ay_mps2", "command_az_mps2", "ax_mps2", "ay_mps2", "az_mps2"];
 const LOAD: [&str; 16] = [
     "load_x_m",
     "load_y_m",
@@ -63,6 +65,7 @@ pub fn columns(flight: &Flight) -> Vec<&'static str> {
     let first = flight.vehicles.iter().find_map(|log| log.samples.first());
     let controls: &[&str] = match first.map(|sample| &sample.actuation) {
         Some(Actuation::Thrusts(_)) => &THRUSTS,
+        Some(Actuation::Acceleration(_)) => &ACCELERATION,
         Some(Actuation::LoadFactors(_)) | None => &LOAD_FACTORS,
     };
     let load: &[&str] = if flight.vehicles.iter().any(|log| !log.loads.is_empty()) { &LOAD } else { &[] };
@@ -83,6 +86,7 @@ pub fn values(log: &VehicleLog, step: usize, width: usize) -> Vec<f64> {
         Actuation::Thrusts(Commanded { command, control }) => {
             row.extend(command.thrust_n.iter().chain(&control.thrust_n));
         }
+        Actuation::Acceleration(Commanded { command, control }) => row.extend(command.iter().chain(control)),
     }
     if let Some(load) = log.loads.get(step) {
         row.extend(load.position_m.iter().chain(&load.velocity_mps).chain([&load.tension_n]));

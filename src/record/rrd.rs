@@ -11,6 +11,7 @@
 //! | `/planner/NAME` | convergence, on the timeline `planner_iter` | `convergence` |
 //! | `/events` | text log | `events` |
 //! | see there | what a quadrotor with a slung load has of its own | `slung_load` |
+//! | see there | what multirotors sense and plan in the loop | `multirotor` |
 //! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
 //!
 //! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
@@ -24,6 +25,7 @@ mod document;
 mod events;
 mod fleet;
 mod layout;
+mod multirotor;
 mod palette;
 mod paths;
 mod quantity;
@@ -79,7 +81,7 @@ impl Recorder for Rrd {
                     series::log(&stream, run.scenario, flight, distances)?;
                 }
                 Family::SlungLoad => slung_load::log(&stream, run, flight)?,
-                Family::Multirotor => {}
+                Family::Multirotor => multirotor::log(&stream, run, flight, distances)?,
             }
         }
         stream.flush_blocking()?;

@@ -164,7 +164,7 @@ impl Specimen {
 pub fn load_factors(sample: &mut Sample) -> &mut Commanded<fixed_wing::Control> {
     match &mut sample.actuation {
         Actuation::LoadFactors(factors) => factors,
-        Actuation::Thrusts(_) => panic!("not a fixed wing"),
+        _ => panic!("not a fixed wing"),
     }
 }
 
@@ -172,6 +172,6 @@ pub fn load_factors(sample: &mut Sample) -> &mut Commanded<fixed_wing::Control> 
 pub fn thrusts(sample: &mut Sample) -> &mut Commanded<slung_load::Control> {
     match &mut sample.actuation {
         Actuation::Thrusts(thrusts) => thrusts,
-        Actuation::LoadFactors(_) => panic!("not a quadrotor"),
+        _ => panic!("not a quadrotor"),
     }
 }

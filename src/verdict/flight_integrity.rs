@@ -17,13 +17,12 @@ const LONGEST_GAP_STEPS: f64 = 1.001;
 /// Number of numbers in the log that are not finite.
 pub fn check_finite(flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
-    let impulses = flight.events.iter().filter_map(|event| match event.kind {
+    let amounts = flight.events.iter().filter_map(|event| match event.kind {
         EventKind::CableTaut { impulse_ns } => Some(impulse_ns),
-        EventKind::Crash { .. } | EventKind::SaturationBegan | EventKind::SaturationEnded | EventKind::CableSlack => {
-            None
-        }
+        EventKind::AnswerLate { by_s } => Some(by_s),
+        _ => None,
     });
-    let mut count = times.chain(impulses).filter(|value| !value.is_finite()).count();
+    let mut count = times.chain(amounts).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
         let numbers =
@@ -66,10 +65,7 @@ pub fn check_crash(scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flo
     let question = Question::new(Group::Flight, "crash", "crashes");
     let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
-        EventKind::SaturationBegan
-        | EventKind::SaturationEnded
-        | EventKind::CableTaut { .. }
-        | EventKind::CableSlack => None,
+        _ => None,
     });
     let Some((t_s, concerned)) = crashes.next() else {
         let unlogged = flown.ok().and_then(|flown| touch::deepest(scenario, &flown.motions));

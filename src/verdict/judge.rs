@@ -6,7 +6,7 @@ use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
     Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity,
-    integrity, limits, physics, separation, slung_load, tracking,
+    integrity, limits, multirotor, physics, separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -39,7 +39,7 @@ pub fn judge_with(
     let mut checks = match scenario.family() {
         Family::FixedWing => of_fixed_wings(scenario, plan, &flyable, logged),
         Family::SlungLoad => of_a_slung_load(scenario, plan, &flyable, logged),
-        Family::Multirotor => unimplemented!("the judge of multirotors"),
+        Family::Multirotor => of_multirotors(scenario, plan, &flyable, logged),
     };
 
     given.qualify(&mut checks);
@@ -86,6 +86,21 @@ fn of_a_slung_load(
     // Body, cable and load are judged by their true shapes: what touches has no clearance.
     checks.extend(log_checks(scenario, plan, logged, Err("")));
     checks.extend(judge.flight_checks(logged));
+    checks
+}
+
+fn of_multirotors(
+    scenario: &Scenario,
+    plan: &Plan,
+    flyable: &Result<(), String>,
+    logged: Evidence<'_, Flight>,
+) -> Vec<Check> {
+    let in_the_loop = logged.is_ok_and(|flight| flight.planning.is_some());
+    let flyable = flyable.as_ref().map_err(String::as_str);
+    let mut checks = multirotor::plan_checks(scenario, plan, flyable, in_the_loop);
+    // Obstacles and bodies are judged by their true shapes: what touches has no clearance.
+    checks.extend(log_checks(scenario, plan, logged, Err("")));
+    checks.extend(multirotor::flight_checks(scenario, plan, logged));
     checks
 }
 

@@ -175,5 +175,5 @@ pub fn sample(t_s: f64, position_m: [f64; 3], velocity_mps: [f64; 3]) -> Sample 
 }
 
 fn flight(vehicles: Vec<VehicleLog>, step_s: f64) -> Flight {
-    Flight { step_s, plan_end_s: END_S, vehicles, events: Vec::new(), wall_s: 0.0 }
+    Flight { step_s, plan_end_s: END_S, vehicles, events: Vec::new(), planning: None, wall_s: 0.0 }
 }

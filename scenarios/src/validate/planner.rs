@@ -2,7 +2,7 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Collocation, Convergence, Objective, PlannerSettings, Problem, TrustRegion};
+use crate::{Collocation, Convergence, Horizon, Objective, PlannerSettings, Problem, TrustRegion};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
@@ -11,6 +11,11 @@ const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
 const SEGMENTS: std::ops::RangeInclusive<usize> = 1..=1000;
 const POINTS: std::ops::RangeInclusive<usize> = 2..=20;
 const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
+
+/// Fewest and most steps of a horizon, particles, and iterations of a search.
+const STEPS: std::ops::RangeInclusive<usize> = 1..=100;
+const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
+const SEARCH: std::ops::RangeInclusive<usize> = 1..=10_000;
 
 pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     let mut problems = outside_problems(settings);
@@ -27,6 +32,7 @@ pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     problems.extend(settings.trust_region.iter().flat_map(trust_region));
     problems.extend(settings.convergence.iter().flat_map(convergence));
     problems.extend(settings.collocation.iter().flat_map(collocation));
+    problems.extend(settings.horizon.iter().flat_map(horizon));
     problems
 }
 
@@ -92,11 +98,7 @@ fn collocation(options: &Collocation) -> Vec<Problem> {
         ("points", options.points, POINTS),
         ("cable", options.cable.as_ref().map(Vec::len), PHASES),
     ];
-    let out_of_range = counts.into_iter().filter_map(|(name, count, range)| {
-        let count = count.filter(|count| !range.contains(count))?;
-        let expected = format!("a whole number from {} to {}", range.start(), range.end());
-        Some(Problem::new(format!("planner.collocation.{name}"), count.to_string(), expected))
-    });
+    let out_of_range = out_of_range("collocation", counts);
     let quantities = [
         positive_if_given("planner.collocation.flight_time_s", options.flight_time_s),
         options.mesh_tolerance.and_then(|value| not_negative("planner.collocation.mesh_tolerance", value)),
@@ -110,5 +112,35 @@ fn collocation(options: &Collocation) -> Vec<Problem> {
         )
         .remedy("add `flight_time_s`, or minimise `time`")
     });
-    out_of_range.chain(quantities.into_iter().flatten()).chain(no_time).collect()
+    out_of_range.into_iter().chain(quantities.into_iter().flatten()).chain(no_time).collect()
+}
+
+fn horizon(options: &Horizon) -> Vec<Problem> {
+    let counts = [
+        ("steps", options.steps, STEPS),
+        ("particles", options.particles, PARTICLES),
+        ("iterations", options.iterations, SEARCH),
+        ("stall_iterations", options.stall_iterations, SEARCH),
+    ];
+    let field = options.field.clone().unwrap_or_default();
+    let quantities = [
+        positive_if_given("planner.horizon.step_s", options.step_s),
+        field.attraction.and_then(|value| not_negative("planner.horizon.field.attraction", value)),
+        field.gain.and_then(|value| not_negative("planner.horizon.field.gain", value)),
+        positive_if_given("planner.horizon.field.reach_m", field.reach_m),
+    ];
+    out_of_range("horizon", counts).into_iter().chain(quantities.into_iter().flatten()).collect()
+}
+
+/// One problem for every count in `planner.TABLE` outside its range.
+fn out_of_range<const N: usize>(
+    table: &str,
+    counts: [(&str, Option<usize>, std::ops::RangeInclusive<usize>); N],
+) -> Vec<Problem> {
+    let problem = |(name, count, range): (&str, Option<usize>, std::ops::RangeInclusive<usize>)| {
+        let count = count.filter(|count| !range.contains(count))?;
+        let expected = format!("a whole number from {} to {}", range.start(), range.end());
+        Some(Problem::new(format!("planner.{table}.{name}"), count.to_string(), expected))
+    };
+    counts.into_iter().filter_map(problem).collect()
 }

@@ -2,6 +2,7 @@ use nalgebra::{Quaternion, Vector3, Vector4};
 use scenarios::slung_load::{Cable, GRAVITY_MPS2, Model};
 
 use super::body::{Body, Numbers};
+use crate::quadrotor::Rotors;
 
 /// A load this close above the height at which it rests, m, and this slow, m/s, lies on the ground.
 const RESTING_M: f64 = 1e-4;
@@ -48,13 +49,11 @@ impl Plant {
 
     /// Total thrust, N, and torque in body axes, N m, of four rotors with these thrusts, N.        [Kang 2020, eq. 5]
     pub fn wrench(&self, thrust_n: &Vector4<f64>) -> (f64, Vector3<f64>) {
-        let [f1, f2, f3, f4] = [thrust_n[0], thrust_n[1], thrust_n[2], thrust_n[3]];
-        let torque_nm = Vector3::new(
-            self.arm_m * (-f1 + f2 + f3 - f4),
-            self.arm_m * (-f1 - f2 + f3 + f4),
-            self.torque_per_thrust_m * (f1 - f2 + f3 - f4),
-        );
-        (thrust_n.sum(), torque_nm)
+        self.rotors().wrench(thrust_n)
+    }
+
+    pub(super) fn rotors(&self) -> Rotors {
+        Rotors { arm_m: self.arm_m, torque_per_thrust_m: self.torque_per_thrust_m }
     }
 
     /// Tension of a taut cable, N, for which its length stays what it is; negative where it would have to push.

@@ -2,16 +2,13 @@ use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use scenarios::Range;
 use scenarios::slung_load::{Cable, GRAVITY_MPS2};
 
-use super::allocation;
 use super::body::Body;
 use super::dynamics::Plant;
 use super::gains::Gains;
 use super::linear::Errors;
 use super::reference::{Reference, ReferencePoint};
+use crate::quadrotor::{Turning, allocation, torque_nm};
 
-/// Natural frequency, rad/s, and damping ratio of the attitude error.
-const ATTITUDE_RADPS: f64 = 25.0;
-const ATTITUDE_DAMPING: f64 = 0.8;
 /// Largest correction of the acceleration, m/s²: beyond it the linear law says nothing.
 const LARGEST_CORRECTION_MPS2: f64 = 6.0;
 /// Largest integral of the position error, m s: what a constant disturbance needs, and no more.
@@ -58,14 +55,14 @@ impl Tracker {
         let force_n = self.force_n(measured, ahead, &correction_mps2);
         let torque_nm = self.torque_nm(measured, reference, ahead, &force_n);
         let total_n = force_n.dot(&measured.thrust_axis());
-        let command_n = allocation::unlimited(&self.plant, total_n, &torque_nm);
+        let command_n = allocation::unlimited(&self.plant.rotors(), total_n, &torque_nm);
         // Rounding may put a thrust that stands on its limit a little beyond it.
         let fits =
             command_n.iter().all(|thrust| (thrust - thrust.clamp(self.limits.min, self.limits.max)).abs() < 1e-9);
         let limited_n = if fits {
             command_n.map(|thrust| thrust.clamp(self.limits.min, self.limits.max))
         } else {
-            allocation::limited(&self.plant, total_n, &torque_nm, self.limits)
+            allocation::limited(&self.plant.rotors(), total_n, &torque_nm, self.limits)
         };
         Thrusts { command_n: if fits { limited_n } else { command_n }, limited_n }
     }
@@ -116,15 +113,10 @@ impl Tracker {
         let planned_axis = ahead.body.thrust_axis();
         let turn = UnitQuaternion::rotation_between(&planned_axis, force_n).unwrap_or_else(UnitQuaternion::identity);
         let wanted = turn * reference.body.attitude;
-        let body_from_wanted = measured.attitude.inverse() * wanted;
-        let attitude_error = -body_from_wanted.scaled_axis();
-        let rate_error = measured.body_rate_radps - body_from_wanted * reference.body.body_rate_radps;
         let (_, planned_nm) = self.plant.wrench(&ahead.thrust_n);
         let planned = self.plant.angular_acceleration_radps2(&ahead.body.body_rate_radps, &planned_nm);
-        let angular_acceleration = body_from_wanted * planned
-            - attitude_error * ATTITUDE_RADPS.powi(2)
-            - rate_error * (2.0 * ATTITUDE_DAMPING * ATTITUDE_RADPS);
-        let momentum = self.plant.inertia_kgm2.component_mul(&measured.body_rate_radps);
-        self.plant.inertia_kgm2.component_mul(&angular_acceleration) + measured.body_rate_radps.cross(&momentum)
+        let measured = Turning { attitude: measured.attitude, rate_radps: measured.body_rate_radps };
+        let wanted = Turning { attitude: wanted, rate_radps: reference.body.body_rate_radps };
+        torque_nm(&measured, &wanted, &planned, &self.plant.inertia_kgm2)
     }
 }

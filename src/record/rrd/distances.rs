@@ -1,7 +1,9 @@
 //! Smallest distances of the fleet over time, as the judge sees the flight.
 
+use scenarios::Family;
+
 use crate::metrics::{Nearest, clearance_over_time, separation_over_time};
-use crate::verdict::{Flown, is_flyable};
+use crate::verdict::{Flown, is_flyable, multirotor};
 
 use super::Run;
 use super::thinning::Curve;
@@ -26,7 +28,10 @@ impl Distances {
             return Self::default();
         };
         let cylinders = &run.scenario.world.cylinders;
-        let clearance = clearance_over_time(&flown.motions, cylinders, STEP_S);
+        let clearance = match run.scenario.family() {
+            Family::Multirotor => multirotor::clearance_over_time(run.scenario, &flown.motions, STEP_S),
+            _ => clearance_over_time(&flown.motions, cylinders, STEP_S),
+        };
         let separation = match run.scenario.fleet.separation_m {
             Some(_) => separation_over_time(&flown.motions, STEP_S),
             None => Vec::new(),

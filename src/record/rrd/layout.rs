@@ -11,6 +11,7 @@ use sim::Flight;
 
 use super::blueprint::{Blueprint, Part, ViewClass};
 use super::distances::Distances;
+use super::multirotor;
 use super::quantity::Quantity;
 use super::series::end_s;
 use super::thinning::Curve;
@@ -23,6 +24,8 @@ const MOST_LEGEND_ENTRIES: usize = 10;
 
 /// Room for the legend at the right of a plot, as a share of the flight's duration.
 const ROOM_FOR_LEGEND: f64 = 0.25;
+/// Clearance up to which multirotors are shown, m: farther away from everything nothing happens.
+const NEAR_M: f64 = 2.5;
 /// Time in which a whole flight is played, s.
 const PLAYBACK_S: f64 = 20.0;
 
@@ -39,7 +42,7 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
                 tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
             }
             Family::SlungLoad => tabs.push(slung_load::forces(&layout, flight)?),
-            Family::Multirotor => {}
+            Family::Multirotor => tabs.extend(multirotor::tabs(&layout, flight)?),
         }
     }
     if !run.plan.history.is_empty() {
@@ -104,7 +107,9 @@ fn verdict(layout: &Blueprint, run: &Run<'_>, distances: &Distances) -> Result<P
         if let Some(curve) = &distances.clearance {
             let view = plot(layout, "clearance", "Smallest clearance to an obstacle [m]", end_s, true)?;
             let radii_m = run.scenario.world.cylinders.iter().map(|cylinder| cylinder.radius_m);
-            zoom(layout, &view, curve, radii_m.fold(0.0, f64::max))?;
+            let window_m =
+                if run.scenario.family() == Family::Multirotor { NEAR_M } else { radii_m.fold(0.0, f64::max) };
+            zoom(layout, &view, curve, window_m)?;
             rows.push((view, 1.0));
         }
         // Too low for a legend of the fleet; the colours are those of the world.

@@ -42,7 +42,8 @@ pub fn end_s(flight: &Flight) -> f64 {
     times_s.filter(|t_s| t_s.is_finite()).fold(0.0, f64::max)
 }
 
-fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Flight) -> Logged {
+/// A quantity of every vehicle over time.
+pub fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Flight) -> Logged {
     let count = flight.vehicles.len();
     let points = (MOST_POINTS_OF_FLEET / (count.max(1) * Quantity::ALL.len())).clamp(200, MOST_POINTS);
     // Beyond its end there is no plan to be away from.
@@ -58,7 +59,8 @@ fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Flight) -
     Ok(())
 }
 
-fn log_fleet(stream: &RecordingStream, group: &str, name: &str, curve: Curve) -> Logged {
+/// A quantity of the fleet as a whole.
+pub fn log_fleet(stream: &RecordingStream, group: &str, name: &str, curve: Curve) -> Logged {
     let path = entity("plots", group) / "fleet";
     log_curve(stream, path, name, palette::opaque(palette::FLEET), 1.8, curve.thinned(2 * MOST_POINTS))
 }
@@ -70,7 +72,8 @@ pub fn log_limit(stream: &RecordingStream, group: &str, name: &str, value: f64, 
     log_curve(stream, entity(&format!("limits/{group}"), name), &title, palette::opaque(palette::LIMIT), 1.5, line)
 }
 
-fn log_curve(
+/// A curve with its name and looks.
+pub fn log_curve(
     stream: &RecordingStream,
     path: EntityPath,
     name: &str,

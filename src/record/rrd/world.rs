@@ -19,7 +19,7 @@ const END_RADIUS: f32 = 4.0;
 pub fn log(stream: &RecordingStream, scenario: &Scenario) -> Logged {
     stream.log_static("world", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     log_map(stream, &scenario.world.map)?;
-    log_obstacles(stream, &scenario.world)?;
+    log_obstacles(stream, &scenario.world.known_beforehand())?;
     log_ends(stream, scenario)
 }
 
@@ -94,7 +94,7 @@ fn log_prism(stream: &RecordingStream, prism: &Prism, map_z_m: Range) -> Logged 
 }
 
 /// Points on the edge of a prism's polygon, about equally far apart.
-fn face_points(prism: &Prism) -> Vec<[f64; 2]> {
+pub fn face_points(prism: &Prism) -> Vec<[f64; 2]> {
     let n = prism.corners_m.len();
     let edge = |i: usize| (prism.corners_m[i], prism.corners_m[(i + 1) % n]);
     let length_m = |(a, b): ([f64; 2], [f64; 2])| (b[0] - a[0]).hypot(b[1] - a[1]);

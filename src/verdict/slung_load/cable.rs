@@ -159,7 +159,7 @@ fn switch(kind: &EventKind) -> Option<Cable> {
     match kind {
         EventKind::CableTaut { .. } => Some(Cable::Taut),
         EventKind::CableSlack => Some(Cable::Slack),
-        EventKind::Crash { .. } | EventKind::SaturationBegan | EventKind::SaturationEnded => None,
+        _ => None,
     }
 }
 

@@ -1,4 +1,4 @@
-//! Start and goal of a multirotor: body and all in the open, on the map, and slow enough.
+//! Start and goal of a multirotor: body and all in the open, on the map, at rest.
 
 use crate::multirotor::Model;
 use crate::{Problem, Waypoint, World};
@@ -9,14 +9,9 @@ pub(super) fn problems(model: &Model, world: &World, field: &str, waypoint: &Way
     if field.ends_with(".start") {
         problems.extend(under_moving(model, world, field, waypoint));
     }
-    let most_mps = model.planning_limits.speed_mps;
-    if waypoint.speed_mps < 0.0 || waypoint.speed_mps > most_mps {
-        let expected = format!("a value inside [0, {most_mps}], the planning limit of speed, m/s");
-        problems.push(Problem::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), expected));
-    }
-    if field.ends_with(".goal") && waypoint.speed_mps > 0.0 {
+    if waypoint.speed_mps != 0.0 && waypoint.speed_mps.is_finite() {
         let problem = Problem::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0, or nothing");
-        problems.push(problem.remedy("remove it: multirotors come to rest at their goal"));
+        problems.push(problem.remedy("remove it: multirotors begin and end at rest"));
     }
     problems.extend(waypoint.load.map(|_| {
         Problem::new(format!("{field}.load"), "a load", "nothing: this vehicle carries none").remedy("remove it")

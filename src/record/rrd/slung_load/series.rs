@@ -33,7 +33,7 @@ fn log_thrusts(stream: &RecordingStream, model: &Model, log: &VehicleLog, end_s:
     for rotor in 0..4 {
         let thrust_n = |sample: &Sample| match &sample.actuation {
             Actuation::Thrusts(thrusts) => thrusts.control.thrust_n[rotor],
-            Actuation::LoadFactors(_) => f64::NAN,
+            _ => f64::NAN,
         };
         let curve: Curve = log.samples.iter().map(|sample| (sample.t_s, thrust_n(sample))).collect();
         curve_of(stream, "thrust", &format!("F_{}", rotor + 1), palette::vehicle(rotor, 4), curve)?;

@@ -187,6 +187,7 @@ fn flight(scenario: &Scenario, duration_s: f64) -> Flight {
             Event { t_s: 31.0, kind: EventKind::SaturationBegan, vehicles: vec!["uav-1".to_owned()] },
             Event { t_s: 31.9, kind: EventKind::SaturationEnded, vehicles: vec!["uav-1".to_owned()] },
         ],
+        planning: None,
         wall_s: 0.1,
     }
 }

@@ -1,4 +1,4 @@
-//! Four numbers side by side, one per subproblem: the arithmetic of a vector register.
+//! Four numbers side by side, one per subproblem or particle: the arithmetic of a vector register.
 //!
 //! Every operation acts on each lane by itself, so that what happens in one lane never depends on its neighbours, and
 //! rounds as IEEE 754 says, the fused multiply-add too: the same digits on every machine. (A processor of before 2013
@@ -122,6 +122,12 @@ impl<S: Vector> Mask<S> {
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
         Lanes { values: self.simd.select_f64s(self.bits, yes.values, no.values), simd: self.simd }
+    }
+
+    /// Is the answer yes in any lane?
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        self.simd.first_true_m64s(self.bits) < WIDTH
     }
 }
 

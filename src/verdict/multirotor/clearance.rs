@@ -1,0 +1,211 @@
+//! Do the vehicles keep clear of everything: obstacles, sensed or not, those that move, and the map's frame?
+//!
+//! The smallest distance from the surface of any vehicle's sphere to any obstacle, over continuous time, by branch and
+//! bound: within a span of time a distance cannot fall by more than vehicle and obstacle can move, which bounds it from
+//! below. Spans that could hold something closer are halved until nothing could. Distances to the frame are extremes of one
+//! coordinate.
+
+use scenarios::Scenario;
+use sim::multirotor::Surroundings;
+
+use crate::metrics::Nearest;
+use crate::verdict::Check;
+use crate::verdict::compare::is_smaller;
+use crate::verdict::limits::extremes_m;
+use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::question::{Evidence, Group, Measured, Question};
+
+/// Distance between the bounds that counts as close enough, m.
+const RESOLUTION_M: f64 = 1e-4;
+/// Most spans looked at: beyond them the bounds stay apart, and the check becomes undecided rather than wrong.
+const MOST_SPANS: usize = 20_000_000;
+/// What the map's frame is called.
+const FRAME: &str = "map frame";
+
+/// The closest that a vehicle came to something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closest {
+    /// The distance is not smaller than this, m.
+    pub lower_m: f64,
+    /// It is not larger than this, m.
+    pub upper_m: f64,
+    /// When, s.
+    pub at_s: f64,
+    /// Index of the vehicle.
+    pub vehicle: usize,
+    /// Name of the obstacle.
+    pub obstacle: String,
+}
+
+/// Over continuous time; the limit is 0.
+pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(group, scenario, motions.map(|motions| closest(scenario, motions)))
+}
+
+/// At the planner's own nodes.
+pub fn check_nodes(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    let surroundings = Surroundings::of(&scenario.world);
+    answer(
+        Group::Nodes,
+        scenario,
+        motions.map(|motions| {
+            let mut best = None;
+            for (vehicle, motion) in motions.iter().enumerate() {
+                for knot in motion.knots() {
+                    let (distance_m, obstacle) = at(scenario, &surroundings, vehicle, knot.t_s, knot.position_m);
+                    consider(&mut best, distance_m, || Closest {
+                        lower_m: distance_m,
+                        upper_m: distance_m,
+                        at_s: knot.t_s,
+                        vehicle,
+                        obstacle: obstacle.to_owned(),
+                    });
+                }
+            }
+            best
+        }),
+    )
+}
+
+/// The closest that any vehicle comes to anything. `None` without vehicles.
+pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
+    let surroundings = Surroundings::of(&scenario.world);
+    let mut best = None;
+    let (mut spans, mut unsure_m) = (0, f64::INFINITY);
+    for (vehicle, motion) in motions.iter().enumerate() {
+        let radius_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m;
+        to_frame(scenario, vehicle, motion, radius_m, &mut best);
+        for obstacle in 0..surroundings.count() {
+            let mut search = Search {
+                surroundings: &surroundings,
+                obstacle,
+                radius_m,
+                vehicle,
+                best: &mut best,
+                spans: &mut spans,
+                unsure_m: &mut unsure_m,
+            };
+            motion.segments().filter(Segment::lasts).for_each(|segment| search.look(&segment, [0.0, 1.0]));
+        }
+    }
+    // Whatever was not looked at more closely is no nearer than this.
+    best.map(|best| Closest { lower_m: (best.upper_m - RESOLUTION_M).min(unsure_m), ..best })
+}
+
+/// Of the vehicle that is closest to anything, how close, at instants `step_s` apart, for a plot.
+pub fn over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<Nearest> {
+    let surroundings = Surroundings::of(&scenario.world);
+    let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
+    let steps = (end_s / step_s) as usize;
+    let instant = |step: usize| {
+        let t_s = step as f64 * step_s;
+        let placed = motions.iter().enumerate().filter_map(|(i, motion)| Some((i, motion.position_m(t_s)?)));
+        let distances = placed.map(|(i, position_m)| (at(scenario, &surroundings, i, t_s, position_m).0, i));
+        let (distance_m, vehicle) = distances.reduce(|a, b| if is_smaller(b.0, a.0) { b } else { a })?;
+        Some(Nearest { t_s, distance_m, who: [vehicle, vehicle] })
+    };
+    (0..=steps).filter_map(instant).collect()
+}
+
+fn answer(group: Group, scenario: &Scenario, closest: Result<Option<Closest>, &str>) -> Check {
+    let question = Question::new(group, "clearance", "m");
+    match closest {
+        Err(reason) => question.fail(reason),
+        Ok(None) => question.fail("no vehicle could be compared with an obstacle at any time"),
+        Ok(Some(closest)) => {
+            let measured = Measured::bounds(closest.lower_m, closest.upper_m).at(closest.at_s);
+            question.at_least(measured.with(&scenario.vehicles[closest.vehicle].name).with(&closest.obstacle), 0.0)
+        }
+    }
+}
+
+fn consider(best: &mut Option<Closest>, distance_m: f64, found: impl FnOnce() -> Closest) {
+    if best.as_ref().is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
+        *best = Some(found());
+    }
+}
+
+/// Distance of a vehicle at a place from what is nearest, and what that is.
+fn at<'s>(
+    scenario: &Scenario,
+    surroundings: &'s Surroundings,
+    vehicle: usize,
+    t_s: f64,
+    position_m: [f64; 3],
+) -> (f64, &'s str) {
+    let radius_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m;
+    let margins = scenario.world.map.axes().into_iter().zip(position_m).map(|(range, value)| range.margin(value));
+    let mut nearest = (margins.fold(f64::INFINITY, f64::min), FRAME);
+    for obstacle in 0..surroundings.count() {
+        let distance_m = surroundings.distance_m(obstacle, t_s, position_m);
+        if is_smaller(distance_m, nearest.0) {
+            nearest = (distance_m, surroundings.name(obstacle));
+        }
+    }
+    (nearest.0 - radius_m, nearest.1)
+}
+
+fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, radius_m: f64, best: &mut Option<Closest>) {
+    for (axis, range) in scenario.world.map.axes().into_iter().enumerate() {
+        for (value, at_s) in extremes_m(motion, axis) {
+            let distance_m = range.margin(value) - radius_m;
+            consider(best, distance_m, || Closest {
+                lower_m: distance_m,
+                upper_m: distance_m,
+                at_s,
+                vehicle,
+                obstacle: FRAME.to_owned(),
+            });
+        }
+    }
+}
+
+/// One vehicle against one obstacle.
+struct Search<'a> {
+    surroundings: &'a Surroundings,
+    obstacle: usize,
+    radius_m: f64,
+    vehicle: usize,
+    best: &'a mut Option<Closest>,
+    /// How many spans were looked at.
+    spans: &'a mut usize,
+    /// What a span could hold that was given up, m.
+    unsure_m: &'a mut f64,
+}
+
+impl Search<'_> {
+    /// Looks at the middle of a span of a segment, and at its halves if they could hold something closer.
+    fn look(&mut self, segment: &Segment, [from, to]: [f64; 2]) {
+        let middle = f64::midpoint(from, to);
+        let t_s = segment.instant_s(middle);
+        let position_m = segment.during(segment.t_s[0], t_s).points_m[3];
+        let distance_m = self.surroundings.distance_m(self.obstacle, t_s, position_m) - self.radius_m;
+        consider(self.best, distance_m, || Closest {
+            lower_m: distance_m,
+            upper_m: distance_m,
+            at_s: t_s,
+            vehicle: self.vehicle,
+            obstacle: self.surroundings.name(self.obstacle).to_owned(),
+        });
+        let duration_s = segment.t_s[1] - segment.t_s[0];
+        let speed_mps = fastest_mps(segment) + self.surroundings.speed_mps(self.obstacle);
+        let moved_m = speed_mps * duration_s * (to - from) / 2.0;
+        let upper_m = self.best.as_ref().map_or(f64::INFINITY, |best| best.upper_m);
+        *self.spans += 1;
+        if distance_m - moved_m < upper_m - RESOLUTION_M {
+            if *self.spans >= MOST_SPANS {
+                *self.unsure_m = self.unsure_m.min(distance_m - moved_m);
+                return;
+            }
+            self.look(segment, [from, middle]);
+            self.look(segment, [middle, to]);
+        }
+    }
+}
+
+/// A speed that nothing in a segment exceeds: a cubic's derivative lies in the hull of its control points' differences.
+fn fastest_mps(segment: &Segment) -> f64 {
+    let duration_s = segment.t_s[1] - segment.t_s[0];
+    let difference_m = |pair: &[[f64; 3]]| (0..3).map(|i| (pair[1][i] - pair[0][i]).powi(2)).sum::<f64>().sqrt();
+    segment.points_m.windows(2).map(|pair| difference_m(pair) * 3.0 / duration_s).fold(0.0, f64::max)
+}

@@ -1,0 +1,222 @@
+//! Do states and controls stay inside their limits?
+//!
+//! As for the other families: the planning limits at the planner's nodes, the physical ones between them and in flight, the
+//! map in all three. Positions and planned speeds are judged over continuous time; in flight the speed is that through the
+//! air, at every step. Of a point mass the acceleration that acted is judged, of a quadrotor its tilt and the thrusts.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use scenarios::multirotor::{Airframe, Limits, Model, Plant};
+use scenarios::{Range, Scenario};
+use sim::{Actuation, Commanded, Sample};
+
+use crate::verdict::bernstein;
+use crate::verdict::limits::{SOLVER_TOLERANCE, answer, extremes_m};
+use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::question::{Evidence, Group};
+use crate::verdict::worst::{Quantity, Worst};
+use crate::verdict::{Check, Flown};
+
+/// Distance between the bounds of an extreme squared speed that counts as close enough, m²/s².
+const RESOLUTION_M2PS2: f64 = 1e-9;
+
+/// States at the nodes against the planning limits.
+pub fn check_node_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(Group::Nodes, "state_limits", motions, |motions, worst| {
+        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
+            for knot in motion.knots() {
+                limited.place(worst, knot.position_m, knot.t_s);
+                limited.speed(worst, norm(knot.velocity_mps), limited.promised.speed_mps, knot.t_s);
+            }
+        }
+    })
+}
+
+/// States of the continuous plan against the physical limits.
+pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(Group::Plan, "state_limits", motions, |motions, worst| {
+        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
+            limited.path(worst, motion);
+            for segment in motion.segments().filter(Segment::lasts) {
+                let (speed_mps, t_s) = fastest(&segment);
+                limited.speed(worst, speed_mps, limited.physical().speed_mps, t_s);
+            }
+        }
+    })
+}
+
+/// Flown states against the physical limits.
+pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(Group::Flight, "state_limits", flown, |flown, worst| {
+        let logs = flown.motions.iter().zip(&flown.vehicles);
+        for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
+            limited.path(worst, motion);
+            for sample in vehicle.judged {
+                limited.speed(worst, norm(sample.air_velocity_mps()), limited.physical().speed_mps, sample.t_s);
+                limited.tilt(worst, sample);
+            }
+        }
+    })
+}
+
+/// Planned accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
+/// limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
+pub fn check_accelerations(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(group, "control_limits", motions, |motions, worst| {
+        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
+            let limits = if group == Group::Nodes { limited.promised } else { *limited.physical() };
+            for segment in motion.segments().filter(Segment::lasts) {
+                for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
+                    limited.acceleration(worst, norm(value), limits.acceleration_mps2, t_s);
+                }
+            }
+        }
+    })
+}
+
+/// What acted in flight against the physical limits.
+pub fn check_flown_controls(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(Group::Flight, "control_limits", flown, |flown, worst| {
+        for (limited, vehicle) in limited_vehicles(scenario).zip(&flown.vehicles) {
+            for sample in vehicle.judged {
+                limited.control(worst, sample);
+            }
+        }
+    })
+}
+
+fn limited_vehicles(scenario: &Scenario) -> impl Iterator<Item = Limited<'_>> {
+    scenario.vehicles.iter().map(|vehicle| {
+        let model = scenario.multirotor_model(vehicle);
+        let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
+        let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
+        let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
+        Limited { vehicle: &vehicle.name, map: scenario.world.map.axes(), model, promised }
+    })
+}
+
+/// A vehicle and what it has to stay inside.
+struct Limited<'a> {
+    vehicle: &'a str,
+    map: [Range; 3],
+    model: &'a Model,
+    /// What its planner promised to keep, widened by what a solver may leave.
+    promised: Limits,
+}
+
+impl<'a> Limited<'a> {
+    fn physical(&self) -> &Limits {
+        &self.model.limits
+    }
+
+    fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
+        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
+            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+        }
+    }
+
+    fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
+        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
+            for (value, t_s) in extremes_m(motion, axis) {
+                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
+            }
+        }
+    }
+
+    fn speed(&self, worst: &mut Worst<'a>, speed_mps: f64, most_mps: f64, t_s: f64) {
+        worst.consider(self.vehicle, up_to("speed", "m/s", most_mps), speed_mps, t_s);
+    }
+
+    fn acceleration(&self, worst: &mut Worst<'a>, value_mps2: f64, most_mps2: f64, t_s: f64) {
+        worst.consider(self.vehicle, up_to("acceleration", "m/s²", most_mps2), value_mps2, t_s);
+    }
+
+    /// The airframe, of a quadrotor.
+    fn airframe(&self) -> Option<&'a Airframe> {
+        self.model.airframe.as_ref().filter(|_| self.model.plant == Plant::Quadrotor)
+    }
+
+    fn tilt(&self, worst: &mut Worst<'a>, sample: &Sample) {
+        let Some(airframe) = self.airframe() else { return };
+        let attitude = UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body));
+        let tilt_deg = (attitude * Vector3::z()).z.clamp(-1.0, 1.0).acos().to_degrees();
+        worst.consider(self.vehicle, up_to("tilt", "deg", airframe.tilt_deg), tilt_deg, sample.t_s);
+    }
+
+    fn control(&self, worst: &mut Worst<'a>, sample: &Sample) {
+        match (&sample.actuation, self.airframe()) {
+            (Actuation::Thrusts(Commanded { control, .. }), Some(airframe)) => {
+                let named = ["F_1", "F_2", "F_3", "F_4"].into_iter().zip(control.thrust_n);
+                for (name, value) in named {
+                    let quantity = Quantity { name, unit: "N", range: airframe.thrust_n };
+                    worst.consider(self.vehicle, quantity, value, sample.t_s);
+                }
+            }
+            (Actuation::Acceleration(Commanded { control, .. }), None) => {
+                self.acceleration(worst, norm(*control), self.physical().acceleration_mps2, sample.t_s);
+            }
+            // A log with another vehicle's controls is no log of this one.
+            _ => self.acceleration(worst, f64::NAN, self.physical().acceleration_mps2, sample.t_s),
+        }
+    }
+}
+
+/// A magnitude: the range goes as far below 0 as above, so that small ones are far inside.
+fn up_to(name: &'static str, unit: &'static str, most: f64) -> Quantity {
+    Quantity { name, unit, range: Range::new(-most, most) }
+}
+
+fn norm([x, y, z]: [f64; 3]) -> f64 {
+    (x * x + y * y + z * z).sqrt()
+}
+
+/// Largest speed in a segment, m/s, and when, s: the squared speed is a polynomial of degree 4.
+fn fastest(segment: &Segment) -> (f64, f64) {
+    const SHARES: [[f64; 3]; 3] = [[1.0, 0.5, 1.0 / 6.0], [0.5, 2.0 / 3.0, 0.5], [1.0 / 6.0, 0.5, 1.0]];
+    let duration_s = segment.t_s[1] - segment.t_s[0];
+    let v: [[f64; 3]; 3] = std::array::from_fn(|i| {
+        std::array::from_fn(|axis| (segment.points_m[i + 1][axis] - segment.points_m[i][axis]) * 3.0 / duration_s)
+    });
+    // c_k = Σ_{i+j=k} C(2,i) C(2,j) / C(4,k) v_i·v_j, with the sign turned: the minimum is sought.
+    let mut c = [0.0; 5];
+    for i in 0..3 {
+        for j in 0..3 {
+            let dot: f64 = (0..3).map(|axis| v[i][axis] * v[j][axis]).sum();
+            c[i + j] -= SHARES[i][j] * dot;
+        }
+    }
+    let minimum = bernstein::minimise(&c, f64::INFINITY, |_| RESOLUTION_M2PS2);
+    ((-minimum.lower).sqrt(), minimum.at.map_or(segment.t_s[0], |u| segment.instant_s(u)))
+}
+
+/// Accelerations at both ends of a segment, m/s².
+fn accelerations_mps2(segment: &Segment) -> [[f64; 3]; 2] {
+    let duration_s = segment.t_s[1] - segment.t_s[0];
+    let second = |first: usize| {
+        std::array::from_fn(|axis| {
+            let [a, b, c] = [0, 1, 2].map(|i| segment.points_m[first + i][axis]);
+            6.0 * (a - 2.0 * b + c) / (duration_s * duration_s)
+        })
+    };
+    [second(0), second(1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::motion::Knot;
+
+    #[test]
+    fn speed_and_acceleration_of_a_cubic_are_found_between_its_ends() {
+        // x = 6 t² - 4 t³ on [0, 1]: v = 12 t (1 - t), largest 3 m/s in the middle; a = 12 - 24 t.
+        let knot = |t_s: f64| Knot {
+            t_s,
+            position_m: [6.0 * t_s * t_s - 4.0 * t_s.powi(3), 0.0, 0.0],
+            velocity_mps: [12.0 * t_s * (1.0 - t_s), 0.0, 0.0],
+        };
+        let segment = Segment::between(&knot(0.0), &knot(1.0));
+        let (speed_mps, at_s) = fastest(&segment);
+        assert!((speed_mps - 3.0).abs() < 1e-6 && (at_s - 0.5).abs() < 1e-3, "{speed_mps} at {at_s}");
+        let [first, last] = accelerations_mps2(&segment);
+        assert!((first[0] - 12.0).abs() < 1e-12 && (last[0] + 12.0).abs() < 1e-12, "{first:?} {last:?}");
+    }
+}

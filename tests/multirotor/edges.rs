@@ -1,0 +1,150 @@
+//! Every check on multirotors, on both sides of its limit.
+
+use std::collections::BTreeSet;
+
+use harness::verdict::{Outcome, Status};
+use scenarios::{Family, check_names};
+use sim::{Event, EventKind};
+
+use crate::case::{Case, acceleration};
+
+/// A check, a way to bring what it measures to a given value, and values just beyond and just inside its limit.
+struct Edge {
+    check: &'static str,
+    apply: fn(&mut Case, f64),
+    fails: f64,
+    passes: f64,
+}
+
+const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes: f64) -> Edge {
+    Edge { check, apply, fails, passes }
+}
+
+const EDGES: &[Edge] = &[
+    edge("nodes.separation", |case, m| case.trajectory(1).states[1].position_m[1] = m, 0.999, 1.001),
+    edge("nodes.clearance", grow_wall, -0.001, 0.001),
+    edge("nodes.state_limits", |case, mps| case.trajectory(0).states[1].velocity_mps[0] = mps, 2.501, 2.499),
+    edge("nodes.control_limits", |case, a| case.model().planning_limits.acceleration_mps2 = a, 0.999, 1.001),
+    edge("nodes.goal", |case, m| case.scenario.vehicles[0].goal.x_m = 6.0 + m, 0.501, 0.499),
+    edge("plan.finite", |case, value| case.plan.objective = Some(value), f64::NAN, 0.0),
+    edge("plan.complete", |case, m| case.trajectory(0).states[0].position_m[1] = m, 0.011, 0.009),
+    edge("plan.separation", between_nodes, 0.999, 1.001),
+    edge("plan.clearance", dip_between_nodes, -0.001, 0.001),
+    edge("plan.state_limits", |case, mps| case.model().limits.speed_mps = mps, 1.999, 2.001),
+    edge("plan.control_limits", |case, a| case.model().limits.acceleration_mps2 = a, 0.999, 1.001),
+    edge("plan.goal", |case, m| case.trajectory(1).states[3].position_m[2] += m, 0.501, 0.499),
+    edge("plan.rest", |case, mps| case.trajectory(1).states[3].velocity_mps[1] = mps, 0.201, 0.199),
+    edge("plan.arrival", |case, s| case.trajectory(1).times_s[3] += s, 0.501, 0.499),
+    edge("plan.duration", |case, s| case.scenario.simulation.max_duration_s = s, 4.999, 5.001),
+    edge("flight.finite", |case, value| case.samples(0)[77].measured_position_m[2] = value, f64::INFINITY, 0.0),
+    edge("flight.complete", |case, steps| case.samples(0).truncate(steps as usize), 499.0, 601.0),
+    edge("flight.crash", crash, 1.0, 0.0),
+    edge("flight.separation", |case, m| case.samples(1)[250].position_m[1] = m, 0.999, 1.001),
+    edge("flight.clearance", |case, m| case.samples(0)[250].position_m[1] = -1.15 + m, -0.001, 0.001),
+    edge("flight.state_limits", |case, mps| case.samples(1)[250].wind_mps[1] = mps, 2.2371, 2.2350),
+    edge("flight.control_limits", |case, a| acceleration(&mut case.samples(0)[100]).control[2] = a, 3.001, 2.82),
+    edge("flight.goal", |case, m| case.scenario.vehicles[1].goal.z_m = 2.0 + m, 0.501, 0.499),
+    edge("flight.rest", |case, mps| case.samples(0)[500].velocity_mps[2] = mps, 0.201, 0.199),
+    edge("flight.arrival", |case, s| case.trajectory(1).times_s[3] += s, 0.501, 0.499),
+    edge("flight.duration", |case, s| case.scenario.simulation.max_duration_s = s, 4.999, 5.001),
+    edge(
+        "flight.tracking_rms",
+        |case, m| case.samples(0).iter_mut().for_each(|sample| sample.reference_position_m[1] += m),
+        0.2001,
+        0.1999,
+    ),
+    edge("flight.tracking_max", |case, m| case.samples(1)[123].reference_position_m[2] += m, 0.5001, 0.4999),
+    edge("flight.saturation", saturate, 26.0, 25.0),
+];
+
+/// Grows the wall to the north, to this distance from the first vehicle's surface.
+fn grow_wall(case: &mut Case, clearance_m: f64) {
+    case.scenario.world.boxes[0].size_m[1] = 2.0 * (2.0 - 0.35 - clearance_m);
+}
+
+/// Two cubics that come together between their nodes only.
+fn between_nodes(case: &mut Case, distance_m: f64) {
+    // Velocities ±v at both ends of the second interval, 1 s long: the cubic dips by v/4 in its middle.
+    let states = &mut case.trajectory(1).states;
+    states[1].velocity_mps[1] = -4.0 * (3.0 - distance_m);
+    states[2].velocity_mps[1] = 4.0 * (3.0 - distance_m);
+}
+
+/// The first vehicle dips towards the wall between its nodes only; there it is 1.15 m away.
+fn dip_between_nodes(case: &mut Case, clearance_m: f64) {
+    let states = &mut case.trajectory(0).states;
+    states[1].velocity_mps[1] = -4.0 * (1.15 - clearance_m);
+    states[2].velocity_mps[1] = 4.0 * (1.15 - clearance_m);
+}
+
+fn crash(case: &mut Case, crashes: f64) {
+    let kind = EventKind::Crash { obstacle: Some("wall".to_owned()) };
+    let event = Event { t_s: 3.0, kind, vehicles: vec!["uav-1".to_owned()] };
+    case.flight().events = vec![event; crashes as usize];
+}
+
+/// Cuts off the command during `steps` of the 501 steps of the plan: 5 % are 25.05.
+fn saturate(case: &mut Case, steps: f64) {
+    for sample in &mut case.samples(0)[100..100 + steps as usize] {
+        acceleration(sample).command[0] = 7.7;
+    }
+}
+
+fn broken(edge: &Edge, amount: f64) -> Case {
+    let mut case = Case::good();
+    (edge.apply)(&mut case, amount);
+    case
+}
+
+#[test]
+fn a_right_flight_passes() {
+    let verdict = Case::good().judge();
+    let bad: Vec<_> = verdict.checks.iter().filter(|check| check.is_bad()).collect();
+    assert!(bad.is_empty(), "{bad:#?}");
+    assert_eq!((verdict.outcome, verdict.overclaimed), (Outcome::Pass, false));
+    let names: Vec<&str> = verdict.checks.iter().map(|check| check.name.as_str()).collect();
+    assert_eq!(names, check_names(Family::Multirotor).collect::<Vec<_>>());
+}
+
+#[test]
+fn every_check_fails_just_beyond_its_limit_and_passes_just_inside() {
+    for edge in EDGES {
+        let case = broken(edge, edge.fails);
+        assert_eq!(case.status(edge.check), Status::Fail, "beyond: {:#?}", case.check(edge.check));
+        assert_eq!(case.judge().outcome, Outcome::Fail, "{}", edge.check);
+        let check = broken(edge, edge.passes).check(edge.check);
+        assert_eq!(check.status, Status::Pass, "inside: {check:#?}");
+    }
+}
+
+/// What positions and velocities say already, and what says nothing without feedback.
+const NOT_ASKED: [&str; 2] = ["plan.dynamics", "plan.rollout"];
+
+#[test]
+fn there_is_a_red_test_for_every_check_of_a_verdict() {
+    let red: BTreeSet<&str> = EDGES.iter().map(|edge| edge.check).chain(NOT_ASKED).collect();
+    assert_eq!(red, check_names(Family::Multirotor).collect());
+    let verdict = Case::good().judge();
+    for check in verdict.checks.iter().filter(|check| NOT_ASKED.contains(&check.name.as_str())) {
+        assert_eq!(check.status, Status::Skip, "{check:?}");
+    }
+}
+
+#[test]
+fn clearance_is_kept_from_what_is_hidden_what_moves_and_the_frame() {
+    let concerned = |change: fn(&mut Case)| {
+        let mut case = Case::good();
+        change(&mut case);
+        let check = case.check("flight.clearance");
+        (check.status, check.between)
+    };
+    let (status, between) = concerned(|case| {
+        grow_wall(case, -0.2);
+        case.scenario.world.hidden = vec!["*".into()];
+    });
+    assert_eq!((status, between[1].as_str()), (Status::Fail, "wall"));
+    let (status, between) = concerned(|case| case.scenario.world.moving[0].path_m = vec![[6.0, 3.0], [0.0, 3.0]]);
+    assert_eq!((status, between), (Status::Fail, vec!["uav-2".to_owned(), "cart".to_owned()]));
+    let (status, between) = concerned(|case| case.scenario.world.map.z_m.max = 2.3);
+    assert_eq!((status, between[1].as_str()), (Status::Fail, "map frame"));
+}

@@ -1,0 +1,123 @@
+//! Flights that are planned while they last: by one who flies straight to the goal and stops, and by such as answer
+//! nonsense.
+
+use harness::in_loop::as_plan;
+use harness::verdict::{Check, Outcome, Status, Verdict, judge};
+use scenarios::in_loop::{Answer, InLoopPlanner, Node, Observation};
+use scenarios::{Plan, PlanStatus, Scenario};
+use sim::{EventKind, Flight, fly_in_loop};
+
+use crate::case::scenario;
+
+/// Flies to its goal at 1 m/s and stops there: as a planner, the least that does.
+struct Straight {
+    goal_m: [f64; 3],
+}
+
+impl InLoopPlanner for Straight {
+    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+        let (from_m, t_s) = (observation.position_m, observation.takes_effect_s);
+        let way_m: [f64; 3] = std::array::from_fn(|axis| self.goal_m[axis] - from_m[axis]);
+        let length_m = way_m.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length_m < 0.05 || observation.in_force.len() > 1 {
+            return Answer::keep("on the way");
+        }
+        // 1 s up to 1 m/s and 1 s down again cover 1 m; the rest at 1 m/s.
+        let at = |t_s: f64, share: f64, speed_mps: f64| Node {
+            t_s,
+            position_m: std::array::from_fn(|axis| from_m[axis] + share * way_m[axis]),
+            velocity_mps: way_m.map(|x| x / length_m * speed_mps),
+        };
+        let cruise_s = length_m - 1.0;
+        Answer::fly(vec![
+            at(t_s, 0.0, 0.0),
+            at(t_s + 1.0, 0.5 / length_m, 1.0),
+            at(t_s + 1.0 + cruise_s, 1.0 - 0.5 / length_m, 1.0),
+            at(t_s + 2.0 + cruise_s, 1.0, 0.0),
+        ])
+    }
+}
+
+/// Answers the same thing again and again.
+struct Stubborn(fn(&Observation<'_>) -> Answer);
+
+impl InLoopPlanner for Stubborn {
+    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+        (self.0)(observation)
+    }
+}
+
+fn flown(scenario: &Scenario, planner: impl Fn(usize) -> Box<dyn InLoopPlanner>) -> (Plan, Flight, Verdict) {
+    let planners = (0..scenario.vehicles.len()).map(planner).collect();
+    let flight = fly_in_loop(scenario, planners, 5, &mut |_| {});
+    let plan = as_plan(scenario, "by-hand", 5, flight.planning.as_ref().expect("a log of the planning"));
+    let verdict = judge(scenario, &plan, Some(&flight));
+    (plan, flight, verdict)
+}
+
+fn straight(scenario: &Scenario) -> (Plan, Flight, Verdict) {
+    let goals: Vec<[f64; 3]> = scenario.vehicles.iter().map(|vehicle| vehicle.goal.position_m()).collect();
+    flown(scenario, |index| Box::new(Straight { goal_m: goals[index] }))
+}
+
+fn check<'v>(verdict: &'v Verdict, name: &str) -> &'v Check {
+    verdict.checks.iter().find(|check| check.name == name).unwrap_or_else(|| panic!("no check {name}"))
+}
+
+#[test]
+fn who_flies_to_his_goal_passes_and_is_asked_for_no_plan() {
+    let mut scenario = scenario();
+    scenario.fleet.simultaneous_arrival = false;
+    let (plan, flight, verdict) = straight(&scenario);
+    let bad: Vec<_> = verdict.checks.iter().filter(|check| check.is_bad()).collect();
+    assert!(bad.is_empty(), "{bad:#?}");
+    assert_eq!((verdict.outcome, plan.status), (Outcome::Pass, PlanStatus::Solved));
+    let of_plan = |check: &&Check| check.name.starts_with("nodes.") || check.name.starts_with("plan.");
+    assert!(verdict.checks.iter().filter(of_plan).all(|check| check.status == Status::Skip));
+    assert!(flight.events.iter().any(|event| event.kind == EventKind::Arrived));
+    // Both take 7 s, less what is slow enough to count as rest; the second has its first turn half a period later.
+    assert!((plan.flight_time_s().unwrap() - 7.0).abs() < 0.3, "{:?}", plan.flight_time_s());
+}
+
+#[test]
+fn a_wall_that_nobody_told_of_is_flown_into_and_judged() {
+    let mut scenario = scenario();
+    scenario.world.boxes[0].size_m[1] = 5.0;
+    scenario.world.hidden = vec!["wall".into()];
+    let (_, flight, verdict) = straight(&scenario);
+    assert_eq!(verdict.outcome, Outcome::Fail);
+    for name in ["flight.crash", "flight.goal", "flight.complete"] {
+        assert_eq!(check(&verdict, name).status, Status::Fail, "{name}");
+    }
+    let found = EventKind::Discovered { obstacle: "wall".into() };
+    assert!(flight.events.iter().any(|event| event.kind == found && event.vehicles == ["uav-1"]));
+}
+
+#[test]
+fn the_same_seed_gives_the_same_flight() {
+    let mut scenario = scenario();
+    scenario.simulation.sensors.position_noise_m = 0.02;
+    scenario.simulation.planning.spread = 0.5;
+    let [first, second] = [straight(&scenario), straight(&scenario)];
+    assert_eq!(first.1.vehicles, second.1.vehicles);
+    assert_eq!(first.0.trajectories, second.0.trajectories);
+}
+
+#[test]
+fn nonsense_is_no_plan_and_never_a_panic() {
+    let nonsense: [fn(&Observation<'_>) -> Answer; 6] = [
+        |_| Answer::keep("no idea"),
+        |_| Answer::fly(Vec::new()),
+        |seen| Answer::fly(vec![Node::at_rest(seen.t_s, [0.0; 3])]),
+        |seen| Answer::fly(vec![Node::at_rest(seen.t_s, [f64::NAN; 3]), Node::at_rest(seen.t_s + 1.0, [0.0; 3])]),
+        |_| Answer::fly(vec![Node::at_rest(-2.0, [0.0; 3]), Node::at_rest(-1.0, [0.0; 3])]),
+        |seen| Answer::fly(vec![Node::at_rest(seen.t_s + 9.0, [0.0; 3]), Node::at_rest(seen.t_s + 10.0, [0.0; 3])]),
+    ];
+    let mut scenario = scenario();
+    scenario.simulation.max_duration_s = 3.0;
+    for (index, answer) in nonsense.into_iter().enumerate() {
+        let (plan, _, verdict) = flown(&scenario, |_| Box::new(Stubborn(answer)));
+        assert_eq!((plan.status, verdict.outcome), (PlanStatus::NoPlan, Outcome::NoPlan), "{index}");
+        assert_eq!(check(&verdict, "flight.goal").status, Status::Fail, "{index}");
+    }
+}

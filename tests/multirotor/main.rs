@@ -1,0 +1,5 @@
+//! The judge on multirotors, with plans that were there before the flight and with such as are made during it.
+
+mod case;
+mod edges;
+mod in_loop;
