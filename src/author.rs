@@ -4,8 +4,11 @@ use planners::Planner;
 use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Iteration, Scenario};
 
-use crate::outside::OutsidePlanner;
+use crate::outside::{self, OutsidePlanner};
 use crate::submitted::Answer;
+
+/// Ends a command that plans in the loop, and returns what it wrote to its standard error.
+pub type Log = Box<dyn FnOnce() -> String>;
 
 /// Who answers a scenario.
 #[derive(Clone)]
@@ -38,16 +41,29 @@ impl Author {
 
     /// Does it answer during the flight?
     pub fn plans_in_the_loop(&self) -> bool {
-        matches!(self, Self::Registered(planner) if planner.plans_in_the_loop())
+        match self {
+            Self::Registered(planner) => planner.plans_in_the_loop(),
+            Self::Outside(planner) => planner.in_loop,
+            Self::Submitted(_) => false,
+        }
     }
 
-    /// Those who plan in the loop, one per vehicle; `None` if it answers before the flight. They are told what is known
-    /// beforehand, and no more.
-    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<Vec<Box<dyn InLoopPlanner>>> {
-        let Self::Registered(planner) = self else { return None };
+    /// Those who plan in the loop, one per vehicle, and how to come by what a command writes to its standard error; `None`
+    /// if it answers before the flight. They are told what is known beforehand, and no more.
+    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(Vec<Box<dyn InLoopPlanner>>, Option<Log>)> {
         let briefing = scenario.briefing();
-        let vehicles = 0..scenario.vehicles.len();
-        planner.plans_in_the_loop().then(|| vehicles.map(|index| planner.in_loop(&briefing, index, seed)).collect())
+        match self {
+            Self::Registered(planner) if planner.plans_in_the_loop() => {
+                let vehicles = 0..scenario.vehicles.len();
+                Some((vehicles.map(|index| planner.in_loop(&briefing, index, seed)).collect(), None))
+            }
+            Self::Outside(planner) if planner.in_loop => {
+                let crew = outside::Crew::start(planner, &briefing, seed);
+                let log: Log = Box::new(crew.log());
+                Some((crew.planners, Some(log)))
+            }
+            _ => None,
+        }
     }
 
     /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a planner of ours as they end.

@@ -114,6 +114,7 @@ fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Resul
             command,
             folder,
             time_limit_s: scenario.planner.time_limit_s,
+            in_loop: scenario.planner.in_loop,
         }));
     }
     let Some(planner) = planners::find(name) else {

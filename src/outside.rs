@@ -10,6 +10,7 @@
 //! sense are findings about that planner, and other scenarios go on.
 
 mod group;
+mod in_loop;
 mod process;
 mod reply;
 mod request;
@@ -20,6 +21,8 @@ use std::time::Duration;
 use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
 
 use crate::submitted::Answer;
+
+pub use in_loop::Crew;
 
 /// Version of request and reply.
 pub const PROTOCOL: u64 = 1;
@@ -35,8 +38,10 @@ pub struct OutsidePlanner {
     pub command: Vec<String>,
     /// Folder in which it is started.
     pub folder: PathBuf,
-    /// Time that it has, s. [default: 60]
+    /// Time that it has, s. [default: 60; in the loop 10, for each answer]
     pub time_limit_s: Option<f64>,
+    /// Does it plan in the loop?
+    pub in_loop: bool,
 }
 
 /// What came of it, with what the command wrote to its standard error.

@@ -11,7 +11,7 @@ use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
-use crate::author::{Author, HandedOver};
+use crate::author::{Author, HandedOver, Log};
 use crate::error::Error;
 use crate::export::tum;
 use crate::jobs::Job;
@@ -46,7 +46,7 @@ pub struct Done {
 pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<Done, Error> {
     let mut timings = Timings::default();
     let (HandedOver { answer, log }, flight) = match job.author.crew(&job.scenario, job.seed) {
-        Some(crew) => fly_in_loop(job, crew, &mut timings, progress),
+        Some((crew, log)) => fly_in_loop(job, crew, log, &mut timings, progress),
         None => {
             let handed_over = timed(&mut timings.planning_s, || plan(job, progress));
             let flight = timed(&mut timings.flying_s, || fly(job, &handed_over.answer.plan, progress));
@@ -90,18 +90,19 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
 fn fly_in_loop(
     job: &Job,
     crew: Vec<Box<dyn InLoopPlanner>>,
+    log: Option<Log>,
     timings: &mut Timings,
     progress: &mut Progress,
 ) -> (HandedOver, Option<Flight>) {
     progress.flying(job.scenario.simulation.max_duration_s);
     let mut both_s = 0.0;
     let flight = timed(&mut both_s, || sim::fly_in_loop(&job.scenario, crew, job.seed, &mut |t_s| progress.flown(t_s)));
-    let log = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
-    let plan = in_loop::as_plan(&job.scenario, job.author.name(), job.seed, log);
+    let planning = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
+    let plan = in_loop::as_plan(&job.scenario, job.author.name(), job.seed, planning);
     timings.planning_s = plan.timings.wall_s;
     timings.flying_s = (both_s - plan.timings.wall_s).max(0.0);
-    timings.replans = ReplanTimes::of(log);
-    (HandedOver { answer: Answer::whole(plan), log: None }, Some(flight))
+    timings.replans = ReplanTimes::of(planning);
+    (HandedOver { answer: Answer::whole(plan), log: log.map(|log| log()) }, Some(flight))
 }
 
 fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {

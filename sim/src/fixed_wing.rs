@@ -6,11 +6,13 @@
 mod air_path;
 mod aircraft;
 mod attitude;
+mod collisions;
 mod fleet;
 mod flow;
 mod plant;
 mod quintic;
 mod reference;
+mod squadron;
 mod tracker;
 
 pub use air_path::{AirPath, acceleration_mps2, gravity_mps2};

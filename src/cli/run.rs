@@ -78,7 +78,13 @@ impl AuthorArgs {
         let command = shlex::split(text).filter(|words| !words.is_empty());
         let command = command.ok_or_else(|| Error::PlannerCommand { command: text.clone() })?;
         let (name, folder) = (name_of(&command), PathBuf::from("."));
-        Ok(vec![Author::Outside(OutsidePlanner { name, command, folder, time_limit_s: self.time_limit })])
+        Ok(vec![Author::Outside(OutsidePlanner {
+            name,
+            command,
+            folder,
+            time_limit_s: self.time_limit,
+            in_loop: false,
+        })])
     }
 }
 

@@ -12,11 +12,11 @@ use super::group;
 /// Longest output that is read, bytes; of a longer standard error the beginning is kept.
 const MOST_OUTPUT: u64 = 256 << 20;
 /// Longest log that is kept, bytes.
-const MOST_LOG: u64 = 4 << 20;
+pub(super) const MOST_LOG: u64 = 4 << 20;
 /// Time between two looks at a command that is still running.
 const LOOK: Duration = Duration::from_millis(2);
 /// Time that the pipes of an ended command have to run dry: a process that left its group may hold them open for ever.
-const DRAIN: Duration = Duration::from_secs(2);
+pub(super) const DRAIN: Duration = Duration::from_secs(2);
 
 /// What became of a command.
 pub(super) struct Ended {
@@ -53,7 +53,8 @@ pub(super) fn run(command: &[String], folder: &Path, question: Vec<u8>, time_lim
     Ended { output, log, wall }
 }
 
-fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child> {
+/// Starts a command, all three pipes ours, in a process group of its own.
+pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child> {
     let program = command.first().cloned().unwrap_or_default();
     // a program beside the scenario file is found there, one without a folder on the PATH
     let is_path = program.contains(std::path::MAIN_SEPARATOR);
@@ -74,7 +75,7 @@ fn feed(child: &mut Child, question: Vec<u8>) {
 }
 
 /// Everything that a pipe brings, `most` bytes of it at most, once it is closed. What comes after that is thrown away.
-fn drain(pipe: Option<impl Read + Send + 'static>, most: u64) -> Receiver<Vec<u8>> {
+pub(super) fn drain(pipe: Option<impl Read + Send + 'static>, most: u64) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let mut bytes = Vec::new();

@@ -1,7 +1,7 @@
 //! The question, with everything in it that a planner may know: no file has to be read, no model to be looked up.
 
 use scenarios::fixed_wing::{self, GRAVITY_MPS2, Limits};
-use scenarios::{Model, Range, Scenario, Vehicle, Waypoint};
+use scenarios::{Model, Range, Scenario, Vehicle, Waypoint, World};
 use scenarios::{multirotor, slung_load};
 use serde_json::{Value, json};
 
@@ -16,18 +16,23 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
         "seed": seed,
         "time_limit_s": time_limit_s,
         "gravity_mps2": GRAVITY_MPS2,
-        "world": {
-            "map": scenario.world.map,
-            "cylinders": scenario.world.cylinders,
-            "prisms": scenario.world.flat_obstacles(),
-            "ground_m": scenario.world.ground_m,
-        },
+        "world": world(&scenario.world),
         "vehicles": scenario.vehicles.iter().map(|own| vehicle(scenario, own)).collect::<Vec<_>>(),
         "fleet": scenario.fleet,
         "verdict": scenario.limits(),
         "envelope_m": scenario.verdict.envelope_m,
         "max_duration_s": scenario.simulation.max_duration_s,
         "options": scenario.planner.options,
+    })
+}
+
+/// Map and obstacles, the boxes as prisms.
+pub(super) fn world(world: &World) -> Value {
+    json!({
+        "map": world.map,
+        "cylinders": world.cylinders,
+        "prisms": world.flat_obstacles(),
+        "ground_m": world.ground_m,
     })
 }
 

@@ -20,6 +20,7 @@ fn ask(script: &str, time_limit_s: f64) -> (PlanStatus, String, String) {
         command: ["sh", "-c", script].map(str::to_owned).to_vec(),
         folder: PathBuf::from("."),
         time_limit_s: Some(time_limit_s),
+        in_loop: false,
     };
     let outside = planner.plan(&scenario(), 3);
     let plan = outside.answer.plan;
@@ -103,6 +104,7 @@ fn a_program_that_is_not_there_is_a_reason_too() {
         command: vec!["no-such-program".into()],
         folder: PathBuf::from("."),
         time_limit_s: None,
+        in_loop: false,
     };
     let reason = planner.plan(&scenario(), 0).answer.plan.reason.expect("a reason");
     assert!(reason.contains("cannot start `no-such-program`"), "{reason}");

@@ -38,6 +38,18 @@ fn the_example_passes_its_scenario_and_a_shipped_one() {
 }
 
 #[test]
+fn a_planner_in_the_loop_flies_its_scenario() {
+    if !has_numpy() {
+        return;
+    }
+    let workplace = Workplace::new(&[]);
+    let own = example("online.toml").display().to_string();
+    let output = workplace.harness(&["run", &own, "--record", "none"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("PASS  online · straight-on"), "{}", stdout(&output));
+}
+
+#[test]
 fn a_planner_that_crashes_is_a_verdict_and_the_others_go_on() {
     let outside = PAIR
         .replace("\"pair\"", "\"broken\"")

@@ -84,7 +84,7 @@ fn scenario(vehicles: Vec<Vehicle>, step_s: f64) -> Scenario {
         world: World { cylinders: vec![pillar], ..World::empty(map) },
         models: Models { fixed_wing: [("paper".to_owned(), model())].into(), ..Models::default() },
         vehicles,
-        fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true },
+        fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true, ..FleetRules::default() },
         planner: PlannerSettings { name: "by-hand".to_owned(), ..Default::default() },
         simulation: Simulation { step_s, coast_s: COAST_S, max_duration_s: 60.0, ..Default::default() },
         verdict: VerdictLimits::default(),

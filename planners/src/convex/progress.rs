@@ -3,7 +3,7 @@
 use super::solution::{Settings, Status};
 
 /// Iterations without a tenth of progress after which a solve counts as stalled.
-const STALL_LIMIT: usize = 5;
+const STALL_LIMIT: usize = 12;
 
 /// Measures of one iterate. Every iterate is feasible, so that the gap is all there is.
 #[derive(Clone, Copy, Debug)]

@@ -3,14 +3,32 @@
 use rayon::prelude::*;
 use scenarios::Solver;
 
-use crate::convex::{self, Program, Settings, Solution};
+use crate::convex::{self, Program, Settings, Solution, Solvers};
 
-/// Solves every programme to the relative gap and residuals `tolerance`, in parallel.
-pub fn solve_all_by(solver: Solver, programs: &[Program], tolerance: f64) -> Vec<Solution> {
-    match solver {
-        Solver::Block => convex::solve_all(programs, &Settings { tolerance, ..Settings::default() }),
-        Solver::Clarabel => {
-            programs.par_iter().map(|program| convex::solve_with_clarabel(program, tolerance)).collect()
+/// What solves every subproblem of an iteration, in parallel.
+pub enum AllSolver {
+    /// By the customised interior-point method, whose work vectors are kept from iteration to iteration.
+    Block(Solvers),
+    /// By Clarabel, to the relative gap and residuals that are given.
+    Clarabel(f64),
+}
+
+impl AllSolver {
+    /// To the relative gap and residuals `tolerance`.
+    pub fn new(solver: Solver, tolerance: f64) -> Self {
+        match solver {
+            Solver::Block => Self::Block(Solvers::new(Settings { tolerance, ..Settings::default() })),
+            Solver::Clarabel => Self::Clarabel(tolerance),
+        }
+    }
+
+    /// The solutions, in the order of the programmes.
+    pub fn solve(&self, programs: &[Program]) -> Vec<Solution> {
+        match self {
+            Self::Block(solvers) => solvers.solve_all(programs),
+            Self::Clarabel(tolerance) => {
+                programs.par_iter().map(|program| convex::solve_with_clarabel(program, *tolerance)).collect()
+            }
         }
     }
 }

@@ -23,6 +23,7 @@ pub(crate) struct Aircraft {
     /// Velocity of the air at the coming step's beginning, m/s.
     wind_mps: Vector3<f64>,
     saturation: SaturationWatch,
+    is_flying: bool,
     log: VehicleLog,
 }
 
@@ -49,6 +50,7 @@ impl Aircraft {
             control: Control::CRUISE,
             wind_mps: Vector3::zeros(),
             saturation: SaturationWatch::default(),
+            is_flying: true,
             log: VehicleLog {
                 vehicle: vehicle.name.clone(),
                 samples: Vec::with_capacity(steps + 1),
@@ -62,15 +64,43 @@ impl Aircraft {
         &self.log.vehicle
     }
 
+    /// Radius of its body, m.
+    pub fn body_radius_m(&self) -> f64 {
+        self.model.body_radius_m
+    }
+
+    /// The mass that its load factors are computed with, kg.
+    pub fn nominal_mass_kg(&self) -> f64 {
+        self.model.mass_kg
+    }
+
+    /// Is it still in the air?
+    pub fn is_flying(&self) -> bool {
+        self.is_flying
+    }
+
+    /// Its log so far: one sample at time 0 and one after every step.
+    pub fn samples(&self) -> &[Sample] {
+        &self.log.samples
+    }
+
+    /// It crashed: what it did after so many steps never happened.
+    pub fn take_out(&mut self, steps: usize) {
+        self.is_flying = false;
+        self.log.samples.truncate(steps + 1);
+    }
+
+    /// Beginnings and ends of saturations, with their times, s, from step `first` on: to be called once for every sample,
+    /// when it is certain that it stays.
+    pub fn saturations(&mut self, first: usize) -> Vec<(f64, EventKind)> {
+        let new = if first == 0 { 0 } else { first + 1 };
+        let Self { log, saturation, .. } = self;
+        let samples = log.samples.iter().skip(new);
+        samples.filter_map(|sample| saturation.observe(sample.t_s, sample.is_saturated())).collect()
+    }
+
     /// Measures, decides on the control of the coming step, and logs. `position_m`, `velocity_mps`: the truth at `t_s`.
-    ///
-    /// Returns an event with its time, s, if there is one.
-    pub fn decide(
-        &mut self,
-        t_s: f64,
-        position_m: Vector3<f64>,
-        velocity_mps: Vector3<f64>,
-    ) -> Option<(f64, EventKind)> {
+    pub fn decide(&mut self, t_s: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
         let measured = self.sensors.measure(position_m, velocity_mps);
         let reference = self.reference.at(t_s);
         let command = self.command(t_s, &measured, &reference);
@@ -89,7 +119,6 @@ impl Aircraft {
             actuation: Actuation::LoadFactors(Commanded { command, control: self.control }),
         };
         self.log.samples.push(sample);
-        self.saturation.observe(t_s, sample.is_saturated())
     }
 
     fn command(&self, t_s: f64, measured: &Measurement, reference: &ReferencePoint) -> Control {

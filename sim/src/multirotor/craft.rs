@@ -3,7 +3,7 @@ use scenarios::multirotor::{GRAVITY_MPS2, Model, Plant};
 use scenarios::{Scenario, Vehicle, slung_load};
 
 use super::reference::{Reference, ReferencePoint};
-use super::tracker::{Autopilot, Tracker, limited_mps2, upright_towards};
+use super::tracker::{Autopilot, Tracker, limited_mps2, turned_towards, upright_towards};
 use crate::air::Air;
 use crate::quadrotor::Turning;
 use crate::rapier_world::RapierWorld;
@@ -24,7 +24,7 @@ pub(super) struct Craft {
     sensors: Sensors,
     air: Air,
     step_s: f64,
-    /// Acceleration that acts during the coming step, m/s², of a point mass.
+    /// Acceleration that was decided on, m/s²: that of a point mass acts during the coming step.
     acceleration_mps2: Vector3<f64>,
     /// Thrusts that are asked for, and that the rotors give, N, of a quadrotor.
     command_n: Vector4<f64>,
@@ -57,10 +57,10 @@ impl Craft {
         let mass_kg = model.mass_kg * settings.mismatch.mass_ratio;
         let [position_m, velocity_mps] = start;
         match &autopilot {
-            None => world.add_body(mass_kg, model.body_radius_m, position_m, velocity_mps),
+            None => world.add_body(mass_kg, position_m, velocity_mps),
             Some(autopilot) => {
                 let inertia_kgm2 = autopilot.airframe().inertia_kgm2.into();
-                world.add_turning_body(mass_kg, inertia_kgm2, model.body_radius_m, position_m, velocity_mps);
+                world.add_turning_body(mass_kg, inertia_kgm2, position_m, velocity_mps);
             }
         }
         let hover_n = autopilot.as_ref().map_or_else(Vector4::zeros, Autopilot::hover_n);
@@ -107,12 +107,14 @@ impl Craft {
         let (here, ahead) = (reference.at(t_s), reference.at(t_s + self.step_s / 2.0));
         let wanted_mps2 =
             if open_loop { ahead.acceleration_mps2 } else { self.tracker.acceleration_mps2(measured, &here, &ahead) };
+        let wanted_mps2 = match &self.autopilot {
+            None => wanted_mps2,
+            Some(_) => turned_towards(&self.acceleration_mps2, &wanted_mps2, self.step_s),
+        };
         let limited = limited_mps2(&wanted_mps2, &measured.velocity_mps, &self.model.limits, self.step_s);
+        self.acceleration_mps2 = limited;
         let actuation = match &self.autopilot {
-            None => {
-                self.acceleration_mps2 = limited;
-                Actuation::Acceleration(Commanded { command: wanted_mps2.into(), control: limited.into() })
-            }
+            None => Actuation::Acceleration(Commanded { command: wanted_mps2.into(), control: limited.into() }),
             Some(autopilot) => {
                 let turning = self.sensors.measure_turning(&truth.turning);
                 let [command_n, limited_n] = autopilot.thrusts_n(&turning, &wanted_mps2, &limited);

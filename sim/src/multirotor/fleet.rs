@@ -7,13 +7,14 @@ use super::craft::{Craft, Truth};
 use super::reference::Reference;
 use super::surroundings::Surroundings;
 use crate::in_loop::{Fix, Helm, Other, PlanningLog, Replan, Senses};
-use crate::rapier_world::{RapierWorld, Touched};
+use crate::rapier_world::RapierWorld;
 use crate::sensors::{Measurement, Sensors};
+use crate::touch::first_touch;
 use crate::{Event, EventKind, Flight, Pilot, Setup, VehicleLog};
 
 /// Longest step of a quadrotor's plant, s: an ordinary step of the simulator, for which a command is held, is divided into
 /// such.
-const LONGEST_PLANT_STEP_S: f64 = 1e-3;
+const LONGEST_PLANT_STEP_S: f64 = 5e-4;
 
 /// Flies a plan of multirotors for so many steps, and returns their logs and what happened.
 pub(crate) fn fly(
@@ -157,17 +158,29 @@ impl Fleet {
             for (craft, _) in self.crafts.iter_mut().zip(&self.is_flying).filter(|(_, is_flying)| **is_flying) {
                 craft.push(&mut self.world, plant_step_s);
             }
-            self.touch_each_other(times_s[0], plant_step_s);
+            self.world.step();
+            self.touch_each_other(times_s, &before);
             self.touch_obstacles(times_s, &before);
         }
     }
 
-    /// Lets the world move, and takes out those who touched each other.
-    fn touch_each_other(&mut self, t_s: f64, plant_step_s: f64) {
-        for touch in self.world.step() {
-            let Touched::Body(other) = touch.with else { continue };
-            if self.is_flying[touch.body] && self.is_flying[other] {
-                self.crash(&[touch.body, other], None, t_s + touch.share * plant_step_s);
+    /// Takes out those who touched each other, the earliest first.
+    fn touch_each_other(&mut self, times_s: [f64; 2], before: &[Option<Truth>]) {
+        let mut touches: Vec<(f64, [usize; 2])> = Vec::new();
+        let flying: Vec<usize> = (0..self.crafts.len()).filter(|index| self.is_flying[*index]).collect();
+        for (place, &first) in flying.iter().enumerate() {
+            for &second in &flying[place + 1..] {
+                let (Some(a), Some(b)) = (before[first], before[second]) else { continue };
+                let start_m = a.position_m - b.position_m;
+                let end_m = self.world.position_m(first) - self.world.position_m(second);
+                let reach_m = self.crafts[first].model.body_radius_m + self.crafts[second].model.body_radius_m;
+                touches.extend(first_touch(&start_m, &end_m, reach_m).map(|share| (share, [first, second])));
+            }
+        }
+        touches.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (share, pair) in touches {
+            if pair.iter().all(|index| self.is_flying[*index]) {
+                self.crash(&pair, None, times_s[0] + share * (times_s[1] - times_s[0]));
             }
         }
     }

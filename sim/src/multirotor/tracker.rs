@@ -45,6 +45,10 @@ const INSIDE: f64 = 1.0 - 1e-12;
 /// Rate with which a quadrotor turns its nose back to the east, per rad of error, rad/s: yaw is the dearest of torques.
 const YAW_RATE_PER_RAD: f64 = 0.5;
 
+/// Change of acceleration that a quadrotor is asked for at most, m/s³: plans step from one acceleration to the next, a
+/// quadrotor has to tilt in between, some 3 rad/s at this.
+const SHARPEST_JERK_MPS3: f64 = 30.0;
+
 /// An acceleration inside the vehicle's limits: no larger than it can be, and none that leads beyond the largest speed
 /// within a step.
 ///
@@ -65,6 +69,12 @@ pub(super) fn limited_mps2(
     }
     let held = (next_mps * (most_mps / next_mps.norm()) - velocity_mps) / step_s;
     held * (most_mps2 / held.norm().max(most_mps2))
+}
+
+/// The acceleration that a quadrotor is asked for next: towards the wanted one, no faster than it can tilt.
+pub(super) fn turned_towards(last_mps2: &Vector3<f64>, wanted_mps2: &Vector3<f64>, step_s: f64) -> Vector3<f64> {
+    let (change, most) = (wanted_mps2 - last_mps2, SHARPEST_JERK_MPS3 * step_s);
+    last_mps2 + change * (most / change.norm().max(most))
 }
 
 /// Turns accelerations into thrusts: the quadrotor's inner loop.

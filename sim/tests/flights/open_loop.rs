@@ -47,7 +47,8 @@ fn the_log_holds_every_step_and_ends_after_the_coast() {
     assert_eq!(samples.len(), 881);
     assert!(samples.iter().enumerate().all(|(step, sample)| (sample.t_s - 0.01 * step as f64).abs() < 1e-12));
     assert_eq!(flight.plan_end_s, 7.3);
-    assert_eq!(seconds.len(), 8);
+    assert_eq!(seconds.len(), 9);
+    assert!((seconds[7] - 8.0).abs() < 1e-12 && (seconds[8] - 8.8).abs() < 1e-12);
     scenario.simulation.max_duration_s = 5.0;
     let cut = fly_with(&scenario, &plan, 0, &OPEN_LOOP, &mut arena::silent);
     assert_eq!(cut.vehicles[0].samples.len(), 501);

@@ -105,7 +105,8 @@ fn a_quadrotor_moves_as_its_rotors_and_the_air_make_it() {
             });
         }
     }
-    assert!(worst_m < 5e-3 && worst_rad < 2e-3, "{worst_m} m, {worst_rad} rad");
+    // Without feedback an attitude that is off by 1e-4 rad leads 2 cm astray in 6 s.
+    assert!(worst_m < 8e-3 && worst_rad < 5e-4, "{worst_m} m, {worst_rad} rad");
 }
 
 #[test]

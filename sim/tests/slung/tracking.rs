@@ -109,6 +109,7 @@ fn sensors() -> Sensors {
         rate_noise_degps: 1.0,
         load_position_noise_m: 0.01,
         load_velocity_noise_mps: 0.05,
+        ..Sensors::default()
     }
 }
 

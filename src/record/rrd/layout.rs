@@ -24,6 +24,8 @@ const MOST_LEGEND_ENTRIES: usize = 10;
 
 /// Room for the legend at the right of a plot, as a share of the flight's duration.
 const ROOM_FOR_LEGEND: f64 = 0.25;
+/// Clearance up to which multirotors are shown, m: farther away from everything nothing happens.
+const NEAR_M: f64 = 2.5;
 /// Time in which a whole flight is played, s.
 const PLAYBACK_S: f64 = 20.0;
 
@@ -105,7 +107,9 @@ fn verdict(layout: &Blueprint, run: &Run<'_>, distances: &Distances) -> Result<P
         if let Some(curve) = &distances.clearance {
             let view = plot(layout, "clearance", "Smallest clearance to an obstacle [m]", end_s, true)?;
             let radii_m = run.scenario.world.cylinders.iter().map(|cylinder| cylinder.radius_m);
-            zoom(layout, &view, curve, radii_m.fold(0.0, f64::max))?;
+            let window_m =
+                if run.scenario.family() == Family::Multirotor { NEAR_M } else { radii_m.fold(0.0, f64::max) };
+            zoom(layout, &view, curve, window_m)?;
             rows.push((view, 1.0));
         }
         // Too low for a legend of the fleet; the colours are those of the world.
@@ -152,8 +156,7 @@ fn quantity(
 ) -> Result<Part, Error> {
     let view = plot(layout, quantity.group(), quantity.title(), end_s(flight), legend)?;
     let limits = quantity.limits(scenario).into_iter().map(|(_, value)| value);
-    let measured = flight.vehicles.iter().flat_map(|log| &log.samples).map(|sample| quantity.of(sample));
-    let shown: Curve = limits.chain(measured).map(|value| (0.0, value)).collect();
+    let shown: Curve = limits.chain(quantity.extremes(flight)).map(|value| (0.0, value)).collect();
     if let (Some(lowest), Some(highest)) = (shown.min(), shown.max()) {
         values(layout, &view, lowest, highest)?;
     }

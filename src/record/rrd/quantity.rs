@@ -1,8 +1,9 @@
 //! The quantities that are plotted per vehicle, and what each is held against.
 
+use rayon::prelude::*;
 use scenarios::Scenario;
 use scenarios::fixed_wing::Limits;
-use sim::Sample;
+use sim::{Flight, Sample, VehicleLog};
 
 /// A plotted quantity of one vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +69,15 @@ impl Quantity {
             Self::Airspeed => norm(sample.air_velocity_mps()),
             Self::Altitude => sample.position_m[2],
         }
+    }
+
+    /// The smallest and the largest value of every vehicle, among those that are numbers.
+    pub fn extremes(self, flight: &Flight) -> Vec<f64> {
+        let of_vehicle = |log: &VehicleLog| {
+            let values = || log.samples.iter().map(|sample| self.of(sample)).filter(|value| value.is_finite());
+            [values().reduce(f64::min), values().reduce(f64::max)]
+        };
+        flight.vehicles.par_iter().flat_map_iter(of_vehicle).flatten_iter().collect()
     }
 
     /// What it is held against, with a name: the scenario's limit, or the bounds of every model that flies.

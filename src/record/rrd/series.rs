@@ -1,8 +1,9 @@
 //! Time series of the flight, and the lines they are held against.
 
+use rayon::prelude::*;
 use rerun::{Color, EntityPath, RecordingStream, Scalars, SeriesLines};
 use scenarios::Scenario;
-use sim::Flight;
+use sim::{Flight, VehicleLog};
 
 use super::distances::Distances;
 use super::quantity::Quantity;
@@ -45,20 +46,15 @@ pub fn end_s(flight: &Flight) -> f64 {
 pub fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Flight) -> Logged {
     let count = flight.vehicles.len();
     let points = (MOST_POINTS_OF_FLEET / (count.max(1) * Quantity::ALL.len())).clamp(200, MOST_POINTS);
-    for (index, log) in flight.vehicles.iter().enumerate() {
-        // Beyond its end there is no plan to be away from.
-        let is_shown = |sample: &&sim::Sample| quantity != Quantity::Tracking || sample.t_s <= flight.plan_end_s;
-        let curve: Curve =
-            log.samples.iter().filter(is_shown).map(|sample| (sample.t_s, quantity.of(sample))).collect();
+    // Beyond its end there is no plan to be away from.
+    let is_shown = |sample: &&sim::Sample| quantity != Quantity::Tracking || sample.t_s <= flight.plan_end_s;
+    let curve = |log: &VehicleLog| -> Curve {
+        log.samples.iter().filter(is_shown).map(|sample| (sample.t_s, quantity.of(sample))).collect()
+    };
+    let curves: Vec<Curve> = flight.vehicles.par_iter().map(|log| curve(log).thinned(points)).collect();
+    for (index, (log, curve)) in flight.vehicles.iter().zip(curves).enumerate() {
         let path = entity(&format!("plots/{}", quantity.group()), &log.vehicle);
-        log_curve(
-            stream,
-            path,
-            &log.vehicle,
-            palette::opaque(palette::vehicle(index, count)),
-            1.2,
-            curve.thinned(points),
-        )?;
+        log_curve(stream, path, &log.vehicle, palette::opaque(palette::vehicle(index, count)), 1.2, curve)?;
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Where the sequence starts: everybody on a way that could be flown, at a speed that brings all there together, and no
 //! crowd at one point.
 
+use rayon::prelude::*;
 use scenarios::Scenario;
 
 use super::super::dynamics::State;
@@ -41,7 +42,7 @@ impl FirstGuess {
     }
 
     fn from_starts(scenario: &Scenario, options: &Options, starts: &[Start]) -> Self {
-        let vehicles = scenario.vehicles.iter().zip(starts);
+        let vehicles = scenario.vehicles.par_iter().zip(starts);
         let trajectory = |(vehicle, start)| guess::trajectory(scenario, vehicle, start, options.intervals, RAMP);
         let (trajectories, boundary) = vehicles.map(trajectory).unzip();
         Self { trajectories, boundary }

@@ -9,7 +9,7 @@ use super::super::dynamics::State;
 use super::super::iterate::Iterate;
 use super::super::options::Options;
 use super::super::plan::{node_clearance_m, node_separation_m};
-use super::super::solve_all::solve_all_by;
+use super::super::solve_all::AllSolver;
 use super::super::subproblem::{self, Context};
 use super::acceptance::{self, Fault};
 use super::first_guess::FirstGuess;
@@ -36,6 +36,8 @@ pub struct Sequence<'a> {
     boundary: Vec<[State; 2]>,
     trajectories: Vec<Iterate>,
     schedule: Schedule,
+    /// One per tolerance.
+    solvers: [AllSolver; 2],
 }
 
 impl<'a> Sequence<'a> {
@@ -53,6 +55,7 @@ impl<'a> Sequence<'a> {
             bounds: scenario.vehicles.iter().map(bounds).collect(),
             boundary,
             schedule: Schedule::new(options.trust_region, options.shrink, release, simultaneous_dt_s),
+            solvers: TOLERANCES.map(|tolerance| AllSolver::new(options.solver, tolerance)),
             options,
             trajectories,
         }
@@ -64,7 +67,7 @@ impl<'a> Sequence<'a> {
         let traffic = self.traffic();
         let trust_region_m = self.schedule.trust_region()[0];
         let programs = self.programs(&traffic, Rows::new(&traffic, &self.rules, trust_region_m));
-        let solutions = solve_all_by(self.options.solver, &programs, self.tolerance());
+        let solutions = self.solvers[usize::from(!self.schedule.is_searching())].solve(&programs);
         inspect(&programs, &solutions);
         let violations = programs.par_iter().zip(&solutions).map(|(program, at)| program.largest_violation(&at.z));
         let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
@@ -115,10 +118,6 @@ impl<'a> Sequence<'a> {
             subproblem::assemble(&context, &self.trajectories[i], planes)
         };
         rows.planes.into_par_iter().enumerate().map(program).collect()
-    }
-
-    fn tolerance(&self) -> f64 {
-        TOLERANCES[usize::from(!self.schedule.is_searching())]
     }
 
     /// What is made small: the longest step length, or the mean one where everybody flies for himself, times K.

@@ -111,7 +111,7 @@ fn scenario(count: usize, duration_s: f64) -> Scenario {
         world: World { cylinders: (-2..=2).map(cylinder).collect(), ..World::empty(map) },
         models: Models { fixed_wing: [("scout".to_owned(), model())].into(), ..Models::default() },
         vehicles: (0..count).map(vehicle).collect(),
-        fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true },
+        fleet: FleetRules { separation_m: Some(100.0), simultaneous_arrival: true, ..FleetRules::default() },
         planner: PlannerSettings { name: "by-hand".to_owned(), ..PlannerSettings::default() },
         simulation: Simulation::default(),
         verdict: VerdictLimits::default(),

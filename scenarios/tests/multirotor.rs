@@ -1,0 +1,104 @@
+//! Scenarios of multirotors: what makes no sense is refused, with its place.
+
+use scenarios::{Scenario, parse};
+
+const TEXT: &str = r#"name = "quad"
+description = "Past a box and a cart."
+
+[world]
+map = { x_m = [-4, 14], y_m = [-4, 4], z_m = [0, 4] }
+hidden = ["box"]
+
+[[world.boxes]]
+name = "box"
+center_m = [4, 0]
+size_m = [1, 1]
+
+[[world.moving]]
+name = "cart"
+radius_m = 0.5
+path_m = [[6, -3], [6, 3]]
+speed_mps = 0.5
+
+[models.multirotor.quad]
+plant = "point-mass"
+mass_kg = 1.5
+body_radius_m = 0.35
+sensor_range_m = 6
+limits = { speed_mps = 4, acceleration_mps2 = 4 }
+planning_limits = { speed_mps = 3, acceleration_mps2 = 3 }
+
+[[vehicles]]
+name = "uav-1"
+model = "quad"
+start = { x_m = 0, y_m = 0, z_m = 2 }
+goal = { x_m = 10, y_m = 0, z_m = 2 }
+
+[planner]
+name = "any"
+
+[simulation]
+planning = { period_s = 0.25, deadline_s = 0.1 }
+"#;
+
+fn scenario() -> Scenario {
+    parse("quad.toml", TEXT).expect("a good scenario")
+}
+
+/// The single fault of the changed text: field, what was found, what was expected.
+#[track_caller]
+fn assert_fault(old: &str, new: &str, field: &str, found: &str, expected: &str) {
+    assert!(TEXT.contains(old), "{old}");
+    let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
+    let [fault] = error.faults() else { panic!("expected one fault, found {:#?}", error.faults()) };
+    assert_eq!(fault.problem.field, field, "{fault}");
+    assert!(fault.problem.found.contains(found) && fault.problem.expected.contains(expected), "{fault}");
+}
+
+#[test]
+fn a_vehicle_has_to_see_far_enough_to_stop() {
+    // 1.5 m to brake, 3 m/s for 0.35 s, 0.5 m/s of the cart for 1.35 s, and the body: 3.575 m.
+    let field = "models.multirotor.quad.sensor_range_m";
+    assert_fault("sensor_range_m = 6", "sensor_range_m = 3.57", field, "3.57", "3.575 m or more");
+    assert!(parse("quad.toml", &TEXT.replace("sensor_range_m = 6", "sensor_range_m = 3.58")).is_ok());
+}
+
+#[test]
+fn bodies_need_room_at_their_ends() {
+    assert_fault("x_m = 0, y_m = 0", "x_m = 3.2, y_m = 0", "vehicles[0].start", "0.300 m from `box`", "0.35 m");
+    assert_fault("x_m = 0, y_m = 0", "x_m = -3.8, y_m = 0", "vehicles[0].start.x_m", "-3.8", "0.35 m, the body");
+    assert_fault("x_m = 0, y_m = 0", "x_m = 6, y_m = -2.5", "vehicles[0].start", "0.000 m from `cart`", "0.35 m");
+    assert_fault("x_m = 10, y_m = 0", "x_m = 15, y_m = 0", "vehicles[0].goal.x_m", "15", "the map");
+    assert_fault("x_m = 10,", "speed_mps = 1, x_m = 10,", "vehicles[0].goal.speed_mps", "1", "0, or nothing");
+}
+
+#[test]
+fn what_is_hidden_and_what_moves_has_to_make_sense() {
+    assert_fault("hidden = [\"box\"]", "hidden = [\"bux\"]", "world.hidden[0]", "bux", "the name of a cylinder");
+    assert_fault("hidden = [\"box\"]", "hidden = [\"cart\"]", "world.hidden[0]", "cart", "the name of a cylinder");
+    assert_fault("[[6, -3], [6, 3]]", "[[6, -3]]", "world.moving[0].path_m", "1 corners", "two corners");
+    assert_fault("name = \"cart\"", "name = \"box\"", "world.moving[0].name", "box", "a name of its own");
+}
+
+#[test]
+fn a_quadrotor_needs_its_airframe_and_recorded_times_their_record() {
+    let field = "models.multirotor.quad.airframe";
+    assert_fault("plant = \"point-mass\"", "plant = \"quadrotor\"", field, "nothing", "a table");
+    let field = "simulation.planning.recorded_s";
+    assert_fault("deadline_s = 0.1", "deadline_s = 0.1, time = \"recorded\"", field, "none", "planning times");
+}
+
+#[test]
+fn a_briefing_tells_what_is_known_beforehand_and_nothing_that_disturbs() {
+    let mut scenario = scenario();
+    scenario.simulation.sensors.position_noise_m = 0.1;
+    scenario.simulation.mismatch.mass_ratio = 1.1;
+    let briefing = scenario.briefing();
+    assert_eq!(briefing.world.obstacle_names().count(), 0);
+    assert!(briefing.world.hidden.is_empty());
+    assert_eq!(briefing.simulation.sensors, scenarios::Sensors::default());
+    assert_eq!(briefing.simulation.mismatch, scenarios::Mismatch::default());
+    scenario.world.hidden.clear();
+    assert_eq!(scenario.briefing().world.obstacle_names().collect::<Vec<_>>(), ["box"]);
+    assert!(scenario.is_planar());
+}

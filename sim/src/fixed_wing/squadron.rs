@@ -1,0 +1,91 @@
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use super::aircraft::Aircraft;
+use crate::rapier_world::RapierWorld;
+
+/// Aircraft that share a rapier world: enough of them to share what a step of it costs however few they are, few enough
+/// to give every thread some squadrons.
+pub(super) struct Squadron {
+    world: RapierWorld,
+    aircraft: Vec<Aircraft>,
+    step_s: f64,
+}
+
+impl Squadron {
+    /// Most aircraft in one.
+    pub const SIZE: usize = 10;
+
+    /// An empty one. `step_s` > 0.
+    pub fn new(step_s: f64) -> Self {
+        Self { world: RapierWorld::new(step_s), aircraft: Vec::with_capacity(Self::SIZE), step_s }
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.aircraft.len() == Self::SIZE
+    }
+
+    /// Adds an aircraft in the air.
+    ///
+    /// - `mass_ratio`: true mass over the nominal one
+    /// - `position_m`, `velocity_mps`: at time 0, world frame
+    pub fn add(&mut self, aircraft: Aircraft, mass_ratio: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
+        self.world.add_body(aircraft.nominal_mass_kg() * mass_ratio, position_m, velocity_mps);
+        self.aircraft.push(aircraft);
+    }
+
+    pub fn aircraft(&self) -> &[Aircraft] {
+        &self.aircraft
+    }
+
+    pub fn aircraft_mut(&mut self) -> &mut [Aircraft] {
+        &mut self.aircraft
+    }
+
+    /// Everybody decides for the first time, at time 0.
+    pub fn begin(&mut self) {
+        self.decide(0.0);
+    }
+
+    /// Lets these steps pass, counted from 0.
+    pub fn fly(&mut self, steps: Range<usize>) {
+        for step in steps {
+            self.advance();
+            self.decide((step + 1) as f64 * self.step_s);
+        }
+    }
+
+    /// Takes an aircraft out that should have flown `steps` only.
+    pub fn take_out(&mut self, index: usize, steps: usize) {
+        self.aircraft[index].take_out(steps);
+        self.world.remove_body(index);
+    }
+
+    pub fn land(self) -> Vec<Aircraft> {
+        self.aircraft
+    }
+
+    /// One step of the world under everybody's forces.
+    fn advance(&mut self) {
+        let Self { world, aircraft, .. } = self;
+        for (index, aircraft) in flying(aircraft) {
+            let (position_m, velocity_mps) = (world.position_m(index), world.velocity_mps(index));
+            let force_n = aircraft.force_n(position_m, velocity_mps, world.mass_kg(index));
+            world.set_force_n(index, force_n);
+        }
+        world.step();
+    }
+
+    /// Everybody measures, decides and logs.
+    fn decide(&mut self, t_s: f64) {
+        let Self { world, aircraft, .. } = self;
+        for (index, aircraft) in flying(aircraft) {
+            aircraft.decide(t_s, world.position_m(index), world.velocity_mps(index));
+        }
+    }
+}
+
+fn flying(aircraft: &mut [Aircraft]) -> impl Iterator<Item = (usize, &mut Aircraft)> {
+    aircraft.iter_mut().enumerate().filter(|(_, aircraft)| aircraft.is_flying())
+}
