@@ -73,6 +73,8 @@ pub struct InLoop {
     pub iterations: f64,
     /// First iteration with a feasible particle, from 0.
     pub first_feasible: Option<f64>,
+    /// Share of the particles that were feasible, -.
+    pub feasible: Option<f64>,
     /// Share of replans in which no particle was feasible, -.
     pub empty: f64,
     /// Stab of eq. 22, m/s².
@@ -179,6 +181,7 @@ fn in_loop_figures(flown: &[Flown]) -> Option<InLoop> {
         first_feasible: mean(
             replans().filter_map(|replan| replan.account.first_feasible).map(|iteration| iteration as f64),
         ),
+        feasible: mean(replans().filter_map(|replan| replan.account.feasible_share)),
         empty: mean(replans().map(is_empty))?,
         stability_mps2: mean(flown.iter().flat_map(|flown| changes_mps2(&flown.replans)))?,
     })

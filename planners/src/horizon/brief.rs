@@ -83,7 +83,7 @@ pub fn options(scenario: &Scenario, vehicle: usize, variant: Variant) -> Options
         step_s: horizon.step_s.unwrap_or(0.25),
         limits,
         clearance_m: clearance_m(scenario, vehicle),
-        smoothness: if is_ours { 3e-3 } else { 0.0 },
+        smoothness: if is_ours { 1e-2 } else { 0.0 },
         stage_weight: 1.0,
         starts_warm: is_ours,
         is_projected: is_ours,

@@ -36,6 +36,9 @@ pub struct Motion {
 /// Pieces into which the way of a step is divided where obstacles move, s at most.
 const PIECE_S: f64 = 0.125;
 
+/// Speed below which a vehicle stands, m/s.
+const STANDING_MPS: f64 = 1e-9;
+
 impl Motion {
     /// Begins with a state at time 0.
     pub fn from(state: State) -> Self {
@@ -64,7 +67,7 @@ impl Motion {
     pub fn brake(&mut self, deceleration_mps2: f64, step_s: f64) {
         let velocity = self.last().1.velocity;
         let speed_mps = norm(velocity);
-        if speed_mps > 0.0 {
+        if speed_mps > STANDING_MPS {
             let time_s = speed_mps / deceleration_mps2;
             let steps = (time_s / step_s).ceil();
             let acceleration = scaled(velocity, -deceleration_mps2 / speed_mps);

@@ -15,7 +15,7 @@ use crate::free_space::vector::{Point, minus, norm, plus};
 use crate::free_space::{FreeSpace, known};
 use crate::planner::{Answers, Planner};
 
-const HANDLES: &str = "multirotors in the plane and in space, obstacles of all kinds, known, sensed or moving";
+const HANDLES: &str = "multirotors among obstacles known, sensed or moving";
 
 /// Receding horizon, our own rules.
 pub const RHC: Planner = Planner {
@@ -68,6 +68,7 @@ fn make(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> Box
         space: FreeSpace::empty(known::frame_m(&scenario.world, scenario.is_planar())),
         names: HashSet::new(),
         neighbour_radius_m: room_m,
+        is_planar: scenario.is_planar(),
         // our own rules trust the reference as long as the vehicle is within the room kept for the tracker
         trusted_m: if variant == Variant::Ours { clearance_m - own_radius_m(scenario, vehicle) } else { 0.0 },
     })
@@ -87,6 +88,8 @@ struct InLoop<R> {
     neighbour_radius_m: f64,
     /// Distance from the reference up to which a measured position is taken for noise, m.
     trusted_m: f64,
+    /// Is altitude kept as it is?
+    is_planar: bool,
 }
 
 impl<R: Rng + Send> InLoopPlanner for InLoop<R> {
@@ -128,7 +131,12 @@ impl<R: Rng> InLoop<R> {
         if norm(off_m) <= self.trusted_m {
             return then;
         }
-        State { position: plus(then.position, off_m), velocity: plus(then.velocity, off_mps) }
+        let mut start = State { position: plus(then.position, off_m), velocity: plus(then.velocity, off_mps) };
+        if self.is_planar {
+            // nothing is planned in altitude, so nothing would bring it back
+            (start.position[2], start.velocity[2]) = (then.position[2], 0.0);
+        }
+        start
     }
 }
 

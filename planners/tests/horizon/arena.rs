@@ -89,7 +89,7 @@ pub fn ours(method: Method, ways: Ways, axes: usize) -> Options {
         step_s: 0.25,
         limits: LIMITS,
         clearance_m: 0.4,
-        smoothness: 3e-3,
+        smoothness: 1e-2,
         stage_weight: 1.0,
         starts_warm: true,
         is_projected: true,

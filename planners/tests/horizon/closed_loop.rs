@@ -1,5 +1,8 @@
-use planners::horizon::cost_map::Ways;
-use planners::horizon::pilot::{Charge, Decision};
+use planners::free_space::vector::{distance, norm};
+use planners::free_space::{FreeSpace, Mover, Obstacle};
+use planners::horizon::cost_map::{CostMap, Ways};
+use planners::horizon::motion::{Motion, State};
+use planners::horizon::pilot::{Charge, Decision, Pilot};
 use planners::horizon::question::Repulsion;
 
 use crate::arena::{Flight, LIMITS, fly, ours, paper, random, swarm, trap};
@@ -9,7 +12,13 @@ const CLEARANCE_M: f64 = 0.4;
 #[test]
 fn our_rules_lead_through_the_trap() {
     for ways in [Ways::Visibility, Ways::Voronoi] {
-        let flight = fly(&trap(), &ours(swarm(true), ways, 2), 1, f64::INFINITY, 40.0);
+        let arena = trap();
+        let flight = fly(&arena, &ours(swarm(true), ways, 2), 1, f64::INFINITY, 40.0);
+        // no way can be shorter than the one along the corners, but for their rounding
+        let mut map = CostMap::new(Ways::Visibility, arena.goal, CLEARANCE_M, arena.levels_m.clone());
+        map.update(&arena.space);
+        let shortest_m = map.cost_to_go(arena.start, &arena.space).unwrap().length_m;
+        assert!(flight.length_m < 1.05 * shortest_m, "{} {shortest_m}", flight.length_m);
         assert!(flight.arrived_s.is_some_and(|time_s| time_s < 22.0), "{:?}", flight.arrived_s);
         assert!(flight.clearance_m >= CLEARANCE_M - 1e-9, "{}", flight.clearance_m);
     }
@@ -61,11 +70,41 @@ fn ends_at_rest(flight: &Flight) {
             assert_eq!(motion.last().1.velocity, [0.0; 3]);
             let reach_m = 4.0 - CLEARANCE_M;
             let [from, to] = [motion.knots()[0].1.position, motion.last().1.position];
-            assert!(planners::free_space::vector::distance(from, to) <= reach_m + 1e-9);
-            let fastest = motion.knots().iter().map(|(_, state)| planners::free_space::vector::norm(state.velocity));
+            assert!(distance(from, to) <= reach_m + 1e-9);
+            let fastest = motion.knots().iter().map(|(_, state)| norm(state.velocity));
             assert!(fastest.fold(0.0, f64::max) <= LIMITS.speed_mps + 1e-9);
         }
     }
+}
+
+/// Two obstacles that cross the way, known by their position and velocity at each replan.
+#[test]
+fn moving_obstacles_are_let_pass() {
+    const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    let place = |lane: usize, time_s: f64| [4.0 - 8.0 * lane as f64, [-6.0 + 1.2 * time_s, 7.0 - 0.8 * time_s][lane]];
+    let velocity = |lane: usize| [0.0, [1.2, -0.8][lane], 0.0];
+    let cylinder = |lane: usize, time_s: f64| Obstacle::cylinder(place(lane, time_s), 1.0, UNBOUNDED);
+    let options = ours(swarm(true), Ways::Visibility, 2);
+    let (start, goal) = ([10.0, 0.0, 1.0], [-12.0, 0.0, 1.0]);
+    let mut pilot = Pilot::new(options.clone(), goal, vec![1.0], scenarios::stream(1, "horizon"));
+    let mut motion = Motion::from(State::at_rest(start));
+    for replan in 0..80 {
+        let time_s = 0.25 * f64::from(replan);
+        let mut space = FreeSpace::empty([[-15.0, 15.0], [-8.0, 8.0], UNBOUNDED]);
+        space.moving = [0, 1].map(|lane| Mover::straight(cylinder(lane, time_s), velocity(lane))).to_vec();
+        let applied = motion.mean_accelerations(-0.25, 0.25, 1)[0];
+        if let Decision::Fly(new) = pilot.replan(motion.state_at(0.0), &motion, applied, &space).decision {
+            motion = new;
+        }
+        for tick in 0..25 {
+            let since_s = 0.01 * f64::from(tick);
+            let here = motion.state_at(since_s).position;
+            let nearest_m = [0, 1].map(|lane| cylinder(lane, time_s + since_s).distance_m(here));
+            assert!(nearest_m.iter().all(|distance_m| *distance_m >= CLEARANCE_M - 1e-9), "{nearest_m:?}");
+        }
+        motion = motion.rest_from(0.25);
+    }
+    assert!(distance(motion.state_at(0.0).position, goal) < 0.3, "{:?}", motion.state_at(0.0));
 }
 
 #[test]
