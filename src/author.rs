@@ -7,6 +7,9 @@ use scenarios::{Iteration, Scenario};
 use crate::outside::{self, OutsidePlanner};
 use crate::submitted::Answer;
 
+/// Those who plan in the loop, one per vehicle.
+pub type Crew = Vec<Box<dyn InLoopPlanner>>;
+
 /// Ends a command that plans in the loop, and returns what it wrote to its standard error.
 pub type Log = Box<dyn FnOnce() -> String>;
 
@@ -50,7 +53,7 @@ impl Author {
 
     /// Those who plan in the loop, one per vehicle, and how to come by what a command writes to its standard error; `None`
     /// if it answers before the flight. They are told what is known beforehand, and no more.
-    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(Vec<Box<dyn InLoopPlanner>>, Option<Log>)> {
+    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(Crew, Option<Log>)> {
         let briefing = scenario.briefing();
         match self {
             Self::Registered(planner) if planner.plans_in_the_loop() => {

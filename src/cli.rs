@@ -4,12 +4,16 @@ mod bench;
 mod check;
 mod compare;
 mod completions;
+#[cfg(feature = "parquet")]
+mod diverge;
 mod list;
 mod plan;
 mod run;
 mod schema;
 mod selection;
+mod selftest;
 mod session;
+mod stress;
 
 use clap::{Parser, Subcommand};
 
@@ -48,6 +52,12 @@ enum Command {
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
+    #[cfg(feature = "parquet")]
+    Diverge(diverge::Diverge),
+    #[command(name = "stress")]
+    Stress(stress::StressCommand),
+    #[command(name = "selftest")]
+    Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),
     Completions(completions::Completions),
     Man(completions::Man),
@@ -64,6 +74,10 @@ impl Cli {
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),
             Command::Bench(bench) => bench.execute(),
+            #[cfg(feature = "parquet")]
+            Command::Diverge(diverge) => diverge.execute(),
+            Command::Stress(stress) => stress.execute(),
+            Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),
             Command::Completions(completions) => completions.execute(),
             Command::Man(man) => man.execute(),

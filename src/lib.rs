@@ -11,6 +11,8 @@ pub mod compare;
 #[cfg(all(test, unix))]
 #[path = "../scenarios/tests/damage/mod.rs"]
 mod damage;
+#[cfg(feature = "parquet")]
+pub mod diverge;
 pub mod error;
 mod export;
 pub mod in_loop;
@@ -23,5 +25,8 @@ mod pipeline;
 mod progress;
 pub mod record;
 pub mod report;
+pub mod selftest;
+pub mod stress;
 pub mod submitted;
 pub mod verdict;
+pub mod waterfall;

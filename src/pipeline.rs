@@ -7,11 +7,10 @@
 use std::path::Path;
 use std::time::Instant;
 
-use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario};
-use sim::Flight;
+use sim::{Flight, Setup};
 
-use crate::author::{Author, HandedOver, Log};
+use crate::author::{Author, Crew, HandedOver, Log};
 use crate::error::Error;
 use crate::export::tum;
 use crate::jobs::Job;
@@ -19,12 +18,13 @@ use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
 use crate::report::{ReplanTimes, Report, Timings};
 use crate::submitted::Answer;
-use crate::{in_loop, metrics, output, verdict};
+use crate::verdict::Integration;
+use crate::{in_loop, metrics, output, verdict, waterfall};
 
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
 /// Names of the recordings that a result folder may hold.
-const RECORDINGS: [&str; 2] = ["flight.rrd", "flight.mcap"];
+const RECORDINGS: [&str; 3] = ["flight.rrd", "flight.mcap", "flight.parquet"];
 
 /// What is written beside plan and report.
 pub struct Outputs {
@@ -32,6 +32,10 @@ pub struct Outputs {
     pub recorders: Vec<Box<dyn Recorder>>,
     /// Planned and flown paths as TUM files?
     pub tum: bool,
+    /// Is every flight repeated with finer steps?
+    pub fly_again: bool,
+    /// Is it told where the margins went?
+    pub waterfall: bool,
 }
 
 /// What a job brought.
@@ -54,10 +58,12 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
         }
     };
     let plan = &answer.plan;
+    let again = flight.as_ref().filter(|flight| outputs.fly_again && flight.planning.is_none());
+    let integration = timed(&mut timings.flying_s, || again.map(|flight| fly_again(job, plan, flight)));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
-            || verdict::judge_given(&job.scenario, plan, &answer.given, flight.as_ref()),
+            || verdict::judge_with(&job.scenario, plan, &answer.given, flight.as_ref(), integration),
             || metrics::measure(&job.scenario, plan, flight.as_ref()),
         )
     });
@@ -65,7 +71,11 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict };
     timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
     export(flight.as_ref(), outputs, folder)?;
-    let report = Report::new(&answer, verdict, metrics, timings);
+    let waterfall = match outputs.waterfall {
+        true => waterfall::of(&job.scenario, plan, &answer.given, job.seed, &verdict),
+        false => Vec::new(),
+    };
+    let report = Report { waterfall, ..Report::new(&answer, flight.as_ref(), verdict, metrics, timings) };
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
     Ok(Done { report, log })
@@ -86,10 +96,17 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
     Some(sim::fly(&job.scenario, plan, job.seed, &mut |t_s| progress.flown(t_s)))
 }
 
+/// The same flight with half and with a quarter of the plant's step, and how far they are apart.
+fn fly_again(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
+    let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &Setup::finer(halvings), &mut |_| {});
+    let (half, quarter) = rayon::join(|| finer(1), || finer(2));
+    Integration::by_finer_steps(flight, [&half, &quarter])
+}
+
 /// The flight of a planner in the loop, and what was planned during it as a plan. Planning is timed apart from flying.
 fn fly_in_loop(
     job: &Job,
-    crew: Vec<Box<dyn InLoopPlanner>>,
+    crew: Crew,
     log: Option<Log>,
     timings: &mut Timings,
     progress: &mut Progress,

@@ -14,13 +14,14 @@ pub mod terminal;
 use scenarios::{Alternative, PlanStatus, PlannedEvent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sim::PlanningLog;
+use sim::{Flight, PlanningLog, StateHash};
 
 pub use summary::{RefusedFile, Summary, SummaryRun};
 
 use crate::metrics::Metrics;
 use crate::submitted::Answer;
-use crate::verdict::{Check, Outcome, Reconstruction, Verdict};
+use crate::verdict::{Check, Integration, Outcome, Reconstruction, Verdict};
+use crate::waterfall::Waterfall;
 
 /// Version of the form of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
@@ -47,12 +48,41 @@ pub struct Report {
     pub overclaimed: bool,
     /// Every check, in the order nodes, plan, flight.
     pub checks: Vec<Check>,
+    /// What two integrators disagree on; absent if there is no flight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integration: Option<Integration>,
+    /// Where the margins went, if it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waterfall: Vec<Waterfall>,
+    /// Hashes of the flight, to tell at a glance whether two are the same to the last bit; absent if there is no flight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state_hash: Option<StateHashes>,
     /// What the planner says.
     pub plan: PlanSummary,
     /// What is measured beside the checks, without a limit.
     pub metrics: Metrics,
     /// Time that each stage took.
     pub timings: Timings,
+}
+
+/// Hashes of everything that a flight log holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StateHashes {
+    /// Time from one of the running hashes to the next, s.
+    pub every_s: f64,
+    /// The hash until the end of each such time, 16 hexadecimal digits; the last one is that of the whole flight.
+    pub running: Vec<String>,
+}
+
+impl StateHashes {
+    /// Time between two of them, s.
+    const EVERY_S: f64 = 10.0;
+
+    /// Those of a flight.
+    pub fn of(flight: &Flight) -> Self {
+        let running = flight.running_hash(Self::EVERY_S).iter().map(StateHash::digits).collect();
+        Self { every_s: Self::EVERY_S, running }
+    }
 }
 
 /// A plan without its trajectories.
@@ -155,7 +185,7 @@ impl Timings {
 
 impl Report {
     /// The report on a plan that was judged.
-    pub fn new(answer: &Answer, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
+    pub fn new(answer: &Answer, flight: Option<&Flight>, verdict: Verdict, metrics: Metrics, timings: Timings) -> Self {
         let plan = &answer.plan;
         Self {
             schema: SCHEMA,
@@ -166,6 +196,9 @@ impl Report {
             verdict: verdict.outcome,
             overclaimed: verdict.overclaimed,
             checks: verdict.checks,
+            integration: verdict.integration,
+            waterfall: Vec::new(),
+            state_hash: flight.map(StateHashes::of),
             plan: PlanSummary::new(answer),
             metrics,
             timings,

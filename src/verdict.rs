@@ -8,21 +8,26 @@ mod blocks;
 mod clearance;
 mod closest;
 mod compare;
+mod conditions;
 mod dynamics;
 mod flight_integrity;
 mod flown;
+mod flown_reference;
 mod given;
+mod integration;
 mod integrity;
 mod judge;
 mod limits;
 mod motion;
 pub mod multirotor;
+mod physics;
 mod planned;
 mod question;
 #[cfg(test)]
 mod random;
 mod separation;
 pub mod slung_load;
+mod touch;
 mod tracking;
 mod worst;
 
@@ -36,8 +41,9 @@ pub use clearance::at_nodes as clearance_at_nodes;
 pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
 pub use flown::{Flown, FlownVehicle};
 pub use given::{Given, Reconstruction};
+pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
-pub use judge::{judge, judge_given};
+pub use judge::{judge, judge_given, judge_with};
 pub use motion::{Knot, Motion};
 pub use planned::Planned;
 pub use separation::at_nodes as separation_at_nodes;
@@ -58,6 +64,9 @@ pub struct Verdict {
     pub overclaimed: bool,
     /// Every check, in the order nodes, plan, flight.
     pub checks: Vec<Check>,
+    /// What two integrators disagree on; absent if there is no flight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integration: Option<Integration>,
 }
 
 /// The whole verdict in one word, from the best to the worst.
@@ -92,6 +101,12 @@ pub struct Check {
     /// What was measured, in `unit`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
+    /// The true value is not smaller, in `unit`: given where it was bounded over continuous time instead of measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lower: Option<f64>,
+    /// The true value is not larger, in `unit`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upper: Option<f64>,
     /// What it is held against, in `unit`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,

@@ -12,6 +12,7 @@ mod flow;
 mod plant;
 mod quintic;
 mod reference;
+mod replay;
 mod squadron;
 mod tracker;
 
@@ -21,3 +22,4 @@ pub(crate) use fleet::fly;
 pub use flow::{Knot, flow, rollout};
 use plant::mid_step_force_n;
 pub use reference::{Reference, ReferencePoint};
+pub use replay::{Acting, replayed};

@@ -25,6 +25,20 @@ pub struct Setup {
     pub start_offset_m: [f64; 3],
     /// Velocity over ground with which every vehicle starts, relative to its plan's first state, world frame, m/s.
     pub start_velocity_offset_mps: [f64; 3],
+    /// How often the plant's step is halved. Commands are still held, and the log written, once per step of the scenario.
+    pub halvings: u32,
+}
+
+impl Setup {
+    /// An ordinary flight with a plant whose step is halved so often.
+    pub fn finer(halvings: u32) -> Self {
+        Self { halvings, ..Self::default() }
+    }
+
+    /// Steps of the plant where there is one in an ordinary flight.
+    pub(crate) fn substeps(&self) -> usize {
+        1 << self.halvings
+    }
 }
 
 /// Flies a plan: every vehicle starts in its plan's first state and follows its trajectory by the tracker, in the wind

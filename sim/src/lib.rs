@@ -18,8 +18,10 @@ mod runge_kutta;
 mod saturation;
 mod sensors;
 pub mod slung_load;
+mod state_hash;
 mod touch;
 
 pub use flight::{Actuation, Commanded, Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 pub use fly::{Pilot, Setup, fly, fly_in_loop, fly_with};
 pub use in_loop::{PlanningLog, Replan};
+pub use state_hash::StateHash;

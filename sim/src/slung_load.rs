@@ -11,6 +11,7 @@ mod fly;
 mod gains;
 mod linear;
 mod reference;
+mod replay;
 mod shapes;
 mod tracker;
 
@@ -19,6 +20,7 @@ pub use cable_watch::SHORTEST_PHASE_S;
 pub use dynamics::{Plant, impact};
 pub use flow::{Knot, flow};
 pub use reference::{Reference, ReferencePoint};
-pub use shapes::{GROUND, Part, Parts};
+pub use replay::{Acting, Replay};
+pub use shapes::{GROUND, OVERHANG_M, Part, Parts, Plane};
 
 pub(crate) use fly::fly;

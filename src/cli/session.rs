@@ -21,6 +21,12 @@ pub struct Session {
     /// Recordings to write, separated by commas
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', default_value = DEFAULT_RECORDING)]
     record: Vec<Recording>,
+    /// How to tell what the integrator may be wrong by; a margin below that decides nothing
+    #[arg(long, value_enum, value_name = "FORM", default_value = "cheap")]
+    second_integrator: SecondIntegrator,
+    /// Tell where the margins went: nodes, between the nodes, tracking, model, wind, noise; costs a flight for each
+    #[arg(long)]
+    waterfall: bool,
     /// Write planned and flown paths as TUM files too, for evo
     #[arg(long)]
     tum: bool,
@@ -47,8 +53,19 @@ enum Recording {
     Rrd,
     /// With Foxglove schemas, for Foxglove and others
     Mcap,
+    /// The whole flight log as a table, every number to its last bit
+    Parquet,
     /// No recording
     None,
+}
+
+/// Ways to tell what the integrator may be wrong by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SecondIntegrator {
+    /// Replay the log by an integrator of order 6, in windows
+    Cheap,
+    /// Fly again with half and a quarter of the plant's step as well
+    Full,
 }
 
 /// Formats of standard output.
@@ -72,7 +89,12 @@ struct Done {
 impl Session {
     /// Runs everything that can be run, names what cannot, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
-        let outputs = Outputs { recorders: recorders(&self.record)?, tum: self.tum };
+        let outputs = Outputs {
+            waterfall: self.waterfall,
+            recorders: recorders(&self.record)?,
+            tum: self.tum,
+            fly_again: self.second_integrator == SecondIntegrator::Full,
+        };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
         start_threads(self.jobs)?;
         let mut done = Done::default();
@@ -174,6 +196,9 @@ fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
     if formats.contains(&Recording::Mcap) {
         recorders.push(mcap()?);
     }
+    if formats.contains(&Recording::Parquet) {
+        recorders.push(parquet()?);
+    }
     Ok(recorders)
 }
 
@@ -195,4 +220,14 @@ fn mcap() -> Result<Box<dyn Recorder>, Error> {
 #[cfg(not(feature = "mcap"))]
 fn mcap() -> Result<Box<dyn Recorder>, Error> {
     Err(Error::RecordingNotBuilt { format: "mcap", what: "MCAP recording" })
+}
+
+#[cfg(feature = "parquet")]
+fn parquet() -> Result<Box<dyn Recorder>, Error> {
+    Ok(Box::new(crate::record::log::Log))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn parquet() -> Result<Box<dyn Recorder>, Error> {
+    Err(Error::RecordingNotBuilt { format: "parquet", what: "flight log as a table" })
 }

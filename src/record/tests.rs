@@ -56,7 +56,7 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
         account: scenarios::Account::default(),
         timings: PlanTimings::default(),
     };
-    let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new() };
+    let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };
     look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict });
 }
 

@@ -8,8 +8,9 @@ use anstyle::{AnsiColor, Style};
 use comfy_table::{Cell, Color, Table};
 
 use super::{Report, Summary, SummaryRun, headline, table};
-use crate::notation::{number, quantity, signed};
-use crate::verdict::{Check, Outcome, Reconstruction, Status};
+use crate::notation::{number, quantity, signed, signed_quantity};
+use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, Status};
+use crate::waterfall::Waterfall;
 
 /// Lines of an outside planner's log that are shown when it made no plan.
 const LOG_LINES: usize = 20;
@@ -25,6 +26,8 @@ pub fn report(report: &Report, log: Option<&str>) -> String {
     lines.extend(skipped(report));
     lines.push(plan_line(report));
     lines.extend(flight_line(report));
+    lines.extend(report.integration.as_ref().map(integration_line));
+    lines.extend(report.waterfall.iter().map(waterfall_line));
     lines.push(format!(
         "{}  {}",
         verdict_line(report.verdict, &report.scenario, &report.planner),
@@ -132,6 +135,26 @@ fn flight_line(report: &Report) -> Option<String> {
         figures.into_iter().filter_map(|(name, value, unit)| Some(format!("{name} {}", quantity(value?, unit))));
     let simulated = format!("simulated in {:.3} s", report.timings.flying_s);
     Some(format!("flight: {}", std::iter::once(simulated).chain(known).collect::<Vec<_>>().join("; ")))
+}
+
+/// What two integrators disagree on.
+fn integration_line(Integration { method, disagreement_m, .. }: &Integration) -> String {
+    let how = match method {
+        Method::Replay => "in windows, by a replay of its log",
+        Method::FinerSteps => "when it is flown again with a quarter of the step",
+    };
+    let by = disagreement_m.map_or_else(|| "more than a crash".to_owned(), |it| quantity(it, "m"));
+    format!("integrators disagree on the flight by {by} {how}")
+}
+
+/// The ladder of a margin: `clearance: +12.000 m at the nodes; between the nodes -0.210; ...; +11.655 m flown`.
+fn waterfall_line(waterfall: &Waterfall) -> String {
+    let Waterfall { question, unit, rungs } = waterfall;
+    let (Some(first), Some(last)) = (rungs.first(), rungs.last()) else { return String::new() };
+    let terms: Vec<String> =
+        rungs[1..].iter().map(|rung| format!("{} {}", rung.name, signed(rung.change, unit))).collect();
+    let [first, last] = [first, last].map(|rung| signed_quantity(rung.margin, unit));
+    format!("margin of {question}: {first} at the nodes; {}; {last} flown", terms.join("; "))
 }
 
 fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {

@@ -18,8 +18,9 @@ const RESOLUTION_M: f64 = 1e-9;
 /// Rounding of a squared distance, as a share of the largest coefficient of its polynomial.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`], which are
-/// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m).
+/// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`]. Of curves they are
+/// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m); of motions that
+/// are known at samples only, farther by what they may [deviate](Motion::deviation_m) from their curves, twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// No distance is smaller, m.
@@ -39,6 +40,8 @@ pub struct Approach {
 pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    // A deviation makes a vehicle reach farther, as a radius does.
+    let widest_m = 2.0 * motions.iter().map(Motion::deviation_m).fold(0.0, f64::max);
     let mut search = Search::new();
     for index in 0..frame.count() {
         let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
@@ -46,13 +49,16 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
         eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
         for (place, &i) in eastward.iter().enumerate() {
             for &j in &eastward[place + 1..] {
-                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), 0.0) {
+                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), widest_m) {
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                if search.may_be_within(blocks[i].gap_m(blocks[j]), 0.0) {
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), widest_m) {
                     let segments = who.map(|i| blocks[i].segments.clone());
-                    search.look_at_pair(who.map(|i| &motions[i]), segments, who);
+                    let deviation_m = motions[i].deviation_m() + motions[j].deviation_m();
+                    each_common_span(who.map(|i| &motions[i]), segments, |relative, span| {
+                        search.look(&horizontal(relative), span, Reach { radius_m: 0.0, deviation_m }, who);
+                    });
                 }
             }
         }
@@ -70,11 +76,44 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approa
         for (m, cylinder) in cylinders.iter().enumerate() {
             let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
             for block in blocks.iter() {
-                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), cylinder.radius_m) {
+                let reach = Reach { radius_m: cylinder.radius_m, deviation_m: motion.deviation_m() };
+                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), reach.total_m()) {
                     for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts) {
                         let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
-                        search.look(&relative, &segment, cylinder.radius_m, [i, m]);
+                        search.look(&relative, &segment, reach, [i, m]);
                     }
+                }
+            }
+        }
+    }
+    search.found()
+}
+
+/// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
+/// `None` if no two touch.
+pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
+    let frame = Frame::over(motions);
+    let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
+    let mut search = Search::below(0.0);
+    let widest_m = radii_m.iter().copied().fold(0.0, f64::max);
+    for index in 0..frame.count() {
+        let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
+        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
+        eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
+        for (place, &i) in eastward.iter().enumerate() {
+            for &j in &eastward[place + 1..] {
+                let (one, other) = (blocks[i], blocks[j]);
+                if !search.may_be_within(other.west_m() - one.east_m(), 2.0 * widest_m) {
+                    break;
+                }
+                if search.may_be_within(one.gap_m(other), radii_m[i] + radii_m[j]) {
+                    let who = [i.min(j), i.max(j)];
+                    let segments = who.map(|i| blocks[i].segments.clone());
+                    let pair = who.map(|i| &motions[i]);
+                    each_common_span(pair, segments, |relative, span| {
+                        let radius_m = radii_m[i] + radii_m[j];
+                        search.look(&relative, span, Reach { radius_m, deviation_m: 0.0 }, who);
+                    });
                 }
             }
         }
@@ -87,7 +126,8 @@ pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<Appro
     let mut search = Search::new();
     for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
         let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
-        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, 0.0, [0, 0]);
+        let reach = Reach { radius_m: 0.0, deviation_m: 0.0 };
+        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, reach, [0, 0]);
     }
     search.found()
 }
@@ -114,16 +154,56 @@ fn squared_gap_to_box(points_m: &[[f64; 3]; 4]) -> f64 {
     x * x + y * y
 }
 
-/// The search over all segments: bounds of the smallest distance so far.
+/// Calls `look` with the motion of the first of two vehicles relative to the second, for each span of time in which neither
+/// goes on to its next segment.
+fn each_common_span(
+    [first, second]: [&Motion; 2],
+    [mut a, mut b]: [Range<usize>; 2],
+    mut look: impl FnMut([[f64; 3]; 4], &Segment),
+) {
+    while a.start < a.end && b.start < b.end {
+        let (one, other) = (first.segment(a.start), second.segment(b.start));
+        let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
+        if from_s < to_s {
+            let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
+            look(std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k])), &one);
+        }
+        let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
+        a.start += usize::from(one_end_s <= other_end_s);
+        b.start += usize::from(other_end_s <= one_end_s);
+    }
+}
+
+/// The search over all segments: bounds of the smallest distance so far, deviations taken off.
 struct Search {
     lower_m: f64,
     upper_m: f64,
-    at: Option<(f64, [usize; 2])>,
+    at: Option<(f64, [usize; 2], f64)>,
+}
+
+/// How far something reaches from its curve.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// As a shape, m.
+    radius_m: f64,
+    /// Because the curve is known no better, m.
+    deviation_m: f64,
+}
+
+impl Reach {
+    fn total_m(self) -> f64 {
+        self.radius_m + self.deviation_m
+    }
 }
 
 impl Search {
     fn new() -> Self {
-        Self { lower_m: f64::INFINITY, upper_m: f64::INFINITY, at: None }
+        Self::below(f64::INFINITY)
+    }
+
+    /// Only distances below this count, m.
+    fn below(upper_m: f64) -> Self {
+        Self { lower_m: upper_m, upper_m, at: None }
     }
 
     /// Can something that is `gap_m` or farther from the centre of a circle be nearer to the circle than the best?
@@ -131,24 +211,9 @@ impl Search {
         gap_m - radius_m < self.upper_m
     }
 
-    /// The segments of two vehicles, each pair while both last.
-    fn look_at_pair(&mut self, [first, second]: [&Motion; 2], [mut a, mut b]: [Range<usize>; 2], who: [usize; 2]) {
-        while a.start < a.end && b.start < b.end {
-            let (one, other) = (first.segment(a.start), second.segment(b.start));
-            let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
-            if from_s < to_s {
-                let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
-                let relative = std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k]));
-                self.look(&horizontal(relative), &one, 0.0, who);
-            }
-            let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
-            a.start += usize::from(one_end_s <= other_end_s);
-            b.start += usize::from(other_end_s <= one_end_s);
-        }
-    }
-
-    /// One segment, by its control points relative to the centre of a circle of `radius_m`.
-    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, radius_m: f64, who: [usize; 2]) {
+    /// One segment, by its control points relative to the centre of a circle.
+    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, reach: Reach, who: [usize; 2]) {
+        let radius_m = reach.total_m();
         let reach_m = self.upper_m + radius_m;
         if reach_m <= 0.0 || squared_gap_to_box(relative_m) >= reach_m * reach_m {
             return;
@@ -160,13 +225,14 @@ impl Search {
         self.lower_m = self.lower_m.min((minimum.lower - rounding).max(0.0).sqrt() - radius_m);
         if let Some(u) = minimum.at {
             self.upper_m = (minimum.upper + rounding).sqrt() - radius_m;
-            self.at = Some((span.instant_s(u), who));
+            self.at = Some((span.instant_s(u), who, reach.deviation_m));
         }
     }
 
     fn found(&self) -> Option<Approach> {
-        let (at_s, who) = self.at?;
-        Some(Approach { lower_m: self.lower_m.min(self.upper_m), upper_m: self.upper_m, at_s, who })
+        let (at_s, who, deviation_m) = self.at?;
+        let lower_m = self.lower_m.min(self.upper_m);
+        Some(Approach { lower_m, upper_m: self.upper_m + 2.0 * deviation_m, at_s, who })
     }
 }
 

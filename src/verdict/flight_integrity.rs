@@ -1,12 +1,15 @@
 //! Is the flight log whole, is everything in it a number, and did nobody crash?
 
-use scenarios::{Plan, Scenario, Trajectory, Vehicle};
+use scenarios::{Plan, Scenario, Vehicle};
 use sim::{EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
+use crate::verdict::flown::Flown;
+use crate::verdict::flown_reference;
 use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
-use crate::verdict::question::{Group, Measured, Question};
+use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::touch;
 
 /// Longest distance between two samples, in steps of the simulator: what rounding leaves above 1.
 const LONGEST_GAP_STEPS: f64 = 1.001;
@@ -14,7 +17,12 @@ const LONGEST_GAP_STEPS: f64 = 1.001;
 /// Number of numbers in the log that are not finite.
 pub fn check_finite(flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
-    let mut count = times.filter(|value| !value.is_finite()).count();
+    let amounts = flight.events.iter().filter_map(|event| match event.kind {
+        EventKind::CableTaut { impulse_ns } => Some(impulse_ns),
+        EventKind::AnswerLate { by_s } => Some(by_s),
+        _ => None,
+    });
+    let mut count = times.chain(amounts).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
         let numbers =
@@ -29,16 +37,18 @@ pub fn check_finite(flight: &Flight) -> Check {
 }
 
 /// Number of vehicles whose log is missing, misnamed, empty, with gaps, out of order in time, not from the vehicle's
-/// start, or shorter than the plan; and of logs without a vehicle. A start may be off by as much as the tracking: a
+/// start, shorter than the plan, or with another reference than the plan's; and of logs without a vehicle. A start may be off by as much as the tracking: a
 /// disturbed start is a matter for the tracker.
 ///
 /// - `plan`: one that is flyable
 pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let of_vehicle = |(index, vehicle): (usize, &Vehicle)| {
-        let planned_end_s = plan.trajectories.get(index).and_then(Trajectory::end_s);
+        let trajectory = &plan.trajectories[index];
+        let planned_end_s = trajectory.end_s().unwrap_or(f64::NAN);
         let defect = match flight.vehicles.get(index) {
             None => Some("there is no log".to_owned()),
-            Some(log) => log_defect(scenario, vehicle, planned_end_s.unwrap_or(f64::NAN), log),
+            Some(log) => log_defect(scenario, vehicle, planned_end_s, log)
+                .or_else(|| flown_reference::defect(scenario, vehicle, trajectory, log)),
         };
         defect.map(|defect| format!("{}: {defect}", vehicle.name))
     };
@@ -48,14 +58,22 @@ pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Chec
     none_of(&Question::new(Group::Flight, "complete", "vehicles"), defects.len(), &[], defects.first())
 }
 
-/// Number of crashes.
-pub fn check_crash(flight: &Flight) -> Check {
+/// Number of crashes. A flight that goes through something without a word of it in its log has crashed too.
+///
+/// `flown`: the same flight, to look for oneself
+pub fn check_crash(scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flown<'_>>) -> Check {
     let question = Question::new(Group::Flight, "crash", "crashes");
     let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
         _ => None,
     });
-    let Some((t_s, concerned)) = crashes.next() else { return question.at_most(Measured::value(0.0), 0.0) };
+    let Some((t_s, concerned)) = crashes.next() else {
+        let unlogged = flown.ok().and_then(|flown| touch::deepest(scenario, &flown.motions));
+        return match unlogged {
+            None => question.at_most(Measured::value(0.0), 0.0),
+            Some(touch) => question.at_most(touch.because("they touch, although the log tells of no crash"), 0.0),
+        };
+    };
     let count = 1 + crashes.count();
     let measured = concerned.fold(Measured::value(count as f64).at(t_s), |measured, name| measured.with(name));
     question.at_most(measured, 0.0)

@@ -73,7 +73,7 @@ fn part_that_counts<'a>(
     if log.vehicle != vehicle.name {
         return Err(format!("the log of {} stands where that of {} belongs", log.vehicle, vehicle.name));
     }
-    let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?;
+    let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?.sampled();
     let planned_end_s = trajectory.end_s().unwrap_or(0.0);
     let window_s = planned_end_s - ARRIVAL_WINDOW_S;
     let mut flown = FlownVehicle {

@@ -96,6 +96,8 @@ fn skip(check: &mut Check, reason: &str) {
         name,
         status: Status::Skip,
         value: None,
+        lower: None,
+        upper: None,
         limit: None,
         margin: None,
         unit,

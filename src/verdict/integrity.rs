@@ -98,6 +98,9 @@ fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
         let counted = counts.join(" and ");
         return Some(format!("{} times, {counted}, which should be as many", times_s.len()));
     }
+    if let Some(node) = stray_node(trajectory) {
+        return Some(format!("it names node {node} as its planner's own, of {}", times_s.len()));
+    }
     if times_s.len() < 2 {
         return Some(format!("{} nodes, at least 2 are needed", times_s.len()));
     }
@@ -112,6 +115,14 @@ fn trajectory_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
             .or_else(|| start_defect("m/s", nodes.velocity_mps(0), vehicle.start.velocity_mps(), START_TOLERANCE))
             .or(load)
     })
+}
+
+/// A planner's own node that is none.
+fn stray_node(trajectory: &Trajectory) -> Option<usize> {
+    match trajectory {
+        Trajectory::FixedWing(_) | Trajectory::Multirotor(_) => None,
+        Trajectory::SlungLoad(it) => it.planner_nodes.iter().copied().find(|node| *node >= it.times_s.len()),
+    }
 }
 
 /// Does a quadrotor begin level, not turning, and with its load where it is?
@@ -159,5 +170,9 @@ fn plan_numbers(plan: &Plan) -> impl Iterator<Item = f64> + '_ {
         ];
         always.into_iter().chain(iteration.separation_m).chain(iteration.clearance_m)
     });
-    history.chain(plan.objective).chain([plan.timings.wall_s, plan.timings.distributed_s])
+    let events = plan.account.events.iter().map(|event| event.at_s);
+    let alternatives = plan.account.alternatives.iter();
+    let ways = alternatives.flat_map(|way| way.objective.into_iter().chain(way.path_m.iter().copied().flatten()));
+    let timings = [plan.timings.wall_s, plan.timings.distributed_s];
+    history.chain(plan.objective).chain(timings).chain(events).chain(ways)
 }

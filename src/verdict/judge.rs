@@ -5,8 +5,8 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Given, Outcome, Status, Verdict, arrival, clearance, dynamics, flight_integrity, integrity, limits,
-    multirotor, separation, slung_load, tracking,
+    Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity,
+    integrity, limits, multirotor, physics, separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -22,6 +22,17 @@ pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdi
 
 /// [`judge`], of a plan that was not whole: what was reconstructed decides nothing that it cannot tell.
 pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Option<&Flight>) -> Verdict {
+    judge_with(scenario, plan, given, flight, None)
+}
+
+/// [`judge_given`], with what a second integrator made of the flight; without it the disagreement is estimated.
+pub fn judge_with(
+    scenario: &Scenario,
+    plan: &Plan,
+    given: &Given,
+    flight: Option<&Flight>,
+    integration: Option<Integration>,
+) -> Verdict {
     let flyable = integrity::is_flyable(scenario, plan);
     let logged = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
     let logged = logged.as_ref().map(|flight| *flight).map_err(String::as_str);
@@ -32,6 +43,10 @@ pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Opti
     };
 
     given.qualify(&mut checks);
+    let integration = integration.or_else(|| Integration::by_replay(&checks));
+    if let Some(integration) = &integration {
+        integration.doubt(&mut checks);
+    }
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     settle(scenario, &mut checks);
     let outcome = if plan.status == PlanStatus::NoPlan || plan.trajectories.is_empty() {
@@ -41,7 +56,7 @@ pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Opti
     } else {
         Outcome::Pass
     };
-    Verdict { outcome, overclaimed, checks }
+    Verdict { outcome, overclaimed, checks, integration }
 }
 
 fn of_fixed_wings(
@@ -54,8 +69,8 @@ fn of_fixed_wings(
     let flown = logged.map_err(str::to_owned).and_then(|flight| Flown::new(scenario, plan, flight));
     let mut checks = nodes_checks(scenario, flyable.as_ref().map(|()| plan).map_err(String::as_str));
     checks.extend(plan_checks(scenario, plan, flyable.as_ref().map_err(String::as_str), planned.as_ref()));
-    checks.extend(log_checks(scenario, plan, logged));
-    checks.extend(flight_checks(scenario, flown.as_ref().map_err(String::as_str)));
+    checks.extend(log_checks(scenario, plan, logged, flown.as_ref().map_err(String::as_str)));
+    checks.extend(flight_checks(scenario, logged, flown.as_ref().map_err(String::as_str)));
     checks
 }
 
@@ -68,7 +83,8 @@ fn of_a_slung_load(
     let judge = slung_load::Judge::new(scenario, plan, flyable.clone());
     let mut checks = judge.nodes_checks();
     checks.extend(judge.plan_checks());
-    checks.extend(log_checks(scenario, plan, logged));
+    // Body, cable and load are judged by their true shapes: what touches has no clearance.
+    checks.extend(log_checks(scenario, plan, logged, Err("")));
     checks.extend(judge.flight_checks(logged));
     checks
 }
@@ -82,7 +98,8 @@ fn of_multirotors(
     let in_the_loop = logged.is_ok_and(|flight| flight.planning.is_some());
     let flyable = flyable.as_ref().map_err(String::as_str);
     let mut checks = multirotor::plan_checks(scenario, plan, flyable, in_the_loop);
-    checks.extend(log_checks(scenario, plan, logged));
+    // Obstacles and bodies are judged by their true shapes: what touches has no clearance.
+    checks.extend(log_checks(scenario, plan, logged, Err("")));
     checks.extend(multirotor::flight_checks(scenario, plan, logged));
     checks
 }
@@ -121,20 +138,28 @@ fn plan_checks(
     ]
 }
 
-fn log_checks(scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Vec<Check> {
+fn log_checks(
+    scenario: &Scenario,
+    plan: &Plan,
+    flight: Evidence<'_, Flight>,
+    flown: Evidence<'_, Flown<'_>>,
+) -> Vec<Check> {
     match flight {
         Ok(flight) => vec![
             flight_integrity::check_finite(flight),
             flight_integrity::check_complete(scenario, plan, flight),
-            flight_integrity::check_crash(flight),
+            flight_integrity::check_crash(scenario, flight, flown),
+            conditions::check(scenario, flight),
         ],
-        Err(reason) => [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes")]
-            .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
-            .into(),
+        Err(reason) => {
+            [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]
+                .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
+                .into()
+        }
     }
 }
 
-fn flight_checks(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
+fn flight_checks(scenario: &Scenario, logged: Evidence<'_, Flight>, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
     let motions = flown.map(|flown| flown.motions.as_slice());
     let no_load = |name, unit| Question::new(Group::Flight, name, unit).skip("no vehicle carries a load");
     vec![
@@ -142,6 +167,7 @@ fn flight_checks(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Vec<Che
         clearance::check(Group::Flight, scenario, motions),
         limits::check_flown_states(scenario, flown),
         limits::check_flown_controls(scenario, flown),
+        physics::check(scenario, logged),
         arrival::check_flown_goals(scenario, flown),
         arrival::check_flown_arrival(scenario, flown),
         arrival::check_flown_duration(scenario, flown),

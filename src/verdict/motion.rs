@@ -25,6 +25,7 @@ pub struct Knot {
 pub struct Motion {
     vehicle: String,
     knots: Vec<Knot>,
+    deviation_m: f64,
 }
 
 impl Motion {
@@ -41,7 +42,35 @@ impl Motion {
         if let Some(pair) = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s) {
             return Err(format!("the motion of {vehicle} goes back in time at {} s", pair[0].t_s));
         }
-        Ok(Self { vehicle: vehicle.to_owned(), knots })
+        Ok(Self { vehicle: vehicle.to_owned(), knots, deviation_m: 0.0 })
+    }
+
+    /// Takes the knots for samples of a smooth motion, from which the curve deviates between them: bounds of distances are
+    /// widened by that.
+    ///
+    /// ```text
+    /// |p - cubic| <= h⁴/384 max|p''''|                                                  error of Hermite interpolation
+    /// ```
+    ///
+    /// with p'''' from the changes of the third derivative from segment to segment, doubled.
+    pub fn sampled(mut self) -> Self {
+        let jerks: Vec<(f64, [f64; 3])> = self
+            .segments()
+            .filter(Segment::lasts)
+            .map(|segment| (segment.t_s[1] - segment.t_s[0], segment.jerk_mps3()))
+            .collect();
+        let deviation_m = |pair: &[(f64, [f64; 3])]| {
+            let [(one_s, one), (other_s, other)] = [pair[0], pair[1]];
+            let change = (0..3).map(|axis| (one[axis] - other[axis]).powi(2)).sum::<f64>().sqrt();
+            2.0 / 384.0 * one_s.max(other_s).powi(4) / one_s.min(other_s) * change
+        };
+        self.deviation_m = jerks.windows(2).map(deviation_m).fold(0.0, f64::max);
+        self
+    }
+
+    /// How far the true motion may be from the curve between two knots, m.
+    pub fn deviation_m(&self) -> f64 {
+        self.deviation_m
     }
 
     /// Name of the vehicle.
@@ -129,6 +158,13 @@ impl Segment {
             }
         }
         Self { t_s: [from_s, to_s], points_m }
+    }
+
+    /// Third derivative, constant over the segment, m/s³.
+    fn jerk_mps3(&self) -> [f64; 3] {
+        let duration_s = self.t_s[1] - self.t_s[0];
+        let [p0, p1, p2, p3] = self.points_m;
+        std::array::from_fn(|axis| 6.0 * (p3[axis] - p0[axis] + 3.0 * (p1[axis] - p2[axis])) / duration_s.powi(3))
     }
 
     /// Is it motion, or a jump between two knots at the same time?

@@ -48,7 +48,7 @@ impl Planned {
 fn flown(trajectory: &Trajectory) -> Result<(Motion, Vec<Knot>, Option<Knot>), String> {
     let intervals: Vec<Vec<Knot>> = (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
     let ends = intervals.iter().filter_map(|knots| knots.last().copied()).collect();
-    let motion = Motion::new(&trajectory.vehicle, intervals.concat())?;
+    let motion = Motion::new(&trajectory.vehicle, intervals.concat())?.sampled();
     Ok((motion, ends, rollout(trajectory, OPEN_LOOP_STEP_S).last().map(knot)))
 }
 

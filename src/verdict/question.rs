@@ -42,6 +42,8 @@ pub struct Question {
 pub struct Measured {
     lower: f64,
     upper: f64,
+    /// Was it bounded, rather than measured?
+    is_bounded: bool,
     at_s: Option<f64>,
     between: Vec<String>,
     reason: Option<String>,
@@ -50,17 +52,17 @@ pub struct Measured {
 impl Measured {
     /// A value known exactly.
     pub fn value(value: f64) -> Self {
-        Self { lower: value, upper: value, at_s: None, between: Vec::new(), reason: None }
+        Self { lower: value, upper: value, is_bounded: false, at_s: None, between: Vec::new(), reason: None }
     }
 
     /// A value known within bounds.
     pub fn bounds(lower: f64, upper: f64) -> Self {
-        Self { lower, ..Self::value(upper) }
+        Self { lower, is_bounded: true, ..Self::value(upper) }
     }
 
     /// A distance known within bounds, at its instant.
     pub fn approach(approach: &Approach) -> Self {
-        Self { lower: approach.lower_m, upper: approach.upper_m, ..Self::value(approach.upper_m).at(approach.at_s) }
+        Self::bounds(approach.lower_m, approach.upper_m).at(approach.at_s)
     }
 
     /// Adds the instant, s.
@@ -125,6 +127,8 @@ impl Question {
             name: format!("{}.{}", self.group, self.name),
             status,
             value: None,
+            lower: None,
+            upper: None,
             limit: None,
             margin: None,
             unit: self.unit.to_owned(),
@@ -136,16 +140,16 @@ impl Question {
     }
 
     fn answer(&self, status: Status, value: f64, limit: f64, margin: f64, measured: Measured) -> Check {
-        let Measured { lower, upper, at_s, between, reason } = measured;
+        let Measured { lower, upper, is_bounded, at_s, between, reason } = measured;
         if !(value.is_finite() && limit.is_finite() && margin.is_finite()) {
             let failed = self.fail(reason.unwrap_or_else(|| "the measured value is not a finite number".to_owned()));
             return Check { at_s, between, ..failed };
         }
-        let unsure =
-            || format!("between {lower} and {upper} {}: closer to the limit than rounding can tell", self.unit);
+        let unsure = || format!("between {lower} and {upper} {}: closer to the limit than can be told", self.unit);
         let reason = if status == Status::Undecided { Some(unsure()) } else { reason };
+        let [lower, upper] = [lower, upper].map(|bound| Some(bound).filter(|bound| is_bounded && bound.is_finite()));
         let (value, limit, margin) = (Some(value), Some(limit), Some(margin));
-        Check { status, value, limit, margin, at_s, between, reason, ..self.without_value(status, "") }
+        Check { status, value, lower, upper, limit, margin, at_s, between, reason, ..self.without_value(status, "") }
     }
 }
 

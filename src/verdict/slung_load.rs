@@ -1,11 +1,13 @@
 //! The judge of quadrotors with slung loads: what it asks beyond what it asks of every vehicle.
 
+mod behind;
 mod cable;
 mod clearance;
 mod course;
 mod end;
 mod flown;
 mod limits;
+mod physics;
 mod planned;
 
 use scenarios::slung_load::Trajectory;
@@ -19,9 +21,10 @@ pub use planned::Planned;
 use self::clearance::Surroundings;
 use self::end::End;
 use self::limits::Limited;
+use self::physics::Physics;
 use crate::verdict::compare::is_larger;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
-use crate::verdict::{Check, arrival, flown as shared, integrity, separation, tracking};
+use crate::verdict::{Check, arrival, flown as shared, integrity, physics as shared_physics, separation, tracking};
 
 /// In flight the envelope has to stay clear by this, m: what the plan keeps beyond it is for the tracker to use up.
 const FLOWN_ENVELOPE_M: f64 = 0.0;
@@ -110,6 +113,7 @@ impl<'a> Judge<'a> {
             self.surroundings.check_envelope(Group::Flight, course, envelope_m),
             self.limited.check_flown_states(flown),
             self.limited.check_flown_thrusts(log),
+            self.check_flown_dynamics(flight),
             self.end.check_flown_goal(flown, end_s),
             self.end.check_flown_rest(flown, end_s),
             arrival::check_flown_arrival(scenario, tracked),
@@ -121,6 +125,13 @@ impl<'a> Judge<'a> {
             cable::check_flown_cable(self.trajectory(), flight, scenario.limits().switch_s),
             self.limited.check_flown_swing(flown),
         ]
+    }
+
+    fn check_flown_dynamics(&self, flight: Evidence<'_, Flight>) -> Check {
+        shared_physics::answer(self.scenario, flight, shared_physics::LIMIT_M, |vehicle, log| {
+            let trajectory = self.plan.trajectories[0].slung_load();
+            Physics::of(self.scenario, vehicle, trajectory).largest_defect(log)
+        })
     }
 
     fn trajectory(&self) -> Evidence<'_, Trajectory> {

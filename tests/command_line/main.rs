@@ -13,4 +13,5 @@ mod results;
 mod running;
 mod schemas;
 mod tools;
+mod trust;
 mod workplace;

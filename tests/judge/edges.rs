@@ -45,6 +45,8 @@ const EDGES: &[Edge] = &[
     edge("flight.clearance", |case, y_m| shift(case, 0, [0.0, -y_m, 0.0]), 100.001, 99.999),
     edge("flight.state_limits", |case, wind| case.samples(2)[400].wind_mps[0] = -wind, 10.001, 9.999),
     edge("flight.control_limits", |case, n_x| factors(&mut case.samples(2)[400]).control.n_x = n_x, 0.4001, 0.3999),
+    edge("flight.conditions", |case, mps| case.samples(2)[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
+    edge("flight.dynamics", |case, x_m| case.samples(1)[1234].position_m[0] += x_m, 0.00101, 0.00099),
     edge("flight.goal", |case, z_m| shift(case, 1, [0.0, 0.0, z_m]), 5.001, 4.999),
     edge("flight.arrival", |case, late_s| delay(case, 1, late_s), 0.501, 0.499),
     edge("flight.duration", end_of_time, 20.299, 20.301),

@@ -42,6 +42,7 @@ fn a_required_check_that_does_not_exist_fails() {
 fn an_advisory_check_is_shown_and_does_not_decide() {
     let mut case = Case::good();
     case.trajectory(2).states[6].x_m += 1.5;
+    case.flight = Some(sim::fly(&case.scenario, &case.plan, 0, &mut |_| {}));
     assert_eq!(case.judge().outcome, Outcome::Fail);
     case.scenario.verdict.advisory = vec!["plan.dynamics".to_owned()];
     let verdict = case.judge();

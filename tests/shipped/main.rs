@@ -3,6 +3,7 @@
 mod between_nodes;
 mod conformance;
 mod geometry;
+mod multirotor;
 mod trapezoid;
 mod verdicts;
 

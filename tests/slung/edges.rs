@@ -57,6 +57,8 @@ const EDGES: &[Edge] = &[
     edge("flight.envelope", |case, y_m| shift_to(case, "flight.envelope", y_m), -0.001, 0.001),
     edge("flight.state_limits", |case, x_m| case.scenario.world.map.x_m.min = -2.0 - x_m, -0.001, 0.001),
     edge("flight.control_limits", |case, n| thrusts(&mut case.samples()[400]).control.thrust_n[3] = n, 7.001, 6.999),
+    edge("flight.conditions", |case, mps| case.samples()[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
+    edge("flight.dynamics", |case, y_m| case.loads()[777].position_m[1] += y_m, 0.0011, 0.0009),
     edge("flight.goal", |case, z_m| case.loads()[3000].position_m[2] += z_m, 0.0501, 0.0499),
     edge("flight.rest", |case, mps| case.loads()[3000].velocity_mps[0] += mps, 0.1001, 0.0998),
     edge("flight.duration", |case, t_s| case.scenario.simulation.max_duration_s = t_s, 5.999, 6.001),

@@ -15,7 +15,7 @@ use crate::free_space::vector::{Point, minus, norm, plus};
 use crate::free_space::{FreeSpace, known};
 use crate::planner::{Answers, Planner};
 
-const HANDLES: &str = "multirotors in the plane and in space, obstacles of all kinds, known, sensed or moving";
+const HANDLES: &str = "multirotors among obstacles known, sensed or moving";
 
 /// Receding horizon, our own rules.
 pub const RHC: Planner = Planner {

@@ -14,7 +14,7 @@ use crate::horizon::brief;
 use crate::horizon::reference::nodes;
 use crate::planner::{Answers, Planner, Progress};
 
-const HANDLES: &str = "one multirotor in the plane or in space, among obstacles that are known and do not move";
+const HANDLES: &str = "one multirotor among known obstacles that stand still";
 
 /// Sparse A*.
 pub const SPARSE_ASTAR: Planner = Planner {

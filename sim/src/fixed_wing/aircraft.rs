@@ -22,6 +22,8 @@ pub(crate) struct Aircraft {
     control: Control,
     /// Velocity of the air at the coming step's beginning, m/s.
     wind_mps: Vector3<f64>,
+    /// The same at its end, m/s.
+    wind_ahead_mps: Vector3<f64>,
     saturation: SaturationWatch,
     is_flying: bool,
     log: VehicleLog,
@@ -49,6 +51,7 @@ impl Aircraft {
             step_s: settings.step_s,
             control: Control::CRUISE,
             wind_mps: Vector3::zeros(),
+            wind_ahead_mps: Vector3::zeros(),
             saturation: SaturationWatch::default(),
             is_flying: true,
             log: VehicleLog {
@@ -129,12 +132,21 @@ impl Aircraft {
         }
     }
 
-    /// Force in the middle of the coming step, N, from the truth at its beginning, for which
-    /// [`decide`](Self::decide) was called. The air moves on.
-    pub fn force_n(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>, mass_kg: f64) -> Vector3<f64> {
+    /// The air moves on by the coming step. The truth at its beginning, for which [`decide`](Self::decide) was called.
+    pub fn let_air_pass(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
         self.air.advance(self.step_s, position_m.z, (velocity_mps - self.wind_mps).norm());
-        let wind_mps = (self.wind_mps + self.air.velocity_mps(position_m.z, &velocity_mps)) / 2.0;
-        mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, self.step_s)
+        self.wind_ahead_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
+    }
+
+    /// Force in the middle of a step of the plant, N.
+    ///
+    /// - `velocity_mps`, `mass_kg`: the truth at the plant step's beginning
+    /// - `middle`: where its middle is in the coming step, in [0, 1]
+    /// - `share`: its length, as a share of that step
+    pub fn force_n(&self, velocity_mps: Vector3<f64>, mass_kg: f64, middle: f64, share: f64) -> Vector3<f64> {
+        let wind_mps = self.wind_mps * (1.0 - middle) + self.wind_ahead_mps * middle;
+        let step_s = self.step_s * share;
+        mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, step_s)
     }
 
     /// The flight is over. Returns the log, and an event with its time, s, if one was still to come.

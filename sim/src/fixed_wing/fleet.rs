@@ -47,7 +47,7 @@ impl<'a> Fleet<'a> {
         let mut squadrons: Vec<Squadron> = Vec::new();
         for (vehicle, trajectory) in scenario.vehicles.iter().zip(&plan.trajectories) {
             if squadrons.last().is_none_or(Squadron::is_full) {
-                squadrons.push(Squadron::new(step_s));
+                squadrons.push(Squadron::new(step_s, setup.substeps()));
             }
             let trajectory = trajectory.fixed_wing();
             let start = &trajectory.states[0];

@@ -11,15 +11,17 @@ pub(super) struct Squadron {
     world: RapierWorld,
     aircraft: Vec<Aircraft>,
     step_s: f64,
+    substeps: usize,
 }
 
 impl Squadron {
     /// Most aircraft in one.
     pub const SIZE: usize = 10;
 
-    /// An empty one. `step_s` > 0.
-    pub fn new(step_s: f64) -> Self {
-        Self { world: RapierWorld::new(step_s), aircraft: Vec::with_capacity(Self::SIZE), step_s }
+    /// An empty one. Decisions are held for `step_s` > 0, in which the world makes so many steps.
+    pub fn new(step_s: f64, substeps: usize) -> Self {
+        let world = RapierWorld::new(step_s / substeps as f64);
+        Self { world, aircraft: Vec::with_capacity(Self::SIZE), step_s, substeps }
     }
 
     pub fn is_full(&self) -> bool {
@@ -51,7 +53,9 @@ impl Squadron {
     /// Lets these steps pass, counted from 0.
     pub fn fly(&mut self, steps: Range<usize>) {
         for step in steps {
-            self.advance();
+            for substep in 0..self.substeps {
+                self.advance(substep);
+            }
             self.decide((step + 1) as f64 * self.step_s);
         }
     }
@@ -67,11 +71,15 @@ impl Squadron {
     }
 
     /// One step of the world under everybody's forces.
-    fn advance(&mut self) {
-        let Self { world, aircraft, .. } = self;
+    fn advance(&mut self, substep: usize) {
+        let Self { world, aircraft, substeps, .. } = self;
+        let (middle, share) = ((substep as f64 + 0.5) / *substeps as f64, 1.0 / *substeps as f64);
         for (index, aircraft) in flying(aircraft) {
             let (position_m, velocity_mps) = (world.position_m(index), world.velocity_mps(index));
-            let force_n = aircraft.force_n(position_m, velocity_mps, world.mass_kg(index));
+            if substep == 0 {
+                aircraft.let_air_pass(position_m, velocity_mps);
+            }
+            let force_n = aircraft.force_n(velocity_mps, world.mass_kg(index), middle, share);
             world.set_force_n(index, force_n);
         }
         world.step();

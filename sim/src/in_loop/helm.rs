@@ -105,20 +105,20 @@ impl Helm {
 
     /// Asks the planner.
     pub fn ask(&mut self, fix: Fix<'_>) -> Replan {
-        let t_s = fix.t_s;
-        let discovered = fix.senses.news();
+        let Fix { t_s, own, senses, moving, neighbours } = fix;
+        let discovered = senses.news();
         let planned_s = self.on_step(t_s + self.settings.deadline_s);
         let observation = Observation {
             t_s,
             takes_effect_s: planned_s,
-            position_m: fix.own.position_m.into(),
-            velocity_mps: fix.own.velocity_mps.into(),
+            position_m: own.position_m.into(),
+            velocity_mps: own.velocity_mps.into(),
             in_force: self.in_force.nodes(),
             last: &self.last,
-            known: fix.senses.known(),
+            known: senses.known(),
             discovered: &discovered,
-            moving: &fix.moving,
-            neighbours: &fix.neighbours,
+            moving: &moving,
+            neighbours: &neighbours,
         };
         let began = Instant::now();
         let answer = self.planner.replan(&observation);

@@ -89,7 +89,7 @@ impl Sortie {
             load_velocity_mps: first.body.load_velocity_mps + offset_mps,
             ..first.body
         };
-        let plant_steps = (settings.step_s / LONGEST_PLANT_STEP_S).ceil().max(1.0) as usize;
+        let plant_steps = (settings.step_s / LONGEST_PLANT_STEP_S).ceil().max(1.0) as usize * setup.substeps();
         let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
         Self {
             hoist: Hoist::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
@@ -234,6 +234,6 @@ impl Sortie {
 }
 
 /// Force of air that moves past a body at a velocity, N: half its density times the drag area times the speed squared.
-fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
+pub(super) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
     relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
 }

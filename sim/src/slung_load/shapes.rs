@@ -5,7 +5,8 @@ mod distance;
 use scenarios::Prism;
 use scenarios::slung_load::Model;
 
-use self::distance::{Flat, point_to_prism_m, to_prism_m};
+use self::distance::{Flat, point_to_prism_m, to_prism, to_prism_m};
+pub use self::distance::{OVERHANG_M, Plane};
 use super::body::Body;
 
 /// What the ground is called where an obstacle has a name.
@@ -62,6 +63,21 @@ impl Parts {
         }
     }
 
+    /// That distance, and a plane between part (the load's centre) and obstacle if they do not overlap.
+    pub fn distance_and_plane(&self, part: Part, body: &Body, obstacle: &Prism) -> (f64, Option<Plane>) {
+        match part {
+            Part::Body => {
+                let (center_m, axis) = (body.position_m, body.thrust_axis());
+                to_prism(&Flat::Disc { center_m, axis, radius_m: self.body_radius_m }, obstacle)
+            }
+            Part::Cable => to_prism(&Flat::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
+            Part::Load => {
+                let plane = to_prism(&Flat::Line { ends_m: [body.load_position_m; 2] }, obstacle).1;
+                (self.distance_m(part, body, obstacle), plane)
+            }
+        }
+    }
+
     /// A bound of that distance from below that costs little, m: by the ball about the part.
     pub fn at_least_m(&self, part: Part, body: &Body, obstacle: &Prism) -> f64 {
         match part {
@@ -88,6 +104,11 @@ impl Parts {
     /// Radius of the envelope circle: that of the body, or the horizontal reach of the load, whichever is larger, m.
     pub fn envelope_radius_m(&self, body: &Body) -> f64 {
         body.cable_m().xy().norm().max(self.body_radius_m)
+    }
+
+    /// Radius of the load's ball, m.
+    pub fn load_radius_m(&self) -> f64 {
+        self.load_radius_m
     }
 
     /// Radius of the body's disc, m.

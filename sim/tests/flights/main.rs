@@ -3,6 +3,7 @@
 mod arena;
 mod crash;
 mod disturbances;
+mod finer_steps;
 mod flow;
 mod open_loop;
 mod polar;

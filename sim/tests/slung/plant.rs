@@ -7,7 +7,7 @@ use crate::arena::{plan, scenario, silent, trajectory};
 use crate::reference_flight::{self, L_0, M_L, M_Q, Pair};
 
 const OPEN_LOOP: Setup =
-    Setup { pilot: Pilot::OpenLoop, start_offset_m: [0.0; 3], start_velocity_offset_mps: [0.0; 3] };
+    Setup { pilot: Pilot::OpenLoop, start_offset_m: [0.0; 3], start_velocity_offset_mps: [0.0; 3], halvings: 0 };
 
 /// Level flight of `duration_s` from `start`, all four thrusts going linearly from one total to the other, N.
 fn flown(start: State, cable: Cable, total_n: [f64; 2], duration_s: f64) -> Flight {

@@ -121,7 +121,7 @@ fn a_run_without_a_plan_is_recorded_with_its_world_and_its_verdict() {
     made_up.plan.history.clear();
     made_up.plan.status = PlanStatus::NoPlan;
     made_up.plan.objective = None;
-    let verdict = Verdict { outcome: Outcome::NoPlan, checks: Vec::new(), overclaimed: false };
+    let verdict = Verdict { outcome: Outcome::NoPlan, checks: Vec::new(), overclaimed: false, integration: None };
     let run = Run { flight: None, verdict: &verdict, ..made_up.run() };
     let (folder, _) = recorded(&run);
     let entities = entities(&read(folder.path()));

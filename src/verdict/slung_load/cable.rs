@@ -22,13 +22,8 @@ pub fn check_planned_tension(model: &Model, vehicle: &str, planned: Evidence<'_,
         Err(reason) => return question.fail(reason),
         Ok(planned) => planned,
     };
-    let tensions = planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n));
-    let Some((at_s, lowest_n)) = tensions.clone().reduce(|a, b| if is_smaller(b.1, a.1) { b } else { a }) else {
-        return question.fail("the plan has no interval");
-    };
-    if exceeds(-PUSH_N, lowest_n) {
-        let measured = Measured::value(lowest_n).at(at_s).with(vehicle);
-        return question.at_least(measured.because("a cable that is to stay taut would have to push"), -PUSH_N);
+    if let Some(push) = push(&question, vehicle, planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n))) {
+        return push;
     }
     let mut impulses: Vec<(f64, f64)> = planned.impacts.clone();
     let pairs = planned.knots.windows(2).filter(|pair| pair[1].t_s > pair[0].t_s);
@@ -39,17 +34,31 @@ pub fn check_planned_tension(model: &Model, vehicle: &str, planned: Evidence<'_,
     highest_mean(&question, vehicle, impulses, model.limits.tension_n)
 }
 
-/// The flown tension: its mean below what the cable bears.
+/// The flown tension: never below 0 either, and its mean below what the cable bears.
 pub fn check_flown_tension(model: &Model, log: Evidence<'_, VehicleLog>) -> Check {
     let question = Question::new(Group::Flight, "tension", "N");
     match log {
         Err(reason) => question.fail(reason),
         Ok(log) => {
+            let tensions = log.samples.iter().zip(&log.loads).map(|(sample, load)| (sample.t_s, load.tension_n));
+            if let Some(push) = push(&question, &log.vehicle, tensions) {
+                return push;
+            }
             let steps = log.samples.windows(2).zip(log.loads.iter().skip(1));
             let impulses = steps.map(|(pair, load)| (pair[1].t_s, load.tension_n * (pair[1].t_s - pair[0].t_s)));
             highest_mean(&question, &log.vehicle, impulses.collect(), model.limits.tension_n)
         }
     }
+}
+
+/// The failed check of a cable that would have to push, by tensions, N, at their times, s; `None` if it never does.
+fn push(question: &Question, vehicle: &str, tensions: impl Iterator<Item = (f64, f64)>) -> Option<Check> {
+    let (at_s, lowest_n) = tensions.reduce(|a, b| if is_smaller(b.1, a.1) { b } else { a })?;
+    if !exceeds(-PUSH_N, lowest_n) {
+        return None;
+    }
+    let measured = Measured::value(lowest_n).at(at_s).with(vehicle);
+    Some(question.at_least(measured.because("a cable that is taut would have to push"), -PUSH_N))
 }
 
 /// The highest mean over the window, of impulses, N s, and the times until which they came, s.
@@ -108,6 +117,9 @@ pub fn check_flown_cable(trajectory: Evidence<'_, Trajectory>, flight: Evidence<
         Err(reason) => return question.fail(reason),
         Ok(both) => both,
     };
+    if let Some(contradiction) = flight.vehicles.iter().find_map(contradiction) {
+        return question.fail(contradiction);
+    }
     let planned = planned_switches(trajectory);
     let flown: Vec<(f64, Cable)> =
         flight.events.iter().filter_map(|event| Some((event.t_s, switch(&event.kind)?))).collect();
@@ -122,6 +134,25 @@ pub fn check_flown_cable(trajectory: Evidence<'_, Trajectory>, flight: Evidence<
         None => question.at_most(Measured::value(0.0).with(&trajectory.vehicle), limit_s),
         Some((at_s, late_s)) => question.at_most(Measured::value(late_s).at(at_s).with(&trajectory.vehicle), limit_s),
     }
+}
+
+/// Where a log calls the cable taut and it does not pull, or slack and it does, for too long to be a matter of when exactly
+/// it switched, in words.
+fn contradiction(log: &VehicleLog) -> Option<String> {
+    let mut since_s: Option<f64> = None;
+    for (pair, load) in log.samples.windows(2).zip(log.loads.iter().skip(1)) {
+        let is_pulling = load.tension_n > 0.0;
+        if is_pulling == (load.cable == Cable::Taut) {
+            since_s = None;
+            continue;
+        }
+        let began_s = *since_s.get_or_insert(pair[0].t_s);
+        if pair[1].t_s - began_s > 2.0 * SHORTEST_PHASE_S + (pair[1].t_s - pair[0].t_s) {
+            let (called, does) = if is_pulling { ("slack", "pulls") } else { ("taut", "does not pull") };
+            return Some(format!("from {began_s:.3} s on the log calls the cable {called}, but it {does}"));
+        }
+    }
+    None
 }
 
 fn switch(kind: &EventKind) -> Option<Cable> {

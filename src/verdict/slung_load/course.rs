@@ -4,6 +4,11 @@
 use nalgebra::Vector3;
 use sim::slung_load::Body;
 
+use crate::verdict::bernstein;
+
+/// A larger mean acceleration than this within a segment is an impact, m/s².
+const IMPACT_MPS2: f64 = 50.0;
+
 /// Quadrotor and load at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
@@ -21,6 +26,19 @@ pub struct Instant {
 #[derive(Clone, Debug)]
 pub struct Course {
     instants: Vec<Instant>,
+    /// One per segment, or none if the curves are the motion.
+    deviations: Vec<Deviation>,
+}
+
+/// How far the true motion may be from the curves of a segment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// The quadrotor's centre, m.
+    pub quadrotor_m: f64,
+    /// The load, m.
+    pub load_m: f64,
+    /// The attitude, rad.
+    pub turn_rad: f64,
 }
 
 /// Largest speeds within a segment.
@@ -39,7 +57,60 @@ pub struct Speeds {
 impl Course {
     /// Through these instants, in the order of time.
     pub fn new(instants: Vec<Instant>) -> Self {
-        Self { instants }
+        Self { instants, deviations: Vec::new() }
+    }
+
+    /// Takes the instants for samples of a motion that is smooth, impacts aside, from which the curves deviate between them:
+    ///
+    /// ```text
+    /// |p - cubic| <= h⁴/384 max|p''''|,   |angle| <= h²/8 max|ω'|              errors of interpolation
+    /// |p - cubic| <= 4/27 h |Δv|                                              of a velocity that jumps
+    /// ```
+    ///
+    /// with p'''' and ω' from the differences between neighbouring segments, doubled.
+    pub fn sampled(mut self) -> Self {
+        let lasting: Vec<usize> = self.segments().collect();
+        let mut deviations = vec![Deviation::default(); self.instants.len().saturating_sub(1)];
+        for pair in lasting.windows(2) {
+            let between = self.deviation_between(pair[0], pair[1]);
+            for segment in pair {
+                let so_far = &mut deviations[*segment];
+                so_far.quadrotor_m = so_far.quadrotor_m.max(between.quadrotor_m);
+                so_far.load_m = so_far.load_m.max(between.load_m);
+                so_far.turn_rad = so_far.turn_rad.max(between.turn_rad);
+            }
+        }
+        self.deviations = deviations;
+        self
+    }
+
+    /// How far the true motion may be from the curves of a segment.
+    pub fn deviation(&self, segment: usize) -> Deviation {
+        self.deviations.get(segment).copied().unwrap_or_default()
+    }
+
+    fn deviation_between(&self, one: usize, other: usize) -> Deviation {
+        let [one_s, other_s] = [one, other].map(|segment| self.duration_s(segment));
+        let (long_s, short_s) = (one_s.max(other_s), one_s.min(other_s));
+        let jerk = |points: &[Vector3<f64>; 4], h: f64| {
+            (points[3] - points[0] + (points[1] - points[2]) * 3.0) * 6.0 / h.powi(3)
+        };
+        let [one_points, other_points] = [one, other].map(|segment| self.control_points(segment));
+        let deviation_m = |which: usize| {
+            let change = (jerk(&one_points[which], one_s) - jerk(&other_points[which], other_s)).norm();
+            let smooth_m = 2.0 / 384.0 * long_s.powi(4) / short_s * change;
+            let jump_m = [(one_points[which], one_s), (other_points[which], other_s)].map(|(points, h)| {
+                let jump_mps = ((points[3] - points[2]) - (points[1] - points[0])).norm() * 3.0 / h;
+                if jump_mps > IMPACT_MPS2 * h { 4.0 / 27.0 * h * jump_mps } else { 0.0 }
+            });
+            smooth_m.max(jump_m[0]).max(jump_m[1])
+        };
+        let rate = |segment: usize, h: f64| {
+            let (a, b) = self.ends(segment);
+            (a.attitude.inverse() * b.attitude).scaled_axis() / h
+        };
+        let turn_rad = 2.0 / 8.0 * long_s * (rate(one, one_s) - rate(other, other_s)).norm();
+        Deviation { quadrotor_m: deviation_m(0), load_m: deviation_m(1), turn_rad }
     }
 
     /// The instants.
@@ -90,6 +161,20 @@ impl Course {
             relative_mps: fastest(&relative),
             turn_radps: a.attitude.angle_to(&b.attitude) / duration_s,
         }
+    }
+
+    /// Control points of quadrotor and load over a part of a segment, along a direction, m.
+    pub fn along(&self, segment: usize, share: [f64; 2], direction: &Vector3<f64>) -> [[f64; 4]; 2] {
+        self.control_points(segment).map(|points| {
+            let (until, _) = bernstein::split(&points.map(|point| point.dot(direction)), share[1]);
+            bernstein::split(&until, share[0] / share[1]).1
+        })
+    }
+
+    /// The turn of a segment, constant in the world frame: its axis times its angle, rad.
+    pub fn turn_rad(&self, segment: usize) -> Vector3<f64> {
+        let (a, b) = self.ends(segment);
+        a.attitude * (a.attitude.inverse() * b.attitude).scaled_axis()
     }
 
     fn ends(&self, segment: usize) -> (&Body, &Body) {

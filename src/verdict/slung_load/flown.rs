@@ -34,11 +34,12 @@ impl<'a> Flown<'a> {
         if let Some(sample) = log.samples.iter().find(|sample| !is_attitude(sample.world_from_body)) {
             return Err(format!("the attitude of {} is none at {} s", log.vehicle, sample.t_s));
         }
-        Ok(Self { log, course: Course::new(instants), motions })
+        Ok(Self { log, course: Course::new(instants).sampled(), motions })
     }
 }
 
-fn instant((sample, load): (&Sample, &LoadSample)) -> Instant {
+/// Quadrotor and load at the instant of a sample.
+pub fn instant((sample, load): (&Sample, &LoadSample)) -> Instant {
     let body = Body {
         position_m: sample.position_m.into(),
         velocity_mps: sample.velocity_mps.into(),

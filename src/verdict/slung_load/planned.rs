@@ -52,7 +52,8 @@ impl Planned {
         let trajectory = plan.trajectories[0].slung_load();
         let intervals = trajectory.times_s.len() - 1;
         let knots: Vec<Knot> = (0..intervals).flat_map(|interval| flown(trajectory, &plant, interval)).collect();
-        let course = Course::new(knots.iter().map(|knot| Instant { t_s: knot.t_s, body: knot.body }).collect());
+        let instants = knots.iter().map(|knot| Instant { t_s: knot.t_s, body: knot.body }).collect();
+        let course = Course::new(instants).sampled();
         let motions = motions(&trajectory.vehicle, course.instants())?;
         let defects = (0..intervals).map(|interval| defect(trajectory, &plant, interval)).collect();
         let impacts = impacts(trajectory, &plant);

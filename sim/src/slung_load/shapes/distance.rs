@@ -17,7 +17,7 @@ const ALONG: f64 = 1e-12;
 /// More iterations are not needed, but rounding might let the last bounds stand still.
 const MAX_ITERATIONS: usize = 200;
 /// How far a prism without bottom or top reaches beyond the shape, m: any length says the same.
-const OVERHANG_M: f64 = 1.0;
+pub const OVERHANG_M: f64 = 1.0;
 
 /// A flat disc or a straight line.
 #[derive(Clone, Copy, Debug)]
@@ -55,14 +55,35 @@ impl Flat {
     }
 }
 
+/// A plane with a prism behind it: what is in front by d is farther away from the prism than d.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Away from the prism, of unit length, world frame.
+    pub normal: Vector3<f64>,
+    /// What the normal gives, as a product, for the foremost point of the prism, m.
+    pub offset_m: f64,
+}
+
 /// Signed distance between a shape and a prism with its corners counterclockwise, m.
 pub(super) fn to_prism_m(shape: &Flat, prism: &Prism) -> f64 {
+    to_prism(shape, prism).0
+}
+
+/// The same with a plane between the two that is as far from the shape, if they do not overlap. Of a prism without bottom or
+/// top it is one for shapes within [`OVERHANG_M`] of this one.
+pub(super) fn to_prism(shape: &Flat, prism: &Prism) -> (f64, Option<Plane>) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
         Range::new(low - OVERHANG_M, high + OVERHANG_M)
     });
     let difference = |direction: &Vector3<f64>| shape.support_m(direction) - prism_support_m(prism, z_m, &-direction);
-    separation_m(&difference).unwrap_or_else(|| -depth_m(&difference, &normals(shape, prism)))
+    match separation(&difference) {
+        None => (-depth_m(&difference, &normals(shape, prism)), None),
+        Some((distance_m, normal)) => {
+            let offset_m = prism_support_m(prism, z_m, &normal).dot(&normal);
+            (distance_m, Some(Plane { normal, offset_m }))
+        }
+    }
 }
 
 /// Signed distance between a point and a prism with its corners counterclockwise, m.
@@ -109,29 +130,32 @@ fn depth_m(difference: &impl Fn(&Vector3<f64>) -> Vector3<f64>, normals: &[Vecto
     normals.iter().map(overlap_m).fold(f64::INFINITY, |least, overlap_m| least.min(overlap_m.max(0.0)))
 }
 
-/// Distance of the origin from a convex set, given by its farthest points, m; `None` if it holds the origin. NaN if it is
-/// made of such.
-fn separation_m(farthest: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<f64> {
+/// Distance of the origin from a convex set, given by its farthest points, m, and the direction in which the set is at least so
+/// far away; `None` if it holds the origin. NaN if it is made of such.
+fn separation(farthest: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
     let mut nearest = farthest(&Vector3::x());
     let mut simplex = Simplex::of(nearest);
-    let mut lower_m = f64::NEG_INFINITY;
+    let (mut lower_m, mut normal) = (f64::NEG_INFINITY, Vector3::zeros());
     for _ in 0..MAX_ITERATIONS {
         let distance_m = nearest.norm();
         if distance_m.is_nan() {
-            return Some(f64::NAN);
+            return Some((f64::NAN, normal));
         }
         if distance_m <= OVERLAP_M {
             return None;
         }
         let corner = farthest(&-nearest);
-        lower_m = lower_m.max(nearest.dot(&corner) / distance_m);
+        let bound_m = nearest.dot(&corner) / distance_m;
+        if bound_m > lower_m {
+            (lower_m, normal) = (bound_m, nearest / distance_m);
+        }
         if distance_m - lower_m <= TOLERANCE_M {
             break;
         }
         (nearest, simplex) = simplex.with(corner).nearest();
     }
     // Without a plane between them, they have not been told apart: then they overlap.
-    (lower_m > 0.0).then_some(lower_m)
+    (lower_m > 0.0).then_some((lower_m, normal))
 }
 
 /// Up to four corners of a simplex.

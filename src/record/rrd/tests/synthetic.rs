@@ -223,6 +223,8 @@ fn verdict() -> Verdict {
     let check = |name: &str, status, value, limit, margin, at_s, between: &[&str]| Check {
         name: name.to_owned(),
         status,
+        lower: None,
+        upper: None,
         value: Some(value),
         limit: Some(limit),
         margin: Some(margin),
@@ -243,6 +245,7 @@ fn verdict() -> Verdict {
         ..check("flight.arrival", Status::Pass, 0.0, 0.5, 0.5, 0.0, &[])
     };
     Verdict {
+        integration: None,
         outcome: Outcome::Fail,
         overclaimed: true,
         checks: vec![

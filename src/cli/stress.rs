@@ -1,0 +1,110 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use scenarios::PlanStatus;
+
+use super::run::AuthorArgs;
+use crate::error::{Error, Exit};
+use crate::notation::{number, quantity};
+use crate::progress::Progress;
+use crate::stress::{self, Axis, Stress};
+use crate::{jobs, output, pipeline};
+
+/// Find the disturbance at which the verdict turns.
+///
+/// The scenario is planned once; then the plan is flown with a disturbance that grows until a flight fails. Levels up to
+/// beyond the first failure are tried, so that a response which is not monotone is noticed and said. The exit code is 1 if
+/// the plan fails without any disturbance of the kind.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct StressCommand {
+    /// The scenario file
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    /// What grows; repeat it, or separate by commas, for several
+    #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', required = true)]
+    over: Vec<Axis>,
+    #[command(flatten)]
+    author: AuthorArgs,
+    /// Seed of everything random, instead of the scenario's own
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Print nothing but errors; the files tell the rest
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  harness stress scenarios/fixed-wing/rendezvous-7-wind.toml --over wind
+  harness stress scenarios/slung/rectangle.toml --over wind,mass,noise
+
+Results:
+  out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and where the verdict turns";
+
+impl StressCommand {
+    /// Plans, searches, prints and writes.
+    pub fn execute(&self) -> Result<Exit, Error> {
+        let authors = self.author.authors()?;
+        let jobs = jobs::load(std::slice::from_ref(&self.scenario), &authors, self.seed, |_| true);
+        if let Some(refusal) = jobs.bad.into_iter().next() {
+            return Err(refusal.error);
+        }
+        let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
+        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let plan = pipeline::plan(job, &mut progress).answer.plan;
+        progress.finish();
+        if plan.status == PlanStatus::NoPlan {
+            output::tell(&format!("no plan: {}", plan.reason.as_deref().unwrap_or("the planner gives no reason")));
+            return Ok(Exit::Failed);
+        }
+        let folder = self.out.join(&job.scenario.name).join(job.author.name());
+        output::create_folder(&folder)?;
+        let mut exit = Exit::Passed;
+        for &over in &self.over {
+            let mut flown = 0;
+            let stress = stress::run(&job.scenario, &plan, over, job.seed, &mut |count| flown += count);
+            output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
+            if !self.quiet {
+                output::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;
+            }
+            if stress.trials.first().is_some_and(|trial| !trial.passed) {
+                exit = Exit::Failed;
+            }
+        }
+        Ok(exit)
+    }
+}
+
+/// The result in one line.
+fn in_words(stress: &Stress) -> String {
+    let level = |level: f64| match stress.over {
+        Axis::Mass => format!("{:+.1} %", 100.0 * level),
+        Axis::Wind | Axis::Noise => quantity(level, stress.unit),
+    };
+    let what = name(stress.over);
+    let asked = format!("the scenario has {}", level(stress.asked));
+    let odd = if stress.is_monotone { "" } else { "; NOT MONOTONE: some stronger one passes again" };
+    match (&stress.turns, stress.trials.first(), stress.trials.last()) {
+        (Some(turn), ..) => {
+            let red = turn.red.join(", ");
+            format!("{what} {}: passes at {}, fails by {red}; {asked}{odd}", level(turn.fails), level(turn.passes))
+        }
+        (None, Some(first), _) if !first.passed => {
+            format!("{what}: fails without any, by {}{odd}", first.red.join(", "))
+        }
+        (None, _, Some(last)) => format!("{what}: passes up to {}, the most that is tried; {asked}", level(last.level)),
+        (None, _, None) => format!("{what}: nothing was flown, of {} levels", number(0.0, "-")),
+    }
+}
+
+fn name(over: Axis) -> &'static str {
+    match over {
+        Axis::Wind => "wind",
+        Axis::Mass => "mass",
+        Axis::Noise => "noise",
+    }
+}

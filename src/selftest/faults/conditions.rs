@@ -1,0 +1,47 @@
+//! What can be wrong with a flight in wind, seen through noise.
+
+use super::super::{Fault, Specimen};
+
+/// The faults.
+pub fn faults() -> Vec<Fault> {
+    vec![
+        Fault::new("flight.conditions", "the wind was switched off", |it| {
+            let mut calm = it.scenario.clone();
+            calm.simulation.wind = None;
+            it.fly_in(&calm);
+        }),
+        Fault::new("flight.conditions", "the wind blew with its sign switched", |it| {
+            let mut turned = it.scenario.clone();
+            turn(&mut turned);
+            it.fly_in(&turned);
+        }),
+        Fault::new("flight.dynamics", "the wind in the log has its sign switched, the one that acted has not", |it| {
+            each_sample(it, |sample| sample.wind_mps = sample.wind_mps.map(|component| -component));
+        }),
+        Fault::new("flight.conditions", "the sensors had no noise", |it| {
+            let mut exact = it.scenario.clone();
+            exact.simulation.sensors = scenarios::Sensors::default();
+            it.fly_in(&exact);
+        }),
+        Fault::new("flight.conditions", "the sensors had half of the noise", |it| {
+            let mut quieter = it.scenario.clone();
+            quieter.simulation.sensors.position_noise_m /= 2.0;
+            it.fly_in(&quieter);
+        }),
+        Fault::new("flight.dynamics", "the true mass was the nominal one", |it| {
+            let mut nominal = it.scenario.clone();
+            nominal.simulation.mismatch = scenarios::Mismatch::default();
+            it.fly_in(&nominal);
+        }),
+    ]
+}
+
+fn turn(scenario: &mut scenarios::Scenario) {
+    let Some(wind) = &mut scenario.simulation.wind else { return };
+    wind.mean_mps = wind.mean_mps.map(|component| -component);
+    wind.pulses.iter_mut().for_each(|pulse| pulse.peak_mps = pulse.peak_mps.map(|component| -component));
+}
+
+fn each_sample(it: &mut Specimen, change: impl Fn(&mut sim::Sample)) {
+    it.flight().vehicles.iter_mut().flat_map(|log| &mut log.samples).for_each(change);
+}

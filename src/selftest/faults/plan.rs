@@ -1,0 +1,85 @@
+//! What can be wrong with any plan.
+
+use scenarios::PlannedEvent;
+
+use super::super::{Fault, Specimen};
+
+/// The faults.
+pub fn faults() -> Vec<Fault> {
+    vec![
+        Fault::new("plan.complete", "the plan is empty", |it| it.plan.trajectories.clear()),
+        Fault::new("plan.complete", "a trajectory has no node", |it| truncate(it, 0.0)),
+        Fault::new("plan.complete", "a trajectory has states and no times", |it| it.times_s(0).clear()),
+        Fault::new("plan.complete", "the plan is for a vehicle of another name", rename),
+        Fault::new("plan.complete", "a trajectory stands twice", |it| {
+            let twice = it.plan.trajectories[0].clone();
+            it.plan.trajectories.push(twice);
+        }),
+        Fault::new("plan.complete", "planned time goes backwards", |it| {
+            let times_s = it.times_s(0);
+            times_s[3] = 0.5 * times_s[1];
+        }),
+        Fault::new("plan.complete", "the plan starts late", |it| it.times_s(0)[0] = 1e-3),
+        Fault::new("plan.complete", "planned times in milliseconds", |it| {
+            it.scenario.vehicles[0].start.x_m += 1000.0;
+            it.times_s(0).iter_mut().for_each(|t_s| *t_s *= 1000.0);
+        }),
+        Fault::new("plan.goal", "the last quarter of the plan is missing", |it| {
+            truncate(it, 0.75);
+            let scenario = it.scenario.clone();
+            it.fly_in(&scenario);
+        }),
+        Fault::new("plan.finite", "one planned time is not a number", |it| it.times_s(0)[2] = f64::NAN),
+        Fault::new("plan.finite", "the objective is not a number", |it| it.plan.objective = Some(f64::NAN)),
+        Fault::new("plan.finite", "a planned event is at no time", |it| {
+            it.plan.account.events.push(PlannedEvent { at_s: f64::NAN, what: "catch".to_owned() });
+        }),
+        Fault::new("plan.dynamics", "the plan's clock runs 5 % fast", |it| {
+            it.times_s(0).iter_mut().for_each(|t_s| *t_s *= 0.95);
+        }),
+        Fault::new("flight.complete", "the plan was changed after it was flown", |it| {
+            it.times_s(0).iter_mut().for_each(|t_s| *t_s *= 1.0 + 1e-6);
+        }),
+        Fault::new("nodes.goal", "the goal was moved after planning", |it| {
+            let goal_m = it.scenario.limits().goal_m;
+            it.scenario.vehicles.iter_mut().for_each(|vehicle| vehicle.goal.z_m += 1.5 * goal_m);
+        }),
+        Fault::new("plan.duration", "the plan takes longer than it may", |it| {
+            it.scenario.simulation.max_duration_s = 0.9 * it.plan.flight_time_s().unwrap_or(0.0);
+        }),
+    ]
+}
+
+/// Keeps a share of the nodes of every trajectory.
+fn truncate(it: &mut Specimen, share: f64) {
+    for trajectory in &mut it.plan.trajectories {
+        let kept = (trajectory.times_s().len() as f64 * share) as usize;
+        match trajectory {
+            scenarios::Trajectory::FixedWing(trajectory) => {
+                trajectory.times_s.truncate(kept);
+                trajectory.states.truncate(kept);
+                trajectory.controls.truncate(kept);
+            }
+            scenarios::Trajectory::Multirotor(trajectory) => {
+                trajectory.times_s.truncate(kept);
+                trajectory.states.truncate(kept);
+            }
+            scenarios::Trajectory::SlungLoad(trajectory) => {
+                trajectory.times_s.truncate(kept);
+                trajectory.states.truncate(kept);
+                trajectory.controls.truncate(kept);
+                trajectory.cable.truncate(kept);
+                trajectory.planner_nodes.retain(|node| *node < kept);
+            }
+        }
+    }
+}
+
+fn rename(it: &mut Specimen) {
+    let name = match &mut it.plan.trajectories[0] {
+        scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.vehicle,
+        scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.vehicle,
+        scenarios::Trajectory::Multirotor(trajectory) => &mut trajectory.vehicle,
+    };
+    name.push('?');
+}

@@ -1,0 +1,110 @@
+use clap::ValueEnum;
+use scenarios::{Family, Scenario, Wind};
+use serde::Serialize;
+
+/// What grows. Level 0 is a flight without it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// Speed of the mean wind, in the scenario's direction, or towards east; gusts and pulses grow with it
+    Wind,
+    /// True mass beyond the nominal one, as a share of it; of a slung load too
+    Mass,
+    /// Standard deviation of the measured position; all other noise grows with it
+    Noise,
+}
+
+impl Axis {
+    /// Unit of its levels.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Wind => "m/s",
+            Self::Mass => "-",
+            Self::Noise => "m",
+        }
+    }
+
+    /// Level that the scenario has.
+    pub fn level_of(self, scenario: &Scenario) -> f64 {
+        let simulation = &scenario.simulation;
+        match self {
+            Self::Wind => simulation.wind.as_ref().map_or(0.0, mean_speed_mps),
+            Self::Mass => simulation.mismatch.mass_ratio - 1.0,
+            Self::Noise => simulation.sensors.position_noise_m,
+        }
+    }
+
+    /// The first level that is tried after 0.
+    pub fn first_step(self, scenario: &Scenario) -> f64 {
+        match (self, scenario.family()) {
+            (Self::Wind, _) => 1.0,
+            (Self::Mass, _) => 0.02,
+            (Self::Noise, Family::FixedWing) => 0.25,
+            (Self::Noise, Family::SlungLoad | Family::Multirotor) => 0.002,
+        }
+    }
+
+    /// The largest level that is tried: beyond it a disturbance is none any more.
+    pub fn largest(self, scenario: &Scenario) -> f64 {
+        match self {
+            Self::Wind => 64.0,
+            Self::Mass => 4.0,
+            Self::Noise => 1000.0 * self.first_step(scenario),
+        }
+    }
+
+    /// Gives the scenario this level.
+    pub fn set(self, scenario: &mut Scenario, level: f64) {
+        let simulation = &mut scenario.simulation;
+        match self {
+            Self::Wind => {
+                let asked = simulation.wind.take();
+                simulation.wind = (level > 0.0).then(|| blowing(asked, level));
+            }
+            Self::Mass => {
+                simulation.mismatch.mass_ratio = 1.0 + level;
+                simulation.mismatch.load_mass_ratio = 1.0 + level;
+            }
+            Self::Noise => {
+                let sensors = &mut simulation.sensors;
+                let factor = if sensors.position_noise_m > 0.0 { level / sensors.position_noise_m } else { 0.0 };
+                sensors.position_noise_m = level;
+                for other in [
+                    &mut sensors.velocity_noise_mps,
+                    &mut sensors.attitude_noise_deg,
+                    &mut sensors.rate_noise_degps,
+                    &mut sensors.load_position_noise_m,
+                    &mut sensors.load_velocity_noise_mps,
+                ] {
+                    *other *= factor;
+                }
+            }
+        }
+    }
+}
+
+/// A wind of this speed, m/s: the one that was asked for, with everything in it as much stronger as its mean is; one without a
+/// mean but with pulses grows by its largest pulse; without a direction of its own it blows towards east.
+fn blowing(asked: Option<Wind>, speed_mps: f64) -> Wind {
+    let mut wind = asked.unwrap_or(Wind { mean_mps: [0.0; 3], gusts: None, pulses: Vec::new() });
+    let now_mps = mean_speed_mps(&wind);
+    if now_mps == 0.0 {
+        return Wind { mean_mps: [speed_mps, 0.0, 0.0], ..wind };
+    }
+    let factor = speed_mps / now_mps;
+    let stronger = |velocity: &mut [f64; 3]| velocity.iter_mut().for_each(|component| *component *= factor);
+    stronger(&mut wind.mean_mps);
+    wind.pulses.iter_mut().for_each(|pulse| stronger(&mut pulse.peak_mps));
+    if let Some(gusts) = &mut wind.gusts {
+        gusts.wind_at_20ft_mps *= factor;
+        gusts.sigma_aloft_mps *= factor;
+    }
+    wind
+}
+
+/// Speed of the mean wind; of one that only blows in pulses, of the strongest, m/s.
+fn mean_speed_mps(wind: &Wind) -> f64 {
+    let speed = |velocity: &[f64; 3]| velocity.iter().map(|component| component * component).sum::<f64>().sqrt();
+    let mean_mps = speed(&wind.mean_mps);
+    if mean_mps > 0.0 { mean_mps } else { wind.pulses.iter().map(|pulse| speed(&pulse.peak_mps)).fold(0.0, f64::max) }
+}

@@ -1,0 +1,113 @@
+//! Was it flown as the scenario says: in its air, and seen through its sensors?
+//!
+//! A simulator that forgets the wind, or turns it round, makes every flight look better than it is, and everything else
+//! about its log is in order.
+
+use nalgebra::Vector3;
+use scenarios::{GustPulse, Gusts, Scenario, Wind};
+use sim::{Flight, Sample, VehicleLog};
+
+use crate::verdict::Check;
+use crate::verdict::compare::exceeds;
+use crate::verdict::integrity::none_of;
+use crate::verdict::question::{Group, Question};
+
+/// Air without gusts is known to this, m/s: what rounding leaves.
+const AIR_MPS: f64 = 1e-6;
+/// Largest standard deviation of a component of low-altitude gusts, as a share of the wind at 20 ft: 0.1/0.177^0.4.
+///                                                                                           [MIL-F-8785C, 3.7.3.4]
+const LOW_ALTITUDE_SIGMA: f64 = 0.2;
+/// Gusts are within so many standard deviations at every instant, and on average.
+const WILDEST_GUST: f64 = 8.0;
+const WILDEST_MEAN: f64 = 5.0;
+/// Fewest samples from which a standard deviation is estimated.
+const FEWEST_SAMPLES: usize = 100;
+/// An estimated standard deviation may be off by so many of its own.
+const WILDEST_ESTIMATE: f64 = 6.0;
+
+/// Number of vehicles in whose logs air or measurements are not those of the scenario.
+pub fn check(scenario: &Scenario, flight: &Flight) -> Check {
+    let question = Question::new(Group::Flight, "conditions", "vehicles");
+    let odd = |log: &VehicleLog| {
+        let empty = log.samples.is_empty().then(|| "the log is empty".to_owned());
+        let defect = empty
+            .or_else(|| air_defect(scenario.simulation.wind.as_ref(), log))
+            .or_else(|| sensor_defect(scenario, log));
+        defect.map(|defect| format!("{}: {defect}", log.vehicle))
+    };
+    let defects: Vec<String> = flight.vehicles.iter().filter_map(odd).collect();
+    none_of(&question, defects.len(), &[], defects.first())
+}
+
+fn air_defect(wind: Option<&Wind>, log: &VehicleLog) -> Option<String> {
+    let gusts: Vec<Vector3<f64>> = log.samples.iter().map(|sample| gust_mps(wind, sample)).collect();
+    let Some(asked) = wind.and_then(|wind| wind.gusts.as_ref()) else {
+        let odd = gusts.iter().position(|gust| exceeds(gust.norm(), AIR_MPS))?;
+        let sample = &log.samples[odd];
+        return Some(format!(
+            "at {:.3} s the air moves with {:?} m/s, not as the scenario says",
+            sample.t_s, sample.wind_mps
+        ));
+    };
+    let sigma_mps = largest_sigma_mps(asked);
+    if let Some(odd) = gusts.iter().position(|gust| exceeds(gust.norm(), WILDEST_GUST * sigma_mps + AIR_MPS)) {
+        let (t_s, gust_mps) = (log.samples[odd].t_s, gusts[odd].norm());
+        return Some(format!("at {t_s:.3} s a gust of {gust_mps:.1} m/s, out of a wind of the scenario's intensity"));
+    }
+    let mean_mps = gusts.iter().sum::<Vector3<f64>>() / gusts.len().max(1) as f64;
+    if exceeds(mean_mps.norm(), WILDEST_MEAN * sigma_mps + AIR_MPS) {
+        return Some(format!("its air differs from the scenario's mean wind by {:.1} m/s on average", mean_mps.norm()));
+    }
+    let is_dead = sigma_mps > 0.0 && gusts.windows(2).all(|pair| pair[0] == pair[1]);
+    is_dead.then(|| "the scenario asks for gusts, and there are none".to_owned())
+}
+
+/// What the air does beyond the scenario's mean and its single gusts, m/s.
+fn gust_mps(wind: Option<&Wind>, sample: &Sample) -> Vector3<f64> {
+    let ordered = wind.map_or_else(Vector3::zeros, |wind| {
+        let pulses = wind.pulses.iter().map(|pulse| pulse_mps(pulse, sample.t_s));
+        pulses.fold(Vector3::from(wind.mean_mps), |sum, pulse| sum + pulse)
+    });
+    Vector3::from(sample.wind_mps) - ordered
+}
+
+/// A single gust: half its peak times 1 - cos.
+fn pulse_mps(pulse: &GustPulse, t_s: f64) -> Vector3<f64> {
+    let share = ((t_s - pulse.start_s) / pulse.duration_s).clamp(0.0, 1.0);
+    Vector3::from(pulse.peak_mps) * (0.5 - 0.5 * (std::f64::consts::TAU * share).cos())
+}
+
+fn largest_sigma_mps(gusts: &Gusts) -> f64 {
+    (LOW_ALTITUDE_SIGMA * gusts.wind_at_20ft_mps).max(gusts.sigma_aloft_mps)
+}
+
+fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
+    let asked = &scenario.simulation.sensors;
+    let vehicle = |of: fn(&Sample) -> [[f64; 3]; 2]| log.samples.iter().map(of).collect::<Vec<_>>();
+    let load = |of: fn(&sim::LoadSample) -> [[f64; 3]; 2]| log.loads.iter().map(of).collect::<Vec<_>>();
+    let series = [
+        ("position", asked.position_noise_m, vehicle(|it| [it.measured_position_m, it.position_m])),
+        ("velocity", asked.velocity_noise_mps, vehicle(|it| [it.measured_velocity_mps, it.velocity_mps])),
+        ("load's position", asked.load_position_noise_m, load(|it| [it.measured_position_m, it.position_m])),
+        ("load's velocity", asked.load_velocity_noise_mps, load(|it| [it.measured_velocity_mps, it.velocity_mps])),
+    ];
+    series.iter().find_map(|(what, sigma, pairs)| noise_defect(what, *sigma, pairs))
+}
+
+/// Do measurements differ from the truth as noise of this standard deviation does? Without noise they are the truth.
+fn noise_defect(what: &str, sigma: f64, pairs: &[[[f64; 3]; 2]]) -> Option<String> {
+    let errors = pairs.iter().flat_map(|[measured, truth]| (0..3).map(move |axis| measured[axis] - truth[axis]));
+    let largest =
+        errors.clone().fold(0.0, |worst: f64, error| if exceeds(error.abs(), worst) { error.abs() } else { worst });
+    if sigma == 0.0 {
+        return (largest != 0.0).then(|| format!("the measured {what} is off by {largest:.3e}, without noise"));
+    }
+    if pairs.len() < FEWEST_SAMPLES {
+        return None;
+    }
+    let count = 3 * pairs.len();
+    let estimate = (errors.map(|error| error * error).sum::<f64>() / count as f64).sqrt();
+    let tolerance = WILDEST_ESTIMATE / (2.0 * count as f64).sqrt();
+    let is_off = exceeds((estimate / sigma - 1.0).abs(), tolerance);
+    is_off.then(|| format!("noise of the measured {what} has a standard deviation of {estimate:.3e}, not of {sigma}"))
+}

@@ -1,0 +1,56 @@
+//! How far in front of a plane does a part stay, with an obstacle behind the plane?
+//!
+//! The plane is the one between the two in the middle of a span of time. Since that one is the best there, another instant
+//! misses the distance only by a square of the time: a bound of second order, where a largest speed gives one of first.
+
+use sim::slung_load::{Part, Parts, Plane};
+
+use super::course::Course;
+
+/// Smallest distance in front of the plane, m, negative behind it, of every point of a part over a share of a segment.
+pub fn in_front_m(plane: &Plane, parts: &Parts, part: Part, course: &Course, segment: usize, share: [f64; 2]) -> f64 {
+    let [quadrotor, load] = course.along(segment, share, &plane.normal);
+    let nearest_m = match part {
+        Part::Body => nearest_of_disc_m(plane, parts, course, segment, share, quadrotor),
+        Part::Cable => smallest(&quadrotor).min(smallest(&load)),
+        Part::Load => smallest(&load) - parts.load_radius_m(),
+    };
+    nearest_m - plane.offset_m
+}
+
+/// Smallest product of the plane's normal n with a point of the body's disc, with axis a and radius R, about its centre c:
+///
+/// ```text
+/// n·c - R f,   f = sqrt(1 - x²),   x = a·n
+/// f <= f_0 - x_0/f_0 (x - x_0)                             it is concave
+/// |x - x_0 - x_0' s| <= |ω|²s²/2                           for a turn at the constant rate ω
+/// f <= f_0 + |ω s|                                         for a disc that nearly lies in the plane
+/// ```
+fn nearest_of_disc_m(
+    plane: &Plane,
+    parts: &Parts,
+    course: &Course,
+    segment: usize,
+    share: [f64; 2],
+    center: [f64; 4],
+) -> f64 {
+    let (radius_m, half) = (parts.body_radius_m(), (share[1] - share[0]) / 2.0);
+    let axis = course.at(segment, f64::midpoint(share[0], share[1])).thrust_axis();
+    let turn_rad = course.turn_rad(segment);
+    let turned_rad = turn_rad.norm() * half;
+    let x = axis.dot(&plane.normal);
+    let reach = (1.0 - x * x).max(0.0).sqrt();
+    let lying_m = smallest(&center) - radius_m * (reach + turned_rad);
+    let ratio = x / reach;
+    if !ratio.is_finite() {
+        return lying_m;
+    }
+    let slope_m = radius_m * ratio * turn_rad.cross(&axis).dot(&plane.normal) * half;
+    let tilted: [f64; 4] = std::array::from_fn(|i| center[i] + slope_m * (i as f64 * 2.0 / 3.0 - 1.0));
+    let tilted_m = smallest(&tilted) - radius_m * (reach + ratio.abs() * turned_rad * turned_rad / 2.0);
+    lying_m.max(tilted_m)
+}
+
+fn smallest(coefficients: &[f64; 4]) -> f64 {
+    coefficients.iter().copied().fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,133 @@
+//! Does the flight obey the equations of motion?
+//!
+//! Momentum: what the log says of thrusts, tension and air must explain where quadrotor and load go. And the law of the
+//! cable: it is never longer than it is, never pushes, and pulls only at its full length.
+
+use scenarios::slung_load::Trajectory;
+use scenarios::{Scenario, Vehicle};
+use sim::slung_load::{Acting, Body, Plant, Replay};
+use sim::{Actuation, VehicleLog};
+
+use super::flown::instant;
+use crate::verdict::compare::is_larger;
+use crate::verdict::physics::{Defect, difference_m};
+
+/// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
+const WINDOW_S: f64 = 0.1;
+/// A load this close to where it lies on the ground may be held by the ground, which the log does not tell of, m.
+const NEAR_GROUND_M: f64 = 1e-3;
+/// Tension below which a cable does not pull, N: rounding.
+const PULL_N: f64 = 1e-6;
+
+/// A vehicle, and what its log is held against.
+pub struct Physics<'a> {
+    replay: Replay,
+    plant: Plant,
+    rotor_time_constant_s: Option<f64>,
+    /// Total thrust with which the plan begins, N: that of the rotors at the flight's beginning.
+    first_thrust_n: f64,
+    vehicle: &'a str,
+}
+
+impl<'a> Physics<'a> {
+    /// Of a vehicle of the scenario that flies a trajectory.
+    pub fn of(scenario: &Scenario, vehicle: &'a Vehicle, trajectory: &Trajectory) -> Self {
+        let (model, mismatch) = (scenario.slung_load_model(vehicle), &scenario.simulation.mismatch);
+        let nominal = Plant::nominal(model, scenario.world.ground_m);
+        let plant = Plant {
+            mass_kg: nominal.mass_kg * mismatch.mass_ratio,
+            load_mass_kg: nominal.load_mass_kg * mismatch.load_mass_ratio,
+            ..nominal
+        };
+        Self {
+            replay: Replay::new(model, &plant),
+            plant,
+            rotor_time_constant_s: model.rotor_time_constant_s,
+            first_thrust_n: trajectory.controls.first().map_or(f64::NAN, |control| control.thrust_n.iter().sum()),
+            vehicle: &vehicle.name,
+        }
+    }
+
+    /// Largest defect of a log. `None` if it holds no step.
+    ///
+    /// When within a step the cable began to pull is not in the log: what that may move (half a step times the change of
+    /// the velocity that it makes) is not held against the flight.
+    pub fn largest_defect(&self, log: &VehicleLog) -> Result<Option<Defect>, String> {
+        if log.loads.len() != log.samples.len() {
+            return Err(format!("the log of {} has not as many samples of the load as of the vehicle", self.vehicle));
+        }
+        let bodies: Vec<Body> = log.samples.iter().zip(&log.loads).map(|both| instant(both).body).collect();
+        let mut rotors_n = self.first_thrust_n;
+        let (mut motion, mut began_s, mut allowance_m) = (None, f64::NEG_INFINITY, 0.0);
+        let mut worst: Option<Defect> = None;
+        for step in 1..log.samples.len() {
+            let (from, to) = (&log.samples[step - 1], &log.samples[step]);
+            let step_s = to.t_s - from.t_s;
+            if from.t_s - began_s >= WINDOW_S || self.is_near_ground(&bodies[step - 1]) {
+                (motion, began_s, allowance_m) = (None, from.t_s, 0.0);
+            }
+            let tension_n = log.loads[step].tension_n;
+            let acting = Acting {
+                thrust_n: self.mean_thrust_n(&from.actuation, step_s, &mut rotors_n),
+                attitude: [bodies[step - 1].attitude, bodies[step].attitude],
+                tension_n,
+                wind_mps: [from.wind_mps.into(), to.wind_mps.into()],
+            };
+            let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &acting, step_s);
+            motion = Some(flown);
+            let change_ns = (tension_n - log.loads[step - 1].tension_n).abs() * step_s;
+            allowance_m += 0.5 * step_s * change_ns / self.plant.load_mass_kg;
+            let defects_m = [
+                self.momentum_m(&flown, &bodies[step], allowance_m),
+                self.cable_m([&bodies[step - 1], &bodies[step]], tension_n, step_s),
+            ];
+            let largest_m = if is_larger(defects_m[1], defects_m[0]) { defects_m[1] } else { defects_m[0] };
+            let defect = Defect { defect_m: largest_m, t_s: to.t_s };
+            worst = Some(worst.map_or(defect, |worst| worst.worse(defect)));
+        }
+        Ok(worst)
+    }
+
+    /// Difference between replay and log, m.
+    fn momentum_m(&self, flown: &Body, logged: &Body, allowance_m: f64) -> f64 {
+        let quadrotor = difference_m(
+            &(flown.position_m - logged.position_m),
+            &((flown.velocity_mps - logged.velocity_mps) * WINDOW_S),
+        );
+        let load = difference_m(
+            &(flown.load_position_m - logged.load_position_m),
+            &((flown.load_velocity_mps - logged.load_velocity_mps) * WINDOW_S),
+        );
+        let load = if self.is_near_ground(logged) { 0.0 } else { load };
+        let larger_m = if is_larger(load, quadrotor) { load } else { quadrotor };
+        if larger_m <= allowance_m { 0.0 } else { larger_m - allowance_m }
+    }
+
+    /// By how much the law of the cable is broken, m. A push counts by the distance that it moves the load in a window.
+    fn cable_m(&self, ends: [&Body; 2], tension_n: f64, step_s: f64) -> f64 {
+        let lengths_m = ends.map(|body| body.cable_m().norm());
+        let stretch_m = lengths_m[1] - self.plant.cable_length_m;
+        let push_m = -tension_n / self.plant.load_mass_kg * WINDOW_S * WINDOW_S / 2.0;
+        // A cable that pulled during the step was taut at some instant of it.
+        let moved_m = (ends[0].load_relative_mps().norm().max(ends[1].load_relative_mps().norm())) * step_s;
+        let short_m = self.plant.cable_length_m - lengths_m[0].max(lengths_m[1]) - moved_m;
+        let slack_pull_m = if tension_n > PULL_N { short_m } else { 0.0 };
+        let breaches_m = [stretch_m, push_m, slack_pull_m].into_iter();
+        breaches_m.fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst })
+    }
+
+    fn is_near_ground(&self, body: &Body) -> bool {
+        body.load_position_m.z <= self.plant.resting_height_m + NEAR_GROUND_M
+    }
+
+    /// Mean total thrust over a step, N: rotors follow their command with a lag, if they have one.
+    fn mean_thrust_n(&self, actuation: &Actuation, step_s: f64, rotors_n: &mut f64) -> f64 {
+        let Actuation::Thrusts(thrusts) = actuation else { return f64::NAN };
+        let commanded_n: f64 = thrusts.control.thrust_n.iter().sum();
+        let Some(time_s) = self.rotor_time_constant_s else { return commanded_n };
+        let ahead_n = *rotors_n - commanded_n;
+        let lag = (-step_s / time_s).exp();
+        *rotors_n = commanded_n + ahead_n * lag;
+        commanded_n + ahead_n * (1.0 - lag) * time_s / step_s
+    }
+}

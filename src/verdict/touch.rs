@@ -1,0 +1,30 @@
+//! Do airframes touch each other or an obstacle?
+
+use scenarios::Scenario;
+
+use crate::verdict::closest::{self, Approach};
+use crate::verdict::motion::Motion;
+use crate::verdict::question::Measured;
+
+/// Overlaps below this are none, m: the simulator looks along straight lines between its steps, the judge along curves.
+const GRAZE_M: f64 = 1e-3;
+
+/// One crash, where airframes overlap each other or an obstacle most; `None` if nothing touches.
+///
+/// - `motions`: one per vehicle, of their centres
+pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
+    let radii_m: Vec<f64> = scenario.vehicles.iter().map(|vehicle| scenario.model(vehicle).body_radius_m()).collect();
+    let name = |vehicle: usize| scenario.vehicles[vehicle].name.as_str();
+    let is_touch = |approach: &Approach| approach.upper_m < -GRAZE_M;
+    let crash = |approach: &Approach| Measured::value(1.0).at(approach.at_s).with(name(approach.who[0]));
+    if let Some(touch) = closest::overlap(motions, &radii_m).filter(is_touch) {
+        return Some(crash(&touch).with(name(touch.who[1])));
+    }
+    let cylinders = &scenario.world.cylinders;
+    let entered = motions.iter().zip(&radii_m).enumerate().find_map(|(vehicle, (motion, radius_m))| {
+        let nearest = closest::to_cylinders(std::slice::from_ref(motion), cylinders)?;
+        let touch = Approach { upper_m: nearest.upper_m - radius_m, who: [vehicle, nearest.who[1]], ..nearest };
+        is_touch(&touch).then_some(touch)
+    })?;
+    Some(crash(&entered).with(&cylinders[entered.who[1]].name))
+}

@@ -1,0 +1,105 @@
+//! What makes a verdict one to rely on: the selftest, two integrators, flights that are the same to the last bit, and how
+//! much a plan bears.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
+
+/// The pair, planned by multiple shooting: its nodes are those of a motion.
+fn shooting_pair() -> String {
+    PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
+}
+
+#[test]
+fn every_fault_is_caught_every_near_miss_passes_and_no_check_is_idle() {
+    let workplace = Workplace::new(&[]);
+    let output = workplace.harness(&["selftest"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    let results = workplace.json("out/selftest.json");
+    let list = |name: &str| results[name].as_array().unwrap().clone();
+    assert!(list("faults").len() > 200 && list("near_misses").len() > 20 && list("checks").len() > 60);
+    assert!(list("faults").iter().all(|fault| fault["caught"] == true));
+    assert!(list("near_misses").iter().all(|near_miss| near_miss["green"] == true));
+    assert!(list("checks").iter().all(|check| check["faults"].as_u64() > Some(0)));
+    let page = fs::read_to_string(workplace.path("out/selftest.md")).unwrap();
+    assert!(page.contains("a pole of 2 cm stands between two samples"), "{page}");
+}
+
+/// The report without what may differ from run to run.
+fn settled(mut report: Value) -> Value {
+    let object = report.as_object_mut().unwrap();
+    object.remove("timings");
+    let plan = object["plan"].as_object_mut().unwrap();
+    plan.remove("wall_s");
+    plan.remove("distributed_s");
+    report
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn flights_are_the_same_on_any_number_of_threads_and_one_ulp_parts_them() {
+    let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
+    for jobs in ["1", "2"] {
+        let output = workplace.harness(&["run", "pair.toml", "--record", "parquet", "-q", "-j", jobs, "-o", jobs]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+    }
+    let report = |folder: &str| settled(workplace.json(&format!("{folder}/report.json")));
+    assert_eq!(report("1/pair/parallel-scp"), report("2/pair/parallel-scp"));
+    let output = workplace.harness(&["diverge", "1/pair/parallel-scp", "2/pair/parallel-scp"]);
+    assert_eq!((code(&output), stdout(&output).trim()), (0, "the flights are the same to the last bit"));
+
+    // The smallest change of a control of the second vehicle, half way.
+    let mut plan = workplace.json("1/pair/parallel-scp/plan.json");
+    let trajectory = &mut plan["trajectories"][1];
+    let (node, t_s) = (10, trajectory["times_s"][9].as_f64().unwrap());
+    let control = &mut trajectory["controls"][node]["n_z"];
+    *control = control.as_f64().unwrap().next_up().into();
+    fs::write(workplace.path("changed.json"), plan.to_string()).unwrap();
+    let output =
+        workplace.harness(&["check", "pair.toml", "--plan", "changed.json", "--record", "parquet", "-q", "-o", "3"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let output = workplace.harness(&["diverge", "1/pair/parallel-scp", "3/pair/changed"]);
+    let said = stdout(&output);
+    assert_eq!(code(&output), 1, "{said}");
+    let parted_s: f64 = said.split_once(" at ").and_then(|(_, rest)| rest.split(' ').next()).unwrap().parse().unwrap();
+    assert!((t_s..t_s + 3.0).contains(&parted_s) && said.contains("uav-2"), "after {t_s} s: {said}");
+
+    for folder in ["1/pair/parallel-scp", "3/pair/changed"] {
+        fs::remove_file(workplace.path(folder).join("flight.parquet")).unwrap();
+    }
+    let output = workplace.harness(&["diverge", "1/pair/parallel-scp", "3/pair/changed"]);
+    assert!(code(&output) == 1 && stdout(&output).contains("the flights part between"), "{}", stdout(&output));
+    let output = workplace.harness(&["diverge", "1/pair", "nowhere"]);
+    assert!(code(&output) == 2 && stderr(&output).contains("nowhere"), "{}", stderr(&output));
+}
+
+#[test]
+fn the_second_integrator_is_told_in_either_form() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    for (form, method) in [("cheap", "replay"), ("full", "finer-steps")] {
+        let output =
+            workplace.harness(&["run", "pair.toml", "--record", "none", "-q", "--second-integrator", form, "-o", form]);
+        assert!(code(&output) < 2, "{}", stderr(&output));
+        let report = workplace.json(&format!("{form}/pair/parallel-scp/report.json"));
+        assert_eq!(report["integration"]["method"], method);
+        let disagreement_m = report["integration"]["disagreement_m"].as_f64().unwrap();
+        assert!((0.0..1e-3).contains(&disagreement_m), "{disagreement_m}");
+    }
+}
+
+#[test]
+fn stress_tells_where_the_verdict_turns() {
+    let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
+    let output = workplace.harness(&["stress", "pair.toml", "--over", "wind,mass"]);
+    let said = stdout(&output);
+    assert_eq!(code(&output), 0, "{said}{}", stderr(&output));
+    assert!(said.contains("wind ") && said.contains(" m/s: passes at") && said.contains("mass +"), "{said}");
+    for what in ["wind", "mass"] {
+        let result = workplace.json(&format!("out/pair/parallel-scp/stress-{what}.json"));
+        let [passes, fails] = ["passes", "fails"].map(|end| result["turns"][end].as_f64().unwrap());
+        assert!(0.0 < passes && passes < fails && fails <= 1.006 * passes, "{result}");
+        assert!(!result["turns"]["red"].as_array().unwrap().is_empty());
+    }
+}
