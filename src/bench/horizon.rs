@@ -82,17 +82,22 @@ pub struct InLoop {
 }
 
 /// Measures everything in `plan`; `progress` is told what comes next.
+///
+/// All cases fly once, then all once more, and so on: a machine that becomes slower does so for all of them.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
     let cases = cases::all(plan);
-    let rows = cases.iter().map(|case| {
-        progress(&format!("{}: {} on {}", case.experiment.name(), case.name, case.scenario.name));
-        row(case, plan.seeds)
-    });
-    Results { schema: 1, seeds: plan.seeds, threads: rayon::current_num_threads(), rows: rows.collect() }
+    let mut flown: Vec<Vec<Flown>> = cases.iter().map(|_| Vec::new()).collect();
+    for seed in 0..plan.seeds {
+        for (case, flown) in cases.iter().zip(&mut flown) {
+            progress(&format!("{}: {} on {}, seed {seed}", case.experiment.name(), case.name, case.scenario.name));
+            flown.push(Flown::by(case, seed));
+        }
+    }
+    let rows = cases.iter().zip(&flown).map(|(case, flown)| row(case, flown)).collect();
+    Results { schema: 1, seeds: plan.seeds, threads: rayon::current_num_threads(), rows }
 }
 
-fn row(case: &Case, seeds: u64) -> Row {
-    let flown: Vec<Flown> = (0..seeds).map(|seed| Flown::by(case, seed)).collect();
+fn row(case: &Case, flown: &[Flown]) -> Row {
     let passed = || flown.iter().filter(|flown| flown.has_passed);
     let count = |is_such: fn(&Flown) -> bool| flown.iter().filter(|flown| is_such(flown)).count() as u64;
     Row {
@@ -105,7 +110,7 @@ fn row(case: &Case, seeds: u64) -> Row {
         path_m: mean(passed().filter_map(|flown| flown.path_m)),
         clearance_m: flown.iter().filter_map(|flown| flown.clearance_m).reduce(f64::min),
         mean_clearance_m: mean(flown.iter().filter_map(|flown| flown.mean_clearance_m)),
-        in_loop: in_loop_figures(&flown),
+        in_loop: in_loop_figures(flown),
     }
 }
 

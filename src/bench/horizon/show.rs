@@ -83,7 +83,9 @@ fn notes(results: &Results) -> Vec<String> {
          feasible: first iteration with a feasible particle, from 0. feasible: share of all particles. empty: replans without any. Stab: eq. 22, norm over the \
          planned steps."
             .to_owned(),
-        "Experiment 3 ends a search after 10 iterations without improvement; the others use all their iterations.".to_owned(),
+        "Experiment 3 ends a search after 10 iterations without improvement; the others use all their iterations. Its rows with \
+         and without the cost of infeasible particles are the same flights: that cost decides nothing."
+            .to_owned(),
     ];
     let mut scenarios: Vec<&str> = Vec::new();
     for row in results.rows.iter().filter(|row| row.experiment == Experiment::Swarms) {
