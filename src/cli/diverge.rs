@@ -36,6 +36,9 @@ impl Diverge {
     /// Compares and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
         let paths = [&self.one, &self.other];
+        if let Some(missing) = paths.iter().find(|path| !path.exists()) {
+            return Err(Error::results(missing, "no such file or folder".to_owned()));
+        }
         let logs = paths.map(|path| if path.is_dir() { path.join(LOG) } else { path.clone() });
         if logs.iter().any(|log| !log.exists()) && paths.iter().all(|path| path.is_dir()) {
             return self.by_hashes();

@@ -5,6 +5,7 @@ mod checking;
 mod comparing;
 mod in_ci;
 mod listing;
+mod machine_faults;
 mod outside;
 mod planning;
 #[cfg(feature = "mcap")]

@@ -75,7 +75,7 @@ fn bad_usage_ends_with_code_2_and_leaves_nothing_behind() {
         (&["run", "pair.toml", "--planner", "paralel-scp"], "did you mean `parallel-scp`?"),
         (&["run", "missing.toml"], "missing.toml"),
         (&["run", "empty"], "empty: found no scenario file"),
-        (&["run", "pair.toml", "--record", "bag"], "possible values: rrd, mcap, none"),
+        (&["run", "pair.toml", "--record", "bag"], "possible values: rrd, mcap, parquet, none"),
         (&["run", "pair.toml", "--jobs", "0"], "--jobs"),
         (&["run", "pair.toml", "--seed", "x"], "--seed"),
     ];

@@ -71,7 +71,7 @@ fn flights_are_the_same_on_any_number_of_threads_and_one_ulp_parts_them() {
     }
     let output = workplace.harness(&["diverge", "1/pair/parallel-scp", "3/pair/changed"]);
     assert!(code(&output) == 1 && stdout(&output).contains("the flights part between"), "{}", stdout(&output));
-    let output = workplace.harness(&["diverge", "1/pair", "nowhere"]);
+    let output = workplace.harness(&["diverge", "1/pair/parallel-scp", "nowhere"]);
     assert!(code(&output) == 2 && stderr(&output).contains("nowhere"), "{}", stderr(&output));
 }
 

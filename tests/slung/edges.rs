@@ -9,7 +9,8 @@ use sim::{Event, EventKind};
 
 use crate::case::{Case, thrusts};
 
-/// A check, a way to bring what it measures to a given value, and values just beyond and just inside its limit.
+/// A check, a way to bring what it measures to a given value, and values just beyond and just inside its limit. Distances in
+/// flight stay out of what the integrators disagree on, 0.24 mm: there they are undecided.
 struct Edge {
     check: &'static str,
     apply: fn(&mut Case, f64),
@@ -59,16 +60,16 @@ const EDGES: &[Edge] = &[
     edge("flight.control_limits", |case, n| thrusts(&mut case.samples()[400]).control.thrust_n[3] = n, 7.001, 6.999),
     edge("flight.conditions", |case, mps| case.samples()[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
     edge("flight.dynamics", |case, y_m| case.loads()[777].position_m[1] += y_m, 0.0011, 0.0009),
-    edge("flight.goal", |case, z_m| case.loads()[3000].position_m[2] += z_m, 0.0501, 0.0499),
+    edge("flight.goal", |case, z_m| case.loads()[3000].position_m[2] += z_m, 0.0505, 0.0495),
     edge("flight.rest", |case, mps| case.loads()[3000].velocity_mps[0] += mps, 0.1001, 0.0998),
     edge("flight.duration", |case, t_s| case.scenario.simulation.max_duration_s = t_s, 5.999, 6.001),
     edge(
         "flight.tracking_rms",
         |case, y_m| case.samples().iter_mut().for_each(|s| s.reference_position_m[1] += y_m),
-        0.0301,
-        0.0299,
+        0.0305,
+        0.0295,
     ),
-    edge("flight.tracking_max", |case, z_m| case.samples()[1234].reference_position_m[2] += z_m, 0.0501, 0.0499),
+    edge("flight.tracking_max", |case, z_m| case.samples()[1234].reference_position_m[2] += z_m, 0.0505, 0.0495),
     edge("flight.saturation", saturate, 151.0, 150.0),
     edge("flight.tension", |case, n| (1000..1010).for_each(|step| case.loads()[step].tension_n = n), 60.01, 59.99),
     edge("flight.slack", switch_late, 0.0201, 0.0199),
