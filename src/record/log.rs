@@ -102,7 +102,7 @@ fn write_vehicle(writer: &mut SerializedFileWriter<File>, log: &VehicleLog, widt
     Ok(())
 }
 
-/// Reads a log that [`write`] wrote.
+/// Reads a log that this file wrote.
 pub fn read(path: &Path) -> Result<Table, Error> {
     read_table(path).map_err(|reason| Error::results(path, reason.to_string()))
 }
