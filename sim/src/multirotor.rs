@@ -4,9 +4,11 @@
 mod craft;
 mod fleet;
 mod reference;
+mod replay;
 mod surroundings;
 mod tracker;
 
 pub(crate) use fleet::{fly, fly_in_loop};
 pub use reference::{Reference, ReferencePoint};
+pub use replay::{Lift, Replay};
 pub use surroundings::Surroundings;

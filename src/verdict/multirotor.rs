@@ -2,6 +2,7 @@
 
 mod clearance;
 mod limits;
+mod physics;
 mod rest;
 
 use scenarios::{Plan, Scenario};
@@ -84,6 +85,7 @@ pub fn flight_checks(scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flig
         check_clearance(Group::Flight, scenario, motions),
         limits::check_flown_states(scenario, flown),
         limits::check_flown_controls(scenario, flown),
+        physics::check(scenario, flight),
         arrival::check_flown_goals(scenario, flown),
         rest::check_flown(scenario, plan, flown),
         arrival::check_flown_arrival(scenario, flown),

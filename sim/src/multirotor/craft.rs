@@ -133,7 +133,7 @@ impl Craft {
         let truth = self.truth(world);
         let wind_mps = self.air.velocity_mps(truth.position_m.z, &truth.velocity_mps);
         self.air.advance(plant_step_s, truth.position_m.z, (truth.velocity_mps - wind_mps).norm());
-        let drag_n = self.drag_n(&(wind_mps - truth.velocity_mps));
+        let drag_n = drag_n(&(wind_mps - truth.velocity_mps), self.model.drag_area_m2);
         if self.autopilot.is_none() {
             let lift_n = (self.acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.model.mass_kg;
             world.set_force_n(self.index, lift_n + drag_n);
@@ -166,11 +166,6 @@ impl Craft {
         middle_n
     }
 
-    /// Force of air that moves past the body at a velocity, N: half its density times the drag area times the speed squared.
-    fn drag_n(&self, relative_mps: &Vector3<f64>) -> Vector3<f64> {
-        relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * self.model.drag_area_m2)
-    }
-
     fn sample(
         &self,
         t_s: f64,
@@ -197,4 +192,9 @@ impl Craft {
             actuation,
         }
     }
+}
+
+/// Force of air that moves past the body at a velocity, N: half its density times the drag area times the speed squared.
+pub(super) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
+    relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
 }
