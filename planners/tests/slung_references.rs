@@ -74,7 +74,8 @@ fn refined_meshes_reach_the_paper_cases_optimum() {
 /// The complementarity of the paper, at a small ε from the start, finds the same motion: the cable stays taut.
 #[test]
 fn complementarity_finds_the_taut_optimum() {
-    let stage = Stage { mode: Mode::Either { epsilon: 1e-6 }, duration: Duration::Fixed(4.0), impulse_ns: None };
+    let stage =
+        Stage { mode: Mode::Either { epsilon: 1e-6 }, duration: Duration::Fixed(4.0), impulse_ns: None, gate: None };
     let problem = Problem { stages: vec![stage], ..Problem::paper() };
     let [right, left] = objectives(&problem, &fixed(20, 3));
     assert!((right - 2432.138).abs() < 0.01, "{right}");
@@ -82,8 +83,9 @@ fn complementarity_finds_the_taut_optimum() {
 }
 
 fn phased(mode: Mode, position_m: [f64; 3], guess_s: f64, impulse_ns: Option<f64>) -> Problem {
-    let first = Stage { mode, duration: Duration::Free { least_s: 0.02, guess_s, most_s: 3.6 }, impulse_ns };
-    let second = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None };
+    let first =
+        Stage { mode, duration: Duration::Free { least_s: 0.02, guess_s, most_s: 3.6 }, impulse_ns, gate: None };
+    let second = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None };
     let start = Rest { position_m, cable: [0.0, 0.0, 0.35] };
     Problem { start, stages: vec![first, second], ..Problem::paper() }
 }
