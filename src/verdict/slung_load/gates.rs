@@ -26,11 +26,13 @@ pub struct Gates<'a> {
     gates: &'a [Gate],
 }
 
-/// How deep in a gate's windows they are at most, with bounds.
+/// How deep in a gate's windows they are at most, with bounds, deviations of the true motion from the curves taken off.
 #[derive(Clone, Copy, Debug)]
 struct Deepest {
     lower_m: f64,
     upper_m: f64,
+    /// What both are less than the depth of the curves, m.
+    deviation_m: f64,
     at_s: f64,
 }
 
@@ -70,7 +72,7 @@ impl<'a> Gates<'a> {
             }
         }
         let (deepest, gate) = worst.expect("a gate");
-        let measured = Measured::bounds(deepest.lower_m, deepest.upper_m).at(deepest.at_s);
+        let measured = Measured::bounds(deepest.lower_m, deepest.upper_m + 2.0 * deepest.deviation_m).at(deepest.at_s);
         question.at_least(measured.with(self.vehicle).with(gate), 0.0)
     }
 }
@@ -82,7 +84,7 @@ fn depth_m(gate: &Gate, body: &Body) -> f64 {
 fn deepest_node(gate: &Gate, trajectory: &Trajectory) -> Option<Deepest> {
     let at = |node: usize| {
         let depth_m = depth_m(gate, &Body::from(&trajectory.states[node]));
-        Deepest { lower_m: depth_m, upper_m: depth_m, at_s: trajectory.times_s[node] }
+        Deepest { lower_m: depth_m, upper_m: depth_m, deviation_m: 0.0, at_s: trajectory.times_s[node] }
     };
     let nodes = trajectory.planner_nodes().into_iter().map(at);
     nodes.reduce(|best, next| if is_larger(next.lower_m, best.lower_m) { next } else { best })
@@ -93,9 +95,12 @@ fn deepest(gate: &Gate, course: &Course) -> Option<Deepest> {
     let mut best: Option<Deepest> = None;
     let mut measured = |segment: usize, share: [f64; 2]| {
         let middle = f64::midpoint(share[0], share[1]);
-        let depth_m = depth_m(gate, &course.at(segment, middle));
+        let deviation = course.deviation(segment);
+        let deviation_m = deviation.quadrotor_m.max(deviation.load_m);
+        let depth_m = depth_m(gate, &course.at(segment, middle)) - deviation_m;
         if best.map_or(!depth_m.is_nan(), |best| depth_m > best.lower_m) {
-            best = Some(Deepest { lower_m: depth_m, upper_m: depth_m, at_s: course.time_s(segment, middle) });
+            best =
+                Some(Deepest { lower_m: depth_m, upper_m: depth_m, deviation_m, at_s: course.time_s(segment, middle) });
         }
         let speeds = course.speeds(segment);
         let moved_m =
