@@ -77,6 +77,7 @@ impl World {
             boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             ground_m: self.ground_m,
+            gates: self.gates.clone(),
             ..Self::empty(self.map.clone())
         }
     }
