@@ -70,7 +70,7 @@ fn gates() -> Vec<Fault> {
         Fault::new("flight.gates", "the load is blown past a gate", |it| {
             put_gate(it, 0.0);
             let steps = it.steps();
-            it.shift(0, 0..steps, [0.0, 1.1 * GATE_M, 0.0]);
+            it.shift(0, 0..steps, [0.0, 5.0 * GATE_M, 0.0]);
         }),
     ]
 }
