@@ -151,9 +151,9 @@ fn gated(height_m: f64, mode: Mode) -> Problem {
     Problem { limits: Limits { cable_rad, ..paper.limits }, obstacles, obstacle_names, stages, ..paper }
 }
 
-/// Whether to let the cable go slack pays only where the load passes well above the quadrotor.
+/// To let the cable go slack pays, and the more so the higher above the quadrotor the load has to pass.
 #[test]
-fn a_slack_phase_pays_where_the_load_passes_well_above_the_quadrotor() {
+fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
     let objective = |height_m: f64, mode: Mode| {
         let problem = gated(height_m, mode);
         let routes = candidate_routes(&problem);
@@ -161,9 +161,11 @@ fn a_slack_phase_pays_where_the_load_passes_well_above_the_quadrotor() {
         assert!(candidate.is_solved() && candidate.is_refined, "{height_m} {mode:?}: {:?}", candidate.rounds);
         candidate.last().objective
     };
-    for height_m in [0.0, 0.05, 0.1, 0.15, 0.2, 0.25] {
+    let gain = |height_m: f64| {
         let [taut, slack] = [Mode::Taut, Mode::Slack].map(|mode| objective(height_m, mode));
         println!("{height_m:.2} m above: {taut:.3} taut, {slack:.3} with a slack phase");
-    }
-    assert!(objective(0.25, Mode::Slack) < objective(0.25, Mode::Taut) - 1.0);
+        taut - slack
+    };
+    let gains = [0.0, 0.05, 0.1, 0.15].map(gain);
+    assert!(gains[0] > 0.0 && gains.is_sorted(), "{gains:?}");
 }
