@@ -65,7 +65,7 @@ impl<'a> Gates<'a> {
         let mut worst: Option<(Deepest, &str)> = None;
         for gate in self.gates {
             let Some(deepest) = deepest(gate, evidence) else {
-                return question.fail(&format!("there was no time at which gate {} could have been passed", gate.name));
+                return question.fail(format!("there was no time at which gate {} could have been passed", gate.name));
             };
             if worst.is_none_or(|(worst, _)| is_smaller(deepest.lower_m, worst.lower_m)) {
                 worst = Some((deepest, &gate.name));
