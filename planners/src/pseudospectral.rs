@@ -23,6 +23,7 @@ mod segment;
 mod small;
 mod sweep;
 mod transcription;
+mod workspace;
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ mod cable;
 mod cost;
 mod ends;
 mod envelope;
+mod gate;
 mod guess;
 mod jet;
 mod model;
@@ -25,7 +26,7 @@ pub use model::Model;
 pub use optimise::{Candidate, Options, Round, optimise};
 pub use planner::{PLANNER, candidate_routes, name_of};
 pub use polygon::Polygon;
-pub use problem::{Body, Limits, Mode, Problem, Rest, Stage, Weights};
+pub use problem::{Body, Gate, Limits, Mode, Problem, Rest, Stage, Weights};
 pub use question::{options, problem};
 pub use route::{Route, routes};
 

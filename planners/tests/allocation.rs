@@ -1,10 +1,13 @@
-//! The iteration of the interior-point method works in memory that it has had before.
+//! The iterations of the interior-point methods work in memory that they have had before.
 
 use std::path::Path;
 use std::sync::Mutex;
 
 use planners::convex::{InteriorPoint, Program, Settings, Status};
+use planners::nlp;
+use planners::pseudospectral::{Mesh, Motion, Transcription};
 use planners::scp::parallel::plan_and_inspect;
+use planners::slung;
 
 /// Allocations of a second solve of the same programme that ends after `max_iterations`.
 fn allocations(program: &Program, max_iterations: usize) -> u64 {
@@ -25,4 +28,27 @@ fn iterations_allocate_nothing() {
     let few = allocations(&program, 1);
     assert!(few > 0, "nothing was counted");
     assert_eq!(few, allocations(&program, 6));
+}
+
+/// The nonlinear method on a motion in phases: free durations, an impact, rows at the ends.
+#[test]
+fn iterations_of_the_nonlinear_method_allocate_nothing() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/slung/gate.toml");
+    let problem = slung::problem(&scenarios::load(&path).expect("shipped scenario"));
+    let model = slung::Model::new(&problem);
+    let route = &slung::candidate_routes(&problem)[0];
+    let guess = slung::Guess::new(&problem, route, model.coordinates());
+    let phases: Vec<(usize, usize)> = problem.stages.iter().map(|_| (4, 3)).collect();
+    let mut programme = Transcription::new(&model, Mesh::uniform(&phases));
+    let start = nlp::Start::Cold(programme.guess(&|phase, share, node| guess.write(phase, share, node)));
+    let mut count = |max_iterations: usize| {
+        let settings = nlp::Settings { max_iterations, ..nlp::Settings::default() };
+        let mut method = nlp::InteriorPoint::new(&programme, settings);
+        let mut solve = || assert_eq!(method.solve(&mut programme, &start).status, nlp::Status::IterationLimit);
+        solve();
+        allocation_counter::measure(solve).count_total
+    };
+    let few = count(1);
+    assert!(few > 0, "nothing was counted");
+    assert_eq!(few, count(9));
 }

@@ -132,7 +132,7 @@ fn defects(scenario: &Scenario, trajectory: &Trajectory) -> [f64; 3] {
 
 #[test]
 fn thrusts_lead_from_sample_to_sample() {
-    for name in ["rectangle", "lift-off", "drop-and-catch", "polygons"] {
+    for name in ["rectangle", "lift-off", "drop-and-catch", "gate", "polygons"] {
         let (scenario, trajectory) = planned(name);
         let [position, velocity, rate] = defects(&scenario, &trajectory);
         println!(
@@ -146,7 +146,7 @@ fn thrusts_lead_from_sample_to_sample() {
 /// The cable keeps its length while it is taut and never exceeds it.
 #[test]
 fn the_cable_is_never_too_long() {
-    for name in ["rectangle", "lift-off", "drop-and-catch"] {
+    for name in ["rectangle", "lift-off", "drop-and-catch", "gate"] {
         let (scenario, trajectory) = planned(name);
         let full_m = scenario.slung_load_model(&scenario.vehicles[0]).cable_length_m;
         for (state, cable) in trajectory.states.iter().zip(&trajectory.cable) {

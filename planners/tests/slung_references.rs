@@ -2,7 +2,9 @@
 
 use planners::nlp::Settings;
 use planners::pseudospectral::{Duration, Motion, Transcription};
-use planners::slung::{Candidate, Mode, Model, Options, Problem, Rest, Stage, candidate_routes, optimise};
+use planners::slung::{
+    Candidate, Gate, Limits, Mode, Model, Options, Problem, Rest, Stage, candidate_routes, optimise,
+};
 
 /// An optimum: J, and, where there is a switch, when it comes and with what impulse.
 struct Optimum {
@@ -74,7 +76,8 @@ fn refined_meshes_reach_the_paper_cases_optimum() {
 /// The complementarity of the paper, at a small ε from the start, finds the same motion: the cable stays taut.
 #[test]
 fn complementarity_finds_the_taut_optimum() {
-    let stage = Stage { mode: Mode::Either { epsilon: 1e-6 }, duration: Duration::Fixed(4.0), impulse_ns: None };
+    let stage =
+        Stage { mode: Mode::Either { epsilon: 1e-6 }, duration: Duration::Fixed(4.0), impulse_ns: None, gate: None };
     let problem = Problem { stages: vec![stage], ..Problem::paper() };
     let [right, left] = objectives(&problem, &fixed(20, 3));
     assert!((right - 2432.138).abs() < 0.01, "{right}");
@@ -82,8 +85,9 @@ fn complementarity_finds_the_taut_optimum() {
 }
 
 fn phased(mode: Mode, position_m: [f64; 3], guess_s: f64, impulse_ns: Option<f64>) -> Problem {
-    let first = Stage { mode, duration: Duration::Free { least_s: 0.02, guess_s, most_s: 3.6 }, impulse_ns };
-    let second = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None };
+    let first =
+        Stage { mode, duration: Duration::Free { least_s: 0.02, guess_s, most_s: 3.6 }, impulse_ns, gate: None };
+    let second = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None };
     let start = Rest { position_m, cable: [0.0, 0.0, 0.35] };
     Problem { start, stages: vec![first, second], ..Problem::paper() }
 }
@@ -115,4 +119,53 @@ fn a_falling_load_is_caught_with_the_reference_impact() {
     assert!((best.objective - 2432.9).abs() < 0.1, "{}", best.objective);
     assert!((best.switch_s - 0.228).abs() < 0.002, "{}", best.switch_s);
     assert!((best.impulse_ns - 0.467).abs() < 0.005, "{}", best.impulse_ns);
+}
+
+/// The paper's vehicle, with room for its cable to swing, on its way through free space: at one instant the load is to be
+/// above the quadrotor by so much and ahead of it, while the cable is what `mode` says.
+fn gated(height_m: f64, mode: Mode) -> Problem {
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    let gate = Gate {
+        quadrotor_m: [[-0.75, -0.05], open, [f64::NEG_INFINITY, 1.4]],
+        load_m: [[0.05, 0.75], open, [1.4 + height_m, f64::INFINITY]],
+    };
+    let stage = |mode, guess_s: f64, most_s: f64, gate| Stage {
+        mode,
+        duration: Duration::Free { least_s: 0.02, guess_s, most_s },
+        impulse_ns: None,
+        gate,
+    };
+    let last = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None };
+    let stages = match mode {
+        Mode::Slack => vec![
+            stage(Mode::Taut, 2.0, 2.2, None),
+            stage(mode, 0.2, 0.7, Some(gate)),
+            stage(mode, 0.2, 0.7, None),
+            last,
+        ],
+        _ => vec![stage(Mode::Taut, 2.0, 3.6, Some(gate)), last],
+    };
+    let cable_rad = [-130.0_f64, 130.0].map(f64::to_radians);
+    let paper = Problem::paper();
+    let (obstacles, obstacle_names) = (Vec::new(), Vec::new());
+    Problem { limits: Limits { cable_rad, ..paper.limits }, obstacles, obstacle_names, stages, ..paper }
+}
+
+/// To let the cable go slack pays, and the more so the higher above the quadrotor the load has to pass.
+#[test]
+fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
+    let objective = |height_m: f64, mode: Mode| {
+        let problem = gated(height_m, mode);
+        let routes = candidate_routes(&problem);
+        let candidate = optimise(&problem, &routes[0], &Options::default());
+        assert!(candidate.is_solved() && candidate.is_refined, "{height_m} {mode:?}: {:?}", candidate.rounds);
+        candidate.last().objective
+    };
+    let gain = |height_m: f64| {
+        let [taut, slack] = [Mode::Taut, Mode::Slack].map(|mode| objective(height_m, mode));
+        println!("{height_m:.2} m above: {taut:.3} taut, {slack:.3} with a slack phase");
+        taut - slack
+    };
+    let gains = [0.0, 0.05, 0.1, 0.15].map(gain);
+    assert!(gains[0] > 0.0 && gains.is_sorted(), "{gains:?}");
 }

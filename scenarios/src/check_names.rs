@@ -12,6 +12,7 @@ pub const CHECK_NAMES: &[&str] = &[
     "nodes.state_limits",
     "nodes.control_limits",
     "nodes.goal",
+    "nodes.gates",
     "plan.finite",
     "plan.complete",
     "plan.separation",
@@ -28,6 +29,7 @@ pub const CHECK_NAMES: &[&str] = &[
     "plan.tension",
     "plan.slack",
     "plan.swing",
+    "plan.gates",
     "flight.finite",
     "flight.complete",
     "flight.crash",
@@ -48,14 +50,24 @@ pub const CHECK_NAMES: &[&str] = &[
     "flight.tension",
     "flight.slack",
     "flight.swing",
+    "flight.gates",
 ];
 
 /// Checks that are put to vehicles alone that come to rest.
 const OF_HOVERING: [&str; 2] = ["plan.rest", "flight.rest"];
 
 /// Checks that are put to slung loads alone.
-const OF_SLUNG_LOADS: [&str; 6] =
-    ["nodes.envelope", "plan.envelope", "plan.tension", "plan.slack", "plan.swing", "flight.envelope"];
+const OF_SLUNG_LOADS: [&str; 9] = [
+    "nodes.envelope",
+    "nodes.gates",
+    "plan.envelope",
+    "plan.tension",
+    "plan.slack",
+    "plan.swing",
+    "plan.gates",
+    "flight.envelope",
+    "flight.gates",
+];
 
 /// Checks of loads, which of fixed wings are skipped.
 const OF_LOADS: [&str; 3] = ["flight.tension", "flight.slack", "flight.swing"];

@@ -51,4 +51,4 @@ pub use trajectory::{Interpolation, Nodes, Trajectory};
 pub use validate::validate;
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
-pub use world::{Block, Cylinder, Map, Moving, Prism, World};
+pub use world::{Block, Cylinder, Gate, Map, Moving, Prism, Window, World};

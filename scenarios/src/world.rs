@@ -3,9 +3,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+mod gate;
 mod moving;
 mod prism;
 
+pub use gate::{Gate, Window};
 pub use moving::Moving;
 pub use prism::{Block, Prism};
 
@@ -30,6 +32,9 @@ pub struct World {
     /// Height of the level ground on which a load may lie, m. Absent: there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_m: Option<f64>,
+    /// Gates that a quadrotor with a slung load has to pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gates: Vec<Gate>,
     /// Obstacles that move; multirotors sense them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub moving: Vec<Moving>,
@@ -48,6 +53,7 @@ impl World {
             boxes: Vec::new(),
             prisms: Vec::new(),
             ground_m: None,
+            gates: Vec::new(),
             moving: Vec::new(),
             hidden: Vec::new(),
         }
@@ -71,6 +77,7 @@ impl World {
             boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             ground_m: self.ground_m,
+            gates: self.gates.clone(),
             ..Self::empty(self.map.clone())
         }
     }

@@ -17,6 +17,11 @@ name = "wedge"
 corners_m = [[0, 2], [1, 2], [0, 3]]
 z_m = [0, 1]
 
+[[world.gates]]
+name = "high"
+quadrotor = { x_m = [-1, 1], z_m = [0.5, 1] }
+load = { z_m = [1.2, 2] }
+
 [models.slung-load.quad]
 mass_kg = 1.32
 inertia_kgm2 = [0.018, 0.018, 0.026]
@@ -73,6 +78,14 @@ fn obstacles_are_convex_with_names_of_their_own() {
     assert_fault("\"wedge\"", "\"box\"", "world.prisms[0].name", "box", "world.boxes has this one");
     assert_fault("size_m = [1, 1]", "size_m = [1, 0]", "world.boxes[0].size_m[1]", "0", "greater than 0");
     assert_fault("z_m = [0, 1]", "z_m = [1, 0]", "world.prisms[0].z_m", "[1, 0]", "min below max");
+}
+
+#[test]
+fn gates_have_windows_with_faces_in_order() {
+    let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
+    assert_eq!(scenario.world.gates[0].load.z_m, Some(scenarios::Range::new(1.2, 2.0)));
+    assert_fault("z_m = [1.2, 2]", "z_m = [2, 1.2]", "world.gates[0].load.z_m", "[2, 1.2]", "min below max");
+    assert_fault("\"high\"", "\"hi gh\"", "world.gates[0].name", "hi gh", "letters, digits");
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod clearance;
 mod course;
 mod end;
 mod flown;
+mod gates;
 mod limits;
 mod physics;
 mod planned;
@@ -20,6 +21,7 @@ pub use planned::Planned;
 
 use self::clearance::Surroundings;
 use self::end::End;
+use self::gates::Gates;
 use self::limits::Limited;
 use self::physics::Physics;
 use crate::verdict::compare::is_larger;
@@ -37,6 +39,7 @@ pub struct Judge<'a> {
     surroundings: Surroundings<'a>,
     limited: Limited<'a>,
     end: End<'a>,
+    gates: Gates<'a>,
 }
 
 impl<'a> Judge<'a> {
@@ -50,6 +53,7 @@ impl<'a> Judge<'a> {
             surroundings: Surroundings::of(scenario, vehicle),
             limited: Limited::of(scenario, vehicle),
             end: End::of(scenario, vehicle),
+            gates: Gates::of(scenario, vehicle),
         }
     }
 
@@ -64,6 +68,7 @@ impl<'a> Judge<'a> {
             self.limited.check_node_states(trajectory),
             self.limited.check_node_thrusts(trajectory),
             self.end.check_node_goal(trajectory),
+            self.gates.check_nodes(trajectory),
         ]
     }
 
@@ -93,6 +98,7 @@ impl<'a> Judge<'a> {
             cable::check_planned_tension(model, name, planned),
             cable::check_planned_cable(model, trajectory, planned, scenario.limits().dynamics_m),
             self.limited.check_planned_swing(planned),
+            self.gates.check(Group::Plan, course),
         ]
     }
 
@@ -124,6 +130,7 @@ impl<'a> Judge<'a> {
             cable::check_flown_tension(model, log),
             cable::check_flown_cable(self.trajectory(), flight, scenario.limits().switch_s),
             self.limited.check_flown_swing(flown),
+            self.gates.check(Group::Flight, course),
         ]
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use harness::verdict::{Outcome, Status};
 use scenarios::slung_load::Cable;
-use scenarios::{Family, check_names};
+use scenarios::{Family, Gate, Range, Window, check_names};
 use sim::{Event, EventKind};
 
 use crate::case::{Case, thrusts};
@@ -33,6 +33,7 @@ const EDGES: &[Edge] = &[
     ),
     edge("nodes.control_limits", |case, n| case.trajectory().controls[9].thrust_n[2] = n, 0.999, 1.001),
     edge("nodes.goal", |case, z_m| case.scenario.vehicles[0].goal.z_m = 1.5 + z_m, 0.0501, 0.0499),
+    edge("nodes.gates", |case, m| lower_gate(case, "nodes.gates", m), -0.001, 0.001),
     edge("plan.finite", |case, value| case.plan.objective = Some(value), f64::NAN, 0.0),
     edge("plan.complete", |case, rate| case.trajectory().states[0].body_rate_radps[1] = rate, 0.011, 0.009),
     edge("plan.clearance", |case, y_m| grow_wall(case, "plan.clearance", y_m), -0.001, 0.001),
@@ -51,6 +52,7 @@ const EDGES: &[Edge] = &[
     ),
     edge("plan.slack", lengthen, 0.0101, 0.0099),
     edge("plan.swing", |case, deg| limit_swing(case, "plan.swing", deg), -0.01, 0.01),
+    edge("plan.gates", |case, m| lower_gate(case, "plan.gates", m), -0.001, 0.001),
     edge("flight.finite", |case, value| case.loads()[777].measured_position_m[2] = value, f64::INFINITY, 0.0),
     edge("flight.complete", |case, steps| case.samples().truncate(steps as usize), 2998.0, 4001.0),
     edge("flight.crash", crash, 1.0, 0.0),
@@ -74,6 +76,7 @@ const EDGES: &[Edge] = &[
     edge("flight.tension", |case, n| (1000..1010).for_each(|step| case.loads()[step].tension_n = n), 60.01, 59.99),
     edge("flight.slack", switch_late, 0.0201, 0.0199),
     edge("flight.swing", |case, deg| limit_swing(case, "flight.swing", deg), -0.01, 0.01),
+    edge("flight.gates", |case, m| lower_gate(case, "flight.gates", m), -0.001, 0.001),
 ];
 
 /// Moves the south end of the wall so that what the check measures becomes `y_m`.
@@ -82,6 +85,16 @@ fn grow_wall(case: &mut Case, check: &str, y_m: f64) {
     let wall = &mut case.scenario.world.boxes[0];
     wall.size_m[1] += now_m - y_m;
     wall.center_m[1] -= (now_m - y_m) / 2.0;
+}
+
+/// Puts a gate on the way in which the load is this deep inside its window at most, the quadrotor deeper.
+fn lower_gate(case: &mut Case, check: &str, depth_m: f64) {
+    let quadrotor = Window { x_m: Some(Range::new(-9.0, 9.0)), ..Window::default() };
+    let load = Window { z_m: Some(Range::new(0.9, 2.0)), ..Window::default() };
+    case.scenario.world.gates = vec![Gate { name: "gate".into(), quadrotor, load }];
+    let now_m = case.check(check).value.unwrap();
+    assert!(now_m < 0.0, "the load is below the window: {now_m}");
+    case.scenario.world.gates[0].load.z_m = Some(Range::new(0.9 + now_m - depth_m, 2.0));
 }
 
 /// Moves the flight to the north so that what the check measures becomes `y_m`.

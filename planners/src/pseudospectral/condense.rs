@@ -56,6 +56,15 @@ pub struct Stages {
     lu: Lu,
     accelerations: Vec<f64>,
     velocities: Vec<f64>,
+    adjoint: Adjoint,
+}
+
+/// Multipliers of the accelerations at the stages 2..N, those of them that are implicit, and gradients at these stages.
+#[derive(Clone, Debug, Default)]
+struct Adjoint {
+    accelerations: Vec<f64>,
+    implicit: Vec<f64>,
+    stages: Vec<f64>,
 }
 
 impl Stages {
@@ -76,6 +85,11 @@ impl Stages {
             lu: Lu::new(inner * dimensions.essential()),
             accelerations: vec![0.0; inner * dimensions.coordinates * columns],
             velocities: vec![0.0; inner * dimensions.coordinates * columns],
+            adjoint: Adjoint {
+                accelerations: vec![0.0; inner * dimensions.coordinates],
+                implicit: vec![0.0; inner * dimensions.essential()],
+                stages: vec![0.0; inner * dimensions.states()],
+            },
         }
     }
 
@@ -226,26 +240,30 @@ impl Stages {
     pub fn adjoint(&mut self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], y: &mut [f64]) {
         let d = self.dimensions;
         let (n, nq, nn) = (d.order, d.coordinates, d.essential());
-        let mut a = vec![0.0; (n - 1) * nq];
-        self.adjoint_pass(η, jacobians, g, last, &a, y);
+        let mut work = std::mem::take(&mut self.adjoint);
+        work.accelerations.fill(0.0);
+        self.adjoint_pass(η, jacobians, g, last, &mut work, y);
         for (j, r) in (0..n - 1).flat_map(|j| (0..d.ignorable).map(move |r| (j, r))) {
-            a[j * nq + r] = y[(j + 1) * 2 * nq + nq + r];
+            work.accelerations[j * nq + r] = y[(j + 1) * 2 * nq + nq + r];
         }
-        self.adjoint_pass(η, jacobians, g, last, &a, y);
-        let essential = |j: usize, r: usize| (j + 1) * 2 * nq + nq + d.ignorable + r;
-        let mut rhs: Vec<f64> = (0..(n - 1) * nn).map(|k| y[essential(k / nn, k % nn)]).collect();
-        self.lu.solve_transposed(&mut rhs);
-        for (k, value) in rhs.into_iter().enumerate() {
-            a[k / nn * nq + d.ignorable + k % nn] = value;
+        self.adjoint_pass(η, jacobians, g, last, &mut work, y);
+        for (k, implicit) in work.implicit.iter_mut().enumerate() {
+            *implicit = y[(k / nn + 1) * 2 * nq + nq + d.ignorable + k % nn];
         }
-        self.adjoint_pass(η, jacobians, g, last, &a, y);
+        self.lu.solve_transposed(&mut work.implicit);
+        for (k, value) in work.implicit.iter().enumerate() {
+            work.accelerations[k / nn * nq + d.ignorable + k % nn] = *value;
+        }
+        self.adjoint_pass(η, jacobians, g, last, &mut work, y);
+        self.adjoint = work;
     }
 
-    /// One evaluation of the right-hand sides, with `a` for the multipliers of the accelerations at the stages 2..N.
-    fn adjoint_pass(&self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], a: &[f64], y: &mut [f64]) {
+    /// One evaluation of the right-hand sides, with the multipliers of the accelerations that `work` holds.
+    fn adjoint_pass(&self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], work: &mut Adjoint, y: &mut [f64]) {
         let d = self.dimensions;
         let (n, nq, width) = (d.order, d.coordinates, d.width());
-        let mut stage = g.to_vec();
+        let Adjoint { accelerations: a, stages: stage, .. } = work;
+        stage.copy_from_slice(g);
         for j in 0..n - 1 {
             for r in 0..nq {
                 let jacobian = &jacobians[((j + 1) * nq + r) * width..][..2 * nq];

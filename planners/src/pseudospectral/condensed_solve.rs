@@ -89,7 +89,8 @@ impl Segment {
         let d = self.dimensions;
         let (n, nq, states, node_width, w) = (d.order, d.coordinates, d.states(), d.width(), self.width);
         let (x, p) = (self.state(), self.parameter());
-        let mut columns = vec![0.0; w];
+        let mut columns = std::mem::take(&mut self.columns);
+        columns.fill(0.0);
         columns[x..x + states].copy_from_slice(&solution[..states]);
         columns[p..p + d.parameters].copy_from_slice(parameters);
         for k in (0..x).rev() {
@@ -106,6 +107,7 @@ impl Segment {
             solution[i * node_width + states..(i + 1) * node_width]
                 .copy_from_slice(&columns[i * d.controls..(i + 1) * d.controls]);
         }
+        self.columns = columns;
         self.multipliers(nodes, gradient, parameters, solution, multipliers);
     }
 
@@ -129,13 +131,8 @@ impl Segment {
                     -gradient[at] - dot(hessian, z) - half_length * nodes.cross[at];
             }
         }
-        let last = self.costate(&solution[n * node_width..][..states], parameters);
+        costate(&self.next, &solution[n * node_width..][..states], parameters, &mut self.last);
         let g = &self.gradient[..(n - 1) * states];
-        self.stages.adjoint(nodes.half_length, nodes.jacobians, g, &last, multipliers);
-    }
-
-    /// The negative gradient of the next cost-to-go: the multiplier of the segment's last state.
-    fn costate(&self, state: &[f64], parameters: &[f64]) -> Vec<f64> {
-        costate(&self.next, state, parameters)
+        self.stages.adjoint(nodes.half_length, nodes.jacobians, g, &self.last, multipliers);
     }
 }

@@ -67,7 +67,8 @@ impl Transcription<'_> {
                 }));
                 share += segment.share;
             }
-            begin_s += duration_s;
+            // to the last bit: what begins a phase comes at no later time than what ends the one before
+            begin_s = times.last().map_or(begin_s, |&(end_s, _)| end_s);
         }
         times
     }

@@ -65,6 +65,9 @@ pub struct Segment {
     pub(super) offset_v: Vec<f64>,
     pub(super) vector: Vec<f64>,
     pub(super) gradient: Vec<f64>,
+    /// A solution by columns, and the multiplier of the last state.
+    pub(super) columns: Vec<f64>,
+    pub(super) last: Vec<f64>,
 }
 
 impl Segment {
@@ -90,6 +93,8 @@ impl Segment {
             offset_v: vec![0.0; n * nq],
             vector: vec![0.0; width],
             gradient: vec![0.0; n * dimensions.states()],
+            columns: vec![0.0; width],
+            last: vec![0.0; dimensions.states()],
         }
     }
 
@@ -259,12 +264,11 @@ impl Segment {
     }
 }
 
-/// The negative gradient of a cost-to-go with respect to the state.
-pub fn costate(next: &CostToGo, state: &[f64], parameters: &[f64]) -> Vec<f64> {
+/// Writes the negative gradient of a cost-to-go with respect to the state.
+pub fn costate(next: &CostToGo, state: &[f64], parameters: &[f64], to: &mut [f64]) {
     let (states, size) = (state.len(), next.vector.len());
-    let gradient = |r: usize| {
+    for (r, to) in to.iter_mut().enumerate() {
         let row = &next.matrix[r * size..][..size];
-        next.vector[r] + dot(&row[..states], state) + dot(&row[states..], parameters)
-    };
-    (0..states).map(|r| -gradient(r)).collect()
+        *to = -(next.vector[r] + dot(&row[..states], state) + dot(&row[states..], parameters));
+    }
 }

@@ -198,6 +198,23 @@ impl Lu {
     }
 }
 
+/// `to = [G 0; 0 1]^T P [G 0; 0 1]` with G of n x n, P of `size` x `size`; `half` is P [G 0; 0 1].
+pub fn congruence(g: &[f64], p: &[f64], n: usize, size: usize, half: &mut [f64], to: &mut [f64]) {
+    half.fill(0.0);
+    for (half, p) in half.chunks_exact_mut(size).zip(p.chunks_exact(size)) {
+        for c in 0..n {
+            add_scaled(&mut half[..n], p[c], &g[c * n..(c + 1) * n]);
+        }
+        half[n..].copy_from_slice(&p[n..]);
+    }
+    for c in 0..n {
+        for r in 0..n {
+            add_scaled(&mut to[r * size..(r + 1) * size], g[c * n + r], &half[c * size..(c + 1) * size]);
+        }
+    }
+    to[n * size..].copy_from_slice(&half[n * size..]);
+}
+
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};

@@ -5,7 +5,8 @@ use super::layout::{Layout, PhaseLayout};
 use super::motion::Motion;
 use super::radau::Radau;
 use super::segment::{CostToGo, Nodes, Segment, costate};
-use super::small::{add_scaled, dot, eliminate, padded};
+use super::small::{add_scaled, congruence, dot, eliminate, padded};
+use super::workspace::Workspace;
 
 /// Weight of the events in the factors, 1/δ_c: they hold after refinement.
 const EVENT_WEIGHT: f64 = 1e8;
@@ -49,6 +50,7 @@ pub struct Sweep {
     begins: Vec<CostToGo>,
     /// Factors of the parameters' block.
     root: Vec<f64>,
+    work: Workspace,
     states: usize,
     parameters: usize,
 }
@@ -77,6 +79,7 @@ impl Sweep {
             gains: layout.phases.iter().map(gains).collect(),
             begins: vec![CostToGo::zero(size); layout.phases.len()],
             root: vec![0.0; padded(layout.parameters).pow(2)],
+            work: Workspace::new(layout.states(), layout.parameters, layout.variables()),
             states: layout.states(),
             parameters: layout.parameters,
         }
@@ -85,32 +88,38 @@ impl Sweep {
     /// Factors; false if the curvature on the rows' null space is not positive.
     #[inline(always)]
     pub fn factor(&mut self, layout: &Layout, point: &Linearisation) -> bool {
-        let size = self.states + self.parameters;
-        let mut after = vec![0.0; size * size];
-        let mut before = vec![0.0; size * size];
+        let mut work = std::mem::take(&mut self.work);
+        let is_convex = self.factor_phases(layout, point, &mut work);
+        self.work = work;
+        is_convex && self.factor_parameters(point)
+    }
+
+    #[inline(always)]
+    fn factor_phases(&mut self, layout: &Layout, point: &Linearisation, work: &mut Workspace) -> bool {
         for (index, phase) in layout.phases.iter().enumerate().rev() {
-            self.end_matrix(phase.events, &point.ends[index], &after, &mut before);
-            std::mem::swap(&mut after, &mut before);
+            self.end_matrix(phase.events, &point.ends[index], work);
+            std::mem::swap(&mut work.after, &mut work.before);
             for k in (0..phase.segments.len()).rev() {
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
                 let segment = &mut self.segments[index][k];
-                segment.next.matrix.copy_from_slice(&after);
-                if !segment.factor(&nodes, &mut before) {
+                segment.next.matrix.copy_from_slice(&work.after);
+                if !segment.factor(&nodes, &mut work.before) {
                     return false;
                 }
-                std::mem::swap(&mut after, &mut before);
+                std::mem::swap(&mut work.after, &mut work.before);
             }
-            self.begins[index].matrix.copy_from_slice(&after);
+            self.begins[index].matrix.copy_from_slice(&work.after);
         }
-        self.factor_parameters(point)
+        true
     }
 
     /// Cost-to-go at the last state of a phase: the next phase's through the link, the events', the end's own.
-    fn end_matrix(&self, events: usize, end: &End, after: &[f64], before: &mut [f64]) {
+    fn end_matrix(&self, events: usize, end: &End, work: &mut Workspace) {
         let (n, size) = (self.states, self.states + self.parameters);
+        let Workspace { after, before, half, .. } = work;
         before.fill(0.0);
         if !end.next.is_empty() {
-            congruence(&end.next, after, n, size, before);
+            congruence(&end.next, after, n, size, half, before);
         }
         for r in 0..n {
             add_scaled(&mut before[r * size..r * size + n], 1.0, &end.weighted[r * n..(r + 1) * n]);
@@ -137,31 +146,34 @@ impl Sweep {
     /// Solves in place: `x` from the right-hand side of the variables to their step, `y` from that of the equalities to
     /// the step of their multipliers.
     pub fn solve(&mut self, layout: &Layout, point: &Linearisation, x: &mut [f64], y: &mut [f64]) {
-        let gradient: Vec<f64> = x.iter().map(|value| -value).collect();
-        self.backward(layout, point, &gradient, y);
-        self.forward(layout, point, &gradient, x, y);
+        let mut work = std::mem::take(&mut self.work);
+        for (gradient, value) in work.gradient.iter_mut().zip(&*x) {
+            *gradient = -value;
+        }
+        self.backward(layout, point, y, &mut work);
+        self.forward(layout, point, x, y, &mut work);
+        self.work = work;
     }
 
-    fn backward(&mut self, layout: &Layout, point: &Linearisation, gradient: &[f64], y: &[f64]) {
-        let (n, size) = (self.states, self.states + self.parameters);
-        let mut after = vec![0.0; size];
-        let mut before = vec![0.0; size];
+    fn backward(&mut self, layout: &Layout, point: &Linearisation, y: &[f64], work: &mut Workspace) {
+        let n = self.states;
+        let Workspace { after_vector: after, before_vector: before, gradient, .. } = work;
         for (index, phase) in layout.phases.iter().enumerate().rev() {
             let end_at = layout.node_at(phase, phase.nodes);
-            self.end_vector(layout, point, index, y, &after, &mut before);
+            self.end_vector(layout, point, index, y, after, before);
             add_scaled(&mut before[..n], 1.0, &gradient[end_at..end_at + n]);
-            std::mem::swap(&mut after, &mut before);
+            std::mem::swap(after, before);
             for k in (0..phase.segments.len()).rev() {
                 let (first, order) = (phase.segments[k].first, phase.segments[k].order);
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
                 let segment = &mut self.segments[index][k];
-                segment.next.vector.copy_from_slice(&after);
+                segment.next.vector.copy_from_slice(after);
                 let gradient = &gradient[layout.node_at(phase, first)..][..order * layout.width()];
                 let residuals = &y[layout.defect_at(phase, first)..][..order * n];
-                segment.backward(&nodes, gradient, residuals, &mut before);
-                std::mem::swap(&mut after, &mut before);
+                segment.backward(&nodes, gradient, residuals, before);
+                std::mem::swap(after, before);
             }
-            self.begins[index].vector.copy_from_slice(&after);
+            self.begins[index].vector.copy_from_slice(after);
         }
     }
 
@@ -195,34 +207,35 @@ impl Sweep {
         }
     }
 
-    fn forward(&mut self, layout: &Layout, point: &Linearisation, gradient: &[f64], x: &mut [f64], y: &mut [f64]) {
+    fn forward(&mut self, layout: &Layout, point: &Linearisation, x: &mut [f64], y: &mut [f64], work: &mut Workspace) {
         let (n, width) = (self.states, layout.width());
-        let mut state = y[..n].to_vec();
-        let parameters = self.solve_parameters(gradient, layout.parameters_at, &state);
-        x[layout.parameters_at..].copy_from_slice(&parameters);
-        y[..n].copy_from_slice(&costate(&self.begins[0], &state, &parameters));
+        work.state.copy_from_slice(&y[..n]);
+        self.solve_parameters(layout.parameters_at, work);
+        x[layout.parameters_at..].copy_from_slice(&work.parameters);
+        costate(&self.begins[0], &work.state, &work.parameters, &mut y[..n]);
         for (index, phase) in layout.phases.iter().enumerate() {
             for (k, segment) in phase.segments.iter().enumerate() {
                 let at = layout.node_at(phase, segment.first);
                 let solution = &mut x[at..at + segment.order * width + n];
-                solution[..n].copy_from_slice(&state);
+                solution[..n].copy_from_slice(&work.state);
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
                 let multipliers = &mut y[layout.defect_at(phase, segment.first)..][..segment.order * n];
-                let gradient = &gradient[at..at + segment.order * width];
-                self.segments[index][k].forward(&nodes, gradient, &parameters, solution, multipliers);
-                state.copy_from_slice(&solution[segment.order * width..]);
+                let gradient = &work.gradient[at..at + segment.order * width];
+                self.segments[index][k].forward(&nodes, gradient, &work.parameters, solution, multipliers);
+                work.state.copy_from_slice(&solution[segment.order * width..]);
             }
-            self.end_forward(phase, &point.ends[index], index, &parameters, &mut state, y);
+            self.end_forward(phase, &point.ends[index], index, y, work);
         }
     }
 
-    fn solve_parameters(&self, gradient: &[f64], at: usize, state: &[f64]) -> Vec<f64> {
+    fn solve_parameters(&self, at: usize, work: &mut Workspace) {
         let (n, count, size) = (self.states, self.parameters, self.states + self.parameters);
         let width = padded(count);
         let begin = &self.begins[0];
-        let rhs =
-            |i: usize| -(gradient[at + i] + begin.vector[n + i] + dot(&begin.matrix[(n + i) * size..][..n], state));
-        let mut p: Vec<f64> = (0..count).map(rhs).collect();
+        let Workspace { gradient, state, parameters: p, .. } = work;
+        for (i, p) in p.iter_mut().enumerate() {
+            *p = -(gradient[at + i] + begin.vector[n + i] + dot(&begin.matrix[(n + i) * size..][..n], state));
+        }
         for i in 0..count {
             let known: f64 = (0..i).map(|k| self.root[k * width + i] * p[k]).sum();
             p[i] = (p[i] - known) / self.root[i * width + i];
@@ -231,20 +244,12 @@ impl Sweep {
             let known: f64 = (i + 1..count).map(|k| self.root[i * width + k] * p[k]).sum();
             p[i] = (p[i] - known) / self.root[i * width + i];
         }
-        p
     }
 
     /// Multipliers of the events and of the link; the state goes on to the next phase.
-    fn end_forward(
-        &self,
-        phase: &PhaseLayout,
-        end: &End,
-        index: usize,
-        parameters: &[f64],
-        state: &mut [f64],
-        y: &mut [f64],
-    ) {
+    fn end_forward(&self, phase: &PhaseLayout, end: &End, index: usize, y: &mut [f64], work: &mut Workspace) {
         let n = self.states;
+        let Workspace { state, next, parameters, .. } = work;
         for (row, y) in end.events.chunks_exact(n).zip(&mut y[phase.events_at..][..phase.events]) {
             *y = EVENT_WEIGHT * (dot(row, state) - *y);
         }
@@ -252,27 +257,12 @@ impl Sweep {
             return;
         }
         let residual = &mut y[phase.link_at..][..n];
-        let next: Vec<f64> = (0..n).map(|r| residual[r] + dot(&end.next[r * n..(r + 1) * n], state)).collect();
-        residual.copy_from_slice(&costate(&self.begins[index + 1], &next, parameters));
-        state.copy_from_slice(&next);
-    }
-}
-
-/// `to = [G 0; 0 1]^T P [G 0; 0 1]` with G of n x n, P of `size` x `size`.
-fn congruence(g: &[f64], p: &[f64], n: usize, size: usize, to: &mut [f64]) {
-    let mut half = vec![0.0; size * size];
-    for (half, p) in half.chunks_exact_mut(size).zip(p.chunks_exact(size)) {
-        for c in 0..n {
-            add_scaled(&mut half[..n], p[c], &g[c * n..(c + 1) * n]);
+        for (r, (next, residual)) in next.iter_mut().zip(&*residual).enumerate() {
+            *next = residual + dot(&end.next[r * n..(r + 1) * n], state);
         }
-        half[n..].copy_from_slice(&p[n..]);
+        costate(&self.begins[index + 1], next, parameters, residual);
+        std::mem::swap(state, next);
     }
-    for c in 0..n {
-        for r in 0..n {
-            add_scaled(&mut to[r * size..(r + 1) * size], g[c * n + r], &half[c * size..(c + 1) * size]);
-        }
-    }
-    to[n * size..].copy_from_slice(&half[n * size..]);
 }
 
 /// The part of a linearisation that belongs to a segment.

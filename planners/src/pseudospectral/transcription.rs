@@ -137,10 +137,16 @@ impl<'a> Transcription<'a> {
         let n = self.layout.states();
         let phase = &self.layout.phases[index];
         let end = &mut self.point.ends[index];
-        let minus = |values: &[f64]| values.iter().map(|value| -value).collect::<Vec<f64>>();
-        let rows = minus(&v[phase.end_rows_at..][..phase.end_rows]);
-        let next = minus(if end.next.is_empty() { &[] } else { &y[phase.link_at..][..n] });
-        let weights = EndWeights { events: &y[phase.events_at..][..phase.events], rows: &rows, next: &next };
+        let links = if end.next.is_empty() { 0 } else { n };
+        let (mut rows, mut next) = ([0.0; 64], [0.0; 32]);
+        for (to, v) in rows.iter_mut().zip(&v[phase.end_rows_at..][..phase.end_rows]) {
+            *to = -v;
+        }
+        for (to, y) in next.iter_mut().zip(&y[phase.link_at..][..links]) {
+            *to = -y;
+        }
+        let events = &y[phase.events_at..][..phase.events];
+        let weights = EndWeights { events, rows: &rows[..phase.end_rows], next: &next[..links] };
         for values in [&mut end.events, &mut end.rows, &mut end.next, &mut end.hessian] {
             values.fill(0.0);
         }

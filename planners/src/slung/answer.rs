@@ -63,7 +63,7 @@ pub fn trajectory(problem: &Problem, candidate: &Candidate, vehicle: &str) -> Tr
     trajectory
 }
 
-/// Where the cable switches, and the impulses of its impacts.
+/// Where the cable switches, the impulses of its impacts, and where gates are passed.
 pub fn switches(problem: &Problem, candidate: &Candidate) -> Vec<PlannedEvent> {
     let model = Model::new(problem);
     let programme = Transcription::new(&model, candidate.mesh.clone());
@@ -72,7 +72,9 @@ pub fn switches(problem: &Problem, candidate: &Candidate) -> Vec<PlannedEvent> {
     let mut events = Vec::new();
     for (phase, pair) in problem.stages.windows(2).enumerate() {
         at_s += programme.duration_s(phase, &candidate.x);
-        if pair[1].mode == Mode::Taut {
+        if pair[0].gate.is_some() {
+            events.push(PlannedEvent { at_s, what: "quadrotor and load are in a gate's windows".to_owned() });
+        } else if pair[1].mode == Mode::Taut {
             programme.node(&candidate.x, programme.place(phase, 1.0), &mut node);
             let impulse_ns = model.reduced_kg() * node[model.coordinates() + 8];
             events.push(PlannedEvent { at_s, what: format!("the cable becomes taut with {impulse_ns:.3} N s") });

@@ -1,7 +1,8 @@
-//! Where phases end: the goal, or a switch. A slack cable that becomes taut does so in an inelastic impact: with m the
+//! Where phases end: the goal, a gate, or a switch. A slack cable that becomes taut does so in an inelastic impact: with m the
 //! reduced mass the impulse Λ = m ρ' takes out the stretching, and the quadrotor's velocity changes by Λ d/m_Q.
 
 use super::cable::Cable;
+use super::gate;
 use super::jet::Jet;
 use super::model::{ALPHA, BETA, LENGTH, Model};
 use super::problem::Mode;
@@ -14,7 +15,7 @@ pub fn counts(model: &Model, phase: usize) -> (usize, usize) {
     } else if becomes_taut(model, phase) {
         (1, 1 + usize::from(model.problem.stages[phase].impulse_ns.is_some()))
     } else {
-        (0, 0)
+        (0, gate::count(model, phase))
     }
 }
 
@@ -52,6 +53,7 @@ pub fn values(model: &Model, phase: usize, state: &[f64], values: &mut EndValues
     }
     values.next.copy_from_slice(state);
     if !becomes_taut(model, phase) {
+        gate::values(model, phase, state, &mut values.rows);
         return;
     }
     let (body, nq) = (&model.problem.body, model.coordinates);
@@ -90,6 +92,8 @@ pub fn differentiate(
     }
     if becomes_taut(model, phase) {
         differentiate_impact(model, phase, state, weights, derivatives);
+    } else {
+        gate::differentiate(model, phase, state, weights, derivatives);
     }
 }
 

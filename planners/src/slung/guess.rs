@@ -1,8 +1,11 @@
 //! Where the optimiser begins: along a route with quintic timing, level, in hover.
 
-use super::problem::{GRAVITY, Mode, Problem};
+use super::problem::{GRAVITY, Gate, Mode, Problem};
 use super::route::Route;
 use crate::pseudospectral::Duration;
+
+/// Time in which a load swings up to a gate, s.
+const SWING_S: f64 = 0.35;
 
 /// A motion to begin with.
 #[derive(Clone, Debug)]
@@ -49,6 +52,7 @@ impl<'a> Guess<'a> {
         node[..2].copy_from_slice(&self.route.at(along));
         let lifted_m = if (0..=phase).any(is_parked) { length_m - start.cable[2] } else { 0.0 };
         node[2] = start.position_m[2] + lifted_m + along * (goal[2] - start.position_m[2] - lifted_m);
+        (node[6], node[7]) = self.swing(before_s + share * self.durations_s[phase]);
         if self.coordinates > 8 {
             node[8] = length_m;
         }
@@ -58,6 +62,22 @@ impl<'a> Guess<'a> {
         }
     }
 
+    /// Cable angles (α, β), rad: the load swings up to a gate and back.
+    fn swing(&self, time_s: f64) -> (f64, f64) {
+        let mut end_s = 0.0;
+        let (mut alpha, mut beta) = (0.0, 0.0);
+        for (stage, duration_s) in self.problem.stages.iter().zip(&self.durations_s) {
+            end_s += duration_s;
+            let Some(gate) = stage.gate else { continue };
+            let [x, y, z] = hanging_m(&gate);
+            let near = (-((time_s - end_s) / SWING_S).powi(2)).exp();
+            let [least, most] = self.problem.limits.cable_rad;
+            alpha += near * y.atan2(x.hypot(z));
+            beta += near * (-x).atan2(-z).clamp(0.9 * least, 0.9 * most);
+        }
+        (alpha, beta)
+    }
+
     /// From the start's length to the full one while the cable is slack for the first time; full from then on.
     fn length_m(&self, phase: usize, share: f64) -> f64 {
         let (from, full) = (self.problem.start.cable[2], self.problem.body.cable_m);
@@ -65,4 +85,15 @@ impl<'a> Guess<'a> {
         let first = (0..=phase).all(is_slack);
         if first { from + share * (full - from) } else { full }
     }
+}
+
+/// From the middle of the quadrotor's window to that of the load's, m; along an axis on which one of them is open, nothing,
+/// but straight down where nothing is said of the height.
+fn hanging_m(gate: &Gate) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        let middle_m = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        let apart_m = middle_m(gate.load_m[axis]) - middle_m(gate.quadrotor_m[axis]);
+        let unknown_m = if axis == 2 { -1.0 } else { 0.0 };
+        if apart_m.is_finite() { apart_m } else { unknown_m }
+    })
 }

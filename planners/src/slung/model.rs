@@ -20,8 +20,11 @@ pub const LENGTH: usize = 8;
 /// Rotors.
 pub const ROTORS: usize = 4;
 
-/// Shortest cable that a plan may ask for, as a share of its full length: a load does not fly into the quadrotor.
+/// Shortest cable that a plan may ask for where the load begins close to the quadrotor, as a share of its full length.
 const SHORTEST: f64 = 0.1;
+
+/// Largest angle α, rad: the coordinates are singular at a right angle, where β turns about the cable.
+const MOST_ALPHA: f64 = 1.4;
 
 /// The motion of a [`Problem`].
 #[derive(Clone, Debug)]
@@ -130,18 +133,27 @@ impl<'a> Model<'a> {
         (Cable::at(angles.map(Jet::constant)), Rates::at(rates.map(Jet::constant)))
     }
 
+    /// Shortest cable in a phase, m: a load that flies stays off the ball about the body, unless it begins inside.
+    fn shortest_m(&self, mode: Mode) -> f64 {
+        let (body, limits) = (&self.problem.body, &self.problem.limits);
+        let off_body_m = body.radius_m + limits.clearance_m;
+        let is_outside = mode == Mode::Slack && self.problem.start.cable[2] >= off_body_m && off_body_m < body.cable_m;
+        if is_outside { off_body_m } else { SHORTEST * body.cable_m }
+    }
+
     fn box_of(&self, mode: Mode) -> [Vec<f64>; 2] {
         let limits = &self.problem.limits;
         let mut lower = vec![f64::NEG_INFINITY; self.width()];
         let mut upper = vec![f64::INFINITY; self.width()];
         let mut put = |index: usize, [low, high]: [f64; 2]| (lower[index], upper[index]) = (low, high);
         let euler = [limits.euler_rad; 3];
-        let boxes = limits.position_m.iter().chain(&euler).chain([&limits.cable_rad; 2]);
+        let alpha = limits.cable_rad.map(|angle| angle.clamp(-MOST_ALPHA, MOST_ALPHA));
+        let boxes = limits.position_m.iter().chain(&euler).chain([&alpha, &limits.cable_rad]);
         boxes.enumerate().for_each(|(index, limit)| put(index, *limit));
         self.thrusts().for_each(|index| put(index, limits.thrust_n));
         let full_m = self.problem.body.cable_m;
         if self.has_length(mode) {
-            put(LENGTH, [SHORTEST * full_m, full_m]);
+            put(LENGTH, [self.shortest_m(mode), full_m]);
         }
         if self.controls > ROTORS {
             put(self.tension(), [0.0, limits.tension_n]);

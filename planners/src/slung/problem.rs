@@ -77,6 +77,15 @@ pub enum Mode {
     },
 }
 
+/// Where quadrotor and load have to be at one instant, lowest and highest of each coordinate, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gate {
+    /// The quadrotor.
+    pub quadrotor_m: [[f64; 2]; 3],
+    /// The load.
+    pub load_m: [[f64; 2]; 3],
+}
+
 /// A phase of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
@@ -86,6 +95,8 @@ pub struct Stage {
     pub duration: Duration,
     /// Largest impulse with which the cable may become taut at the end of the phase, N s; none where it does not matter.
     pub impulse_ns: Option<f64>,
+    /// The gate that is passed at the end of the phase, if there is one.
+    pub gate: Option<Gate>,
 }
 
 /// Rest at a place.
@@ -146,7 +157,7 @@ impl Problem {
             obstacle_names: vec!["block".to_owned()],
             start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
             goal_m: [2.0, 0.0, 1.5],
-            stages: vec![Stage { mode: Mode::Taut, duration: Duration::Fixed(4.0), impulse_ns: None }],
+            stages: vec![Stage { mode: Mode::Taut, duration: Duration::Fixed(4.0), impulse_ns: None, gate: None }],
         }
     }
 

@@ -1,11 +1,11 @@
 //! From a scenario to the planner's problem.
 
 use scenarios::slung_load::{Cable, Limits as ScenarioLimits, Model, State};
-use scenarios::{Collocation, Family, Objective, Range, Scenario, Shape};
+use scenarios::{Collocation, Family, Objective, Range, Scenario, Shape, Window};
 
 use super::optimise::Options;
 use super::polygon::Polygon;
-use super::problem::{Body, GRAVITY, Limits, Mode, Problem, Rest, Stage, Weights};
+use super::problem::{Body, GRAVITY, Gate, Limits, Mode, Problem, Rest, Stage, Weights};
 use crate::pseudospectral::{Duration, Tolerances};
 
 /// Distance r' that the paper keeps from obstacles, m.
@@ -35,7 +35,7 @@ pub fn refuses(scenario: &Scenario) -> Option<String> {
         return Some(format!("vehicle `{}` is not a quadrotor with a slung load", vehicle.name));
     }
     let settings = scenario.planner.collocation.clone().unwrap_or_default();
-    let phases = settings.cable.unwrap_or_default();
+    let phases = cable(scenario, &settings);
     let start = rest(scenario);
     let complaint = if !scenario.world.cylinders.is_empty() {
         "it avoids obstacles with flat faces only, not cylinders"
@@ -45,6 +45,10 @@ pub fn refuses(scenario: &Scenario) -> Option<String> {
         "it plans from rest to rest"
     } else if vehicle.goal.load.is_some() {
         "at the goal the load hangs straight down"
+    } else if alike(&phases).count() != scenario.world.gates.len() {
+        "a gate is passed where two phases of the cable in a row are alike, and there are not as many such as gates"
+    } else if gates(scenario).any(|gate| gate.quadrotor_m.iter().chain(&gate.load_m).any(|[low, high]| low >= high)) {
+        "a gate's window is narrower than twice the margin"
     } else if phases.last() == Some(&Cable::Slack) {
         "the cable is taut at the goal, so the last phase must be taut"
     } else if start.cable[0].abs().max(start.cable[1].abs()) > 1.4 {
@@ -178,23 +182,60 @@ fn first_mode(scenario: &Scenario) -> Mode {
     }
 }
 
+/// What the cable does, phase after phase; where nothing is said, it is taut from gate to gate.
+fn cable(scenario: &Scenario, settings: &Collocation) -> Vec<Cable> {
+    let taut = || vec![Cable::Taut; scenario.world.gates.len() + 1];
+    settings.cable.clone().filter(|phases| !phases.is_empty()).unwrap_or_else(taut)
+}
+
+/// Phases after which one of the same kind follows.
+fn alike(phases: &[Cable]) -> impl Iterator<Item = usize> {
+    phases.windows(2).enumerate().filter(|(_, pair)| pair[0] == pair[1]).map(|(phase, _)| phase)
+}
+
+/// The gates, their windows narrower by the margin.
+fn gates(scenario: &Scenario) -> impl Iterator<Item = Gate> {
+    let margin_m = scenario.planner.margin_m.unwrap_or(PAPER_CLEARANCE_M);
+    let faces = move |range: Option<Range>| match range {
+        Some(Range { min, max }) => [min + margin_m, max - margin_m],
+        None => [f64::NEG_INFINITY, f64::INFINITY],
+    };
+    let window = move |window: &Window| window.axes().map(faces);
+    scenario
+        .world
+        .gates
+        .iter()
+        .map(move |gate| Gate { quadrotor_m: window(&gate.quadrotor), load_m: window(&gate.load) })
+}
+
+/// The longest that each phase may take, as shares of the flight time, so that something is left for the last one.
+fn shares(phases: &[Cable]) -> Vec<f64> {
+    let weights = phases.iter().map(|phase| if *phase == Cable::Taut { 3.0 } else { 1.0 });
+    let sum: f64 = weights.clone().take(phases.len() - 1).sum();
+    weights.map(|weight| 0.9 * weight / sum.max(1.0)).collect()
+}
+
 /// The phases with their durations: the last one takes what is left of the flight time, if there is one.
 fn stages(scenario: &Scenario, settings: &Collocation) -> Vec<Stage> {
-    let phases = settings.cable.clone().filter(|phases| !phases.is_empty()).unwrap_or_else(|| vec![Cable::Taut]);
+    let phases = cable(scenario, settings);
+    let mut gates = gates(scenario);
     let total_s = settings.flight_time_s.unwrap_or_else(|| usual_time_s(scenario));
     let is_open = settings.objective == Some(Objective::Time);
     let last = phases.len() - 1;
+    let taut_count = phases.iter().filter(|phase| **phase == Cable::Taut).count();
+    let shares = shares(&phases);
     let mut so_far_s = 0.0;
     let mut stages = Vec::with_capacity(phases.len());
     for (index, phase) in phases.iter().enumerate() {
         let mode = match phase {
             Cable::Taut => Mode::Taut,
-            Cable::Slack if index == 0 => first_mode(scenario),
+            Cable::Slack if phases[..index].iter().all(|phase| *phase == Cable::Slack) => first_mode(scenario),
             Cable::Slack => Mode::Slack,
         };
-        let guess_s = if index == last { total_s - so_far_s } else { phase_guess_s(scenario, mode, total_s, last) };
+        let guess_s =
+            if index == last { total_s - so_far_s } else { phase_guess_s(scenario, mode, total_s, taut_count) };
         so_far_s += guess_s;
-        let most_s = if is_open { 4.0 * total_s } else { 0.9 * total_s / last.max(1) as f64 };
+        let most_s = if is_open { 4.0 * total_s } else { shares[index] * total_s };
         let duration = if index < last || is_open {
             Duration::Free { least_s: SHORTEST_S, guess_s, most_s }
         } else if last == 0 {
@@ -202,13 +243,15 @@ fn stages(scenario: &Scenario, settings: &Collocation) -> Vec<Stage> {
         } else {
             Duration::RestOf(total_s)
         };
-        stages.push(Stage { mode, duration, impulse_ns: settings.impact_ns });
+        let is_gate = phases.get(index + 1) == Some(phase);
+        let gate = if is_gate { gates.next() } else { None };
+        stages.push(Stage { mode, duration, impulse_ns: settings.impact_ns, gate });
     }
     stages
 }
 
 /// About how long a phase before the last one takes: a fall through the slack, or an equal share.
-fn phase_guess_s(scenario: &Scenario, mode: Mode, total_s: f64, last: usize) -> f64 {
+fn phase_guess_s(scenario: &Scenario, mode: Mode, total_s: f64, taut_count: usize) -> f64 {
     let model = scenario.slung_load_model(&scenario.vehicles[0]);
     let slack_m = (model.cable_length_m - rest(scenario).cable[2]).max(0.0);
     let fall_s = (2.0 * slack_m / GRAVITY).sqrt();
@@ -216,7 +259,7 @@ fn phase_guess_s(scenario: &Scenario, mode: Mode, total_s: f64, last: usize) -> 
         Mode::Parked => 2.0 * fall_s.max(0.1),
         Mode::Slack if slack_m > TOUCH_M => fall_s,
         Mode::Slack => 0.2,
-        Mode::Taut | Mode::Either { .. } => total_s / (last + 1) as f64,
+        Mode::Taut | Mode::Either { .. } => total_s / taut_count as f64,
     }
 }
 

@@ -1,5 +1,5 @@
 use super::model::Model;
-use super::problem::{Mode, Problem, Rest, Stage};
+use super::problem::{Gate, Mode, Problem, Rest, Stage};
 use crate::pseudospectral::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
 
 pub fn problems() -> Vec<Problem> {
@@ -7,14 +7,20 @@ pub fn problems() -> Vec<Problem> {
         limits: super::Limits { floor_m: Some(0.0), tension_n: 9.0, ..Problem::paper().limits },
         ..Problem::paper()
     };
-    let stage = |mode| Stage { mode, duration: Duration::Fixed(1.0), impulse_ns: Some(0.1) };
+    let stage = |mode| Stage { mode, duration: Duration::Fixed(1.0), impulse_ns: Some(0.1), gate: None };
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    let gate =
+        Gate { quadrotor_m: [[-1.0, 1.0], open, [0.5, 1.5]], load_m: [[-0.5, 2.0], [-1.0, f64::INFINITY], [1.0, 2.0]] };
+    let gated = |mode| Stage { gate: Some(gate), ..stage(mode) };
     let phased = Problem {
         start: Rest { position_m: [-2.0, 0.0, 0.35], cable: [0.0, 0.0, 0.35] },
         stages: [Mode::Parked, Mode::Taut, Mode::Slack, Mode::Taut].map(stage).to_vec(),
         ..paper.clone()
     };
     let either = Problem { stages: vec![stage(Mode::Either { epsilon: 1e-3 })], ..paper.clone() };
-    vec![paper, phased, either]
+    let stages = vec![gated(Mode::Taut), stage(Mode::Taut), gated(Mode::Slack), stage(Mode::Slack), stage(Mode::Taut)];
+    let through_gates = Problem { stages, ..paper.clone() };
+    vec![paper, phased, either, through_gates]
 }
 
 pub fn noise(seed: usize, i: usize) -> f64 {

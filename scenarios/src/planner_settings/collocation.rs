@@ -23,7 +23,8 @@ pub struct Collocation {
     /// keeps the first mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_tolerance: Option<f64>,
-    /// What the cable does, phase after phase; the instants of the switches are free. Absent: taut from start to goal.
+    /// What the cable does, phase after phase; the instants of the switches are free. Two phases in a row that are alike
+    /// meet where a gate is passed. Absent: taut from start to goal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cable: Option<Vec<Cable>>,
     /// Largest impulse with which the cable may become taut, N s. Absent: as large as it comes.

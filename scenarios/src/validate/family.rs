@@ -6,9 +6,9 @@ pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
     let first = scenario.vehicles.first().and_then(|vehicle| scenario.models.get(&vehicle.model));
     match first.map(|model| model.family()) {
         None => Vec::new(),
-        Some(Family::FixedWing) => [among_cylinders(scenario), nothing_to_sense(scenario)].concat(),
+        Some(Family::FixedWing) => [among_cylinders(scenario), nothing_to_sense(scenario), no_gates(scenario)].concat(),
         Some(Family::SlungLoad) => [alone_among_flat_obstacles(scenario), nothing_to_sense(scenario)].concat(),
-        Some(Family::Multirotor) => without_ground(scenario).into_iter().collect(),
+        Some(Family::Multirotor) => without_ground(scenario).into_iter().chain(no_gates(scenario)).collect(),
     }
 }
 
@@ -19,6 +19,12 @@ fn nothing_to_sense(scenario: &Scenario) -> Vec<Problem> {
         Problem::new(field, format!("{count} of them"), "none: only multirotors sense obstacles")
     };
     counts.map(problem).collect()
+}
+
+fn no_gates(scenario: &Scenario) -> Vec<Problem> {
+    let found = format!("{} of them", scenario.world.gates.len());
+    let problem = Problem::new("world.gates", found, "none: gates are for quadrotors with slung loads");
+    if scenario.world.gates.is_empty() { Vec::new() } else { vec![problem] }
 }
 
 fn without_ground(scenario: &Scenario) -> Option<Problem> {

@@ -2,7 +2,7 @@
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
-use crate::{Block, Moving, Prism, Problem, World, nearest};
+use crate::{Block, Gate, Moving, Prism, Problem, World, nearest};
 
 pub(super) fn problems(world: &World) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -19,6 +19,8 @@ pub(super) fn problems(world: &World) -> Vec<Problem> {
     problems.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| of_prism(index, prism)));
     problems.extend(entity_names("world.moving", world.moving.iter().map(|moving| moving.name.as_str())));
     problems.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
+    problems.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
+    problems.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| of_gate(index, gate)));
     problems.extend(names_of_two_kinds(world));
     problems.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
     problems
@@ -62,6 +64,15 @@ fn of_box(index: usize, block: &Block) -> Vec<Problem> {
     let sizes = [positive(&format!("{field}.size_m[0]"), length_m), positive(&format!("{field}.size_m[1]"), width_m)];
     let z_m = block.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range));
     sizes.into_iter().flatten().chain(z_m).collect()
+}
+
+fn of_gate(index: usize, gate: &Gate) -> Vec<Problem> {
+    let windows = [("quadrotor", &gate.quadrotor), ("load", &gate.load)];
+    let faces = windows.into_iter().flat_map(|(whose, window)| {
+        let named = ["x_m", "y_m", "z_m"].into_iter().zip(window.axes());
+        named.filter_map(move |(axis, range)| ordered(&format!("world.gates[{index}].{whose}.{axis}"), range?))
+    });
+    faces.collect()
 }
 
 fn of_prism(index: usize, prism: &Prism) -> Vec<Problem> {

@@ -2,7 +2,7 @@
 
 use rerun::components::FillMode;
 use rerun::{Boxes3D, Cylinders3D, LineStrips3D, Points3D, Radius, RecordingStream, ViewCoordinates};
-use scenarios::{Map, Prism, Range, Scenario, World};
+use scenarios::{Map, Prism, Range, Scenario, Window, World};
 
 use super::{Logged, entity, palette, to_f32};
 
@@ -20,6 +20,7 @@ pub fn log(stream: &RecordingStream, scenario: &Scenario) -> Logged {
     stream.log_static("world", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     log_map(stream, &scenario.world.map)?;
     log_obstacles(stream, &scenario.world.known_beforehand())?;
+    log_gates(stream, &scenario.world)?;
     log_ends(stream, scenario)
 }
 
@@ -91,6 +92,31 @@ fn log_prism(stream: &RecordingStream, prism: &Prism, map_z_m: Range) -> Logged 
         .with_colors([palette::opaque(palette::dimmed(palette::OBSTACLE))])
         .with_radii([pixels(0.4)]);
     Ok(stream.log_static(path / "faces", &faces)?)
+}
+
+/// The windows of gates, from face to face, of the map where they have none.
+fn log_gates(stream: &RecordingStream, world: &World) -> Logged {
+    let faces = |window: &Window| {
+        let [x, y, z] = world.map.axes();
+        let [own_x, own_y, own_z] = window.axes();
+        [own_x.unwrap_or(x), own_y.unwrap_or(y), own_z.unwrap_or(z)]
+    };
+    for gate in &world.gates {
+        for (whose, window) in [("quadrotor", &gate.quadrotor), ("load", &gate.load)] {
+            let faces = faces(window);
+            let outline = Boxes3D::from_centers_and_half_sizes(
+                [to_f32(faces.map(middle))],
+                [to_f32(faces.map(|axis| axis.width() / 2.0))],
+            )
+            .with_fill_mode(FillMode::MajorWireframe)
+            .with_labels([format!("{}: {whose}", gate.name)])
+            .with_show_labels(false)
+            .with_colors([palette::opaque(palette::KEPT)])
+            .with_radii([pixels(1.0)]);
+            stream.log_static(entity("world/gates", &gate.name) / whose, &outline)?;
+        }
+    }
+    Ok(())
 }
 
 /// Points on the edge of a prism's polygon, about equally far apart.

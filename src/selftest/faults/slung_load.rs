@@ -1,7 +1,7 @@
 //! What can be wrong with a plan or a flight of a quadrotor with a slung load.
 
 use scenarios::slung_load::Cable;
-use scenarios::{Block, Range};
+use scenarios::{Block, Gate, Range, Window};
 use sim::{Event, EventKind};
 
 use super::super::specimen::thrusts;
@@ -13,6 +13,7 @@ pub fn faults() -> Vec<Fault> {
     all.extend(flights());
     all.extend(cables());
     all.extend(obstacles());
+    all.extend(gates());
     all
 }
 
@@ -60,6 +61,33 @@ fn plans() -> Vec<Fault> {
             it.slung_load_model().limits.cable_deg = Range::new(-0.5, 0.5);
         }),
     ]
+}
+
+fn gates() -> Vec<Fault> {
+    vec![
+        Fault::new("nodes.gates", "a gate lies aside of the way", |it| put_gate(it, 0.5)),
+        Fault::new("plan.gates", "a gate is missed by a millimetre", |it| put_gate(it, GATE_M + 1e-3)),
+        Fault::new("flight.gates", "the load is blown past a gate", |it| {
+            put_gate(it, 0.0);
+            let steps = it.steps();
+            it.shift(0, 0..steps, [0.0, 5.0 * GATE_M, 0.0]);
+        }),
+    ]
+}
+
+/// Half the width of the gates that are put on a plan's way, m.
+const GATE_M: f64 = 0.1;
+
+/// A gate about the load in the middle of the plan, aside of everywhere that the load comes by so much.
+fn put_gate(it: &mut Specimen, aside_m: f64) {
+    let middle = it.slung_load().times_s.len() / 2;
+    let load_m = it.slung_load().states[middle].load_position_m;
+    let [x_m, _, _] = load_m.map(|at_m| Some(Range::new(at_m - GATE_M, at_m + GATE_M)));
+    let farthest_m = it.slung_load().states.iter().map(|state| state.load_position_m[1]).fold(f64::MIN, f64::max);
+    let y_m = if aside_m > 0.0 { farthest_m + aside_m } else { load_m[1] };
+    let load = Window { x_m, y_m: Some(Range::new(y_m - GATE_M, y_m + GATE_M)), z_m: None };
+    let gate = Gate { name: "gate".to_owned(), quadrotor: Window::default(), load };
+    it.scenario.world.gates.push(gate);
 }
 
 fn flights() -> Vec<Fault> {

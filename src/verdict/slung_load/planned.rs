@@ -78,7 +78,12 @@ pub fn motions(vehicle: &str, instants: &[Instant]) -> Result<[Motion; 2], Strin
 
 /// The motion of one interval; of one without length only the node.
 fn flown(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
-    flown_from(&Body::from(&trajectory.states[interval]), trajectory, plant, interval)
+    let mut knots = flown_from(&Body::from(&trajectory.states[interval]), trajectory, plant, interval);
+    if trajectory.times_s[interval + 1] <= trajectory.times_s[interval] {
+        // thrusts that jump as the cable goes slack never act on a taut one
+        knots.truncate(1);
+    }
+    knots
 }
 
 fn flown_from(start: &Body, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
