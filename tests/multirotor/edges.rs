@@ -40,8 +40,8 @@ const EDGES: &[Edge] = &[
     edge("flight.complete", |case, steps| case.samples(0).truncate(steps as usize), 499.0, 601.0),
     edge("flight.crash", crash, 1.0, 0.0),
     edge("flight.conditions", |case, mps| case.samples(0)[123].wind_mps[1] = mps, 1e-3, 0.0),
-    edge("flight.separation", |case, m| case.samples(1)[250].position_m[1] = m, 0.999, 1.001),
-    edge("flight.clearance", |case, m| case.samples(0)[250].position_m[1] = -1.15 + m, -0.001, 0.001),
+    edge("flight.separation", |case, m| fly_at(case, 1, m), 0.999, 1.001),
+    edge("flight.clearance", |case, m| fly_at(case, 0, -1.15 + m), -0.001, 0.001),
     edge("flight.state_limits", |case, mps| case.samples(1)[250].wind_mps[1] = mps, 2.2371, 2.2350),
     edge("flight.control_limits", |case, a| acceleration(&mut case.samples(0)[100]).control[2] = a, 3.001, 2.82),
     edge("flight.dynamics", |case, m| case.samples(0)[250].position_m[2] += m, 1.5e-3, 0.5e-3),
@@ -58,6 +58,11 @@ const EDGES: &[Edge] = &[
     edge("flight.tracking_max", |case, m| case.samples(1)[123].reference_position_m[2] += m, 0.5001, 0.4999),
     edge("flight.saturation", saturate, 26.0, 25.0),
 ];
+
+/// Moves a whole flight to this y: a single sample that jumps would leave open where the vehicle was beside it.
+fn fly_at(case: &mut Case, vehicle: usize, y_m: f64) {
+    case.samples(vehicle).iter_mut().for_each(|sample| sample.position_m[1] = y_m);
+}
 
 /// Grows the wall to the north, to this distance from the first vehicle's surface.
 fn grow_wall(case: &mut Case, clearance_m: f64) {
