@@ -1,3 +1,4 @@
+use rayon::prelude::*;
 use scenarios::{Family, Plan, PlanStatus, Scenario};
 use sim::Flight;
 
@@ -145,12 +146,12 @@ fn log_checks(
     flown: Evidence<'_, Flown<'_>>,
 ) -> Vec<Check> {
     match flight {
-        Ok(flight) => vec![
-            flight_integrity::check_finite(flight),
-            flight_integrity::check_complete(scenario, plan, flight),
-            flight_integrity::check_crash(scenario, flight, flown),
-            conditions::check(scenario, flight),
-        ],
+        Ok(flight) => answers(&[
+            &|| flight_integrity::check_finite(flight),
+            &|| flight_integrity::check_complete(scenario, plan, flight),
+            &|| flight_integrity::check_crash(scenario, flight, flown),
+            &|| conditions::check(scenario, flight),
+        ]),
         Err(reason) => {
             [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]
                 .map(|(name, unit)| Question::new(Group::Flight, name, unit).fail(reason))
@@ -162,22 +163,27 @@ fn log_checks(
 fn flight_checks(scenario: &Scenario, logged: Evidence<'_, Flight>, flown: Evidence<'_, Flown<'_>>) -> Vec<Check> {
     let motions = flown.map(|flown| flown.motions.as_slice());
     let no_load = |name, unit| Question::new(Group::Flight, name, unit).skip("no vehicle carries a load");
-    vec![
-        separation::check(Group::Flight, scenario, motions),
-        clearance::check(Group::Flight, scenario, motions),
-        limits::check_flown_states(scenario, flown),
-        limits::check_flown_controls(scenario, flown),
-        physics::check(scenario, logged),
-        arrival::check_flown_goals(scenario, flown),
-        arrival::check_flown_arrival(scenario, flown),
-        arrival::check_flown_duration(scenario, flown),
-        tracking::check_root_mean_square(scenario, flown),
-        tracking::check_largest(scenario, flown),
-        tracking::check_saturation(scenario, flown),
-        no_load("tension", "N"),
-        no_load("slack", "s"),
-        no_load("swing", "deg"),
-    ]
+    answers(&[
+        &|| separation::check(Group::Flight, scenario, motions),
+        &|| clearance::check(Group::Flight, scenario, motions),
+        &|| limits::check_flown_states(scenario, flown),
+        &|| limits::check_flown_controls(scenario, flown),
+        &|| physics::check(scenario, logged),
+        &|| arrival::check_flown_goals(scenario, flown),
+        &|| arrival::check_flown_arrival(scenario, flown),
+        &|| arrival::check_flown_duration(scenario, flown),
+        &|| tracking::check_root_mean_square(scenario, flown),
+        &|| tracking::check_largest(scenario, flown),
+        &|| tracking::check_saturation(scenario, flown),
+        &|| no_load("tension", "N"),
+        &|| no_load("slack", "s"),
+        &|| no_load("swing", "deg"),
+    ])
+}
+
+/// The answers in the order of the questions, which go through the same long log on all threads.
+fn answers(questions: &[&(dyn Fn() -> Check + Sync)]) -> Vec<Check> {
+    questions.par_iter().map(|question| question()).collect()
 }
 
 /// Applies what the scenario says of single checks: advisory ones do not decide, required ones must have been made.
