@@ -37,7 +37,10 @@ pub struct AuthorArgs {
     /// Planner of your own: a program with its arguments, which reads a JSON request and writes a JSON reply
     #[arg(long, value_name = "COMMAND", conflicts_with = "planners")]
     planner_command: Option<String>,
-    /// Time that your planner has, s [default: 60]
+    /// Your planner flies multirotors while it plans: one JSON request per line and turn, one reply per line
+    #[arg(long, requires = "planner_command")]
+    in_loop: bool,
+    /// Time that your planner has, s [default: 60; with --in-loop 10 for each answer]
     #[arg(long, value_name = "S", requires = "planner_command", value_parser = seconds)]
     time_limit: Option<f64>,
 }
@@ -83,7 +86,7 @@ impl AuthorArgs {
             command,
             folder,
             time_limit_s: self.time_limit,
-            in_loop: false,
+            in_loop: self.in_loop,
         })])
     }
 }

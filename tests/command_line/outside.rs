@@ -47,6 +47,10 @@ fn a_planner_in_the_loop_flies_its_scenario() {
     let output = workplace.harness(&["run", &own, "--record", "none"]);
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("PASS  online · straight-on"), "{}", stdout(&output));
+    let command = format!("python3 {}", example("online.py").display());
+    let output = workplace.harness(&["run", &own, "--record", "none", "--planner-command", &command, "--in-loop"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert!(stdout(&output).contains("PASS  online · online"), "{}", stdout(&output));
 }
 
 #[test]
