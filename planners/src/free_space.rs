@@ -77,7 +77,7 @@ impl FreeSpace {
     }
 }
 
-/// Does every point between `from` and `to` keep `clearance_m` from an obstacle? Exact up to [`SHORTEST_M`], and then to
+/// Does every point between `from` and `to` keep `clearance_m` from an obstacle? Exact up to `SHORTEST_M`, and then to
 /// the safe side: bounds of the distance decide, or the segment is divided.
 pub fn is_beside(obstacle: &Obstacle, from: Point, to: Point, clearance_m: f64) -> bool {
     if !obstacle.may_be_within(from, to, clearance_m) || obstacle.least_distance_m(from, to) >= clearance_m {
