@@ -34,15 +34,33 @@ pub struct Approach {
 }
 
 /// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
+pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
+    let reaches: Vec<Reach> =
+        motions.iter().map(|motion| Reach { radius_m: 0.0, deviation_m: motion.deviation_m() }).collect();
+    sweep(motions, &reaches, Search::new(), horizontal)
+}
+
+/// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
+/// `None` if no two touch.
+pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
+    let reaches: Vec<Reach> = radii_m.iter().map(|&radius_m| Reach { radius_m, deviation_m: 0.0 }).collect();
+    sweep(motions, &reaches, Search::below(0.0), |relative_m| relative_m)
+}
+
+/// The smallest distance between any two of `motions`, which reach so far from their curves, by the control points of one
+/// relative to the other as `seen` leaves them.
 ///
 /// Block by block in time, a sweep from west to east: a pair is looked at only if its boxes are nearer to each other in
 /// x than the best so far, so that the cost grows with the number of neighbours, not with that of pairs.
-pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
+fn sweep(
+    motions: &[Motion],
+    reaches: &[Reach],
+    mut search: Search,
+    seen: fn([[f64; 3]; 4]) -> [[f64; 3]; 4],
+) -> Option<Approach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
-    // A deviation makes a vehicle reach farther, as a radius does.
-    let widest_m = 2.0 * motions.iter().map(Motion::deviation_m).fold(0.0, f64::max);
-    let mut search = Search::new();
+    let widest_m = 2.0 * reaches.iter().map(|reach| reach.total_m()).fold(0.0, f64::max);
     for index in 0..frame.count() {
         let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
         let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
@@ -53,11 +71,11 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                if search.may_be_within(blocks[i].gap_m(blocks[j]), widest_m) {
+                let reach = reaches[i].and(reaches[j]);
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), reach.total_m()) {
                     let segments = who.map(|i| blocks[i].segments.clone());
-                    let deviation_m = motions[i].deviation_m() + motions[j].deviation_m();
-                    each_common_span(who.map(|i| &motions[i]), segments, |relative, span| {
-                        search.look(&horizontal(relative), span, Reach { radius_m: 0.0, deviation_m }, who);
+                    each_common_span(who.map(|i| &motions[i]), segments, |relative_m, span| {
+                        search.look(&seen(relative_m), span, reach, who);
                     });
                 }
             }
@@ -82,38 +100,6 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approa
                         let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
                         search.look(&relative, &segment, reach, [i, m]);
                     }
-                }
-            }
-        }
-    }
-    search.found()
-}
-
-/// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
-/// `None` if no two touch.
-pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
-    let frame = Frame::over(motions);
-    let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
-    let mut search = Search::below(0.0);
-    let widest_m = radii_m.iter().copied().fold(0.0, f64::max);
-    for index in 0..frame.count() {
-        let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
-        let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
-        eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
-        for (place, &i) in eastward.iter().enumerate() {
-            for &j in &eastward[place + 1..] {
-                let (one, other) = (blocks[i], blocks[j]);
-                if !search.may_be_within(other.west_m() - one.east_m(), 2.0 * widest_m) {
-                    break;
-                }
-                if search.may_be_within(one.gap_m(other), radii_m[i] + radii_m[j]) {
-                    let who = [i.min(j), i.max(j)];
-                    let segments = who.map(|i| blocks[i].segments.clone());
-                    let pair = who.map(|i| &motions[i]);
-                    each_common_span(pair, segments, |relative, span| {
-                        let radius_m = radii_m[i] + radii_m[j];
-                        search.look(&relative, span, Reach { radius_m, deviation_m: 0.0 }, who);
-                    });
                 }
             }
         }
@@ -193,6 +179,12 @@ struct Reach {
 impl Reach {
     fn total_m(self) -> f64 {
         self.radius_m + self.deviation_m
+    }
+
+    /// How far two of them reach towards each other.
+    fn and(self, other: Self) -> Self {
+        let [radius_m, deviation_m] = [self.radius_m + other.radius_m, self.deviation_m + other.deviation_m];
+        Self { radius_m, deviation_m }
     }
 }
 

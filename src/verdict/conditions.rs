@@ -20,9 +20,8 @@ const LOW_ALTITUDE_SIGMA: f64 = 0.2;
 /// Gusts are within so many standard deviations at every instant, and on average.
 const WILDEST_GUST: f64 = 8.0;
 const WILDEST_MEAN: f64 = 5.0;
-/// Fewest samples from which a standard deviation is estimated.
-const FEWEST_SAMPLES: usize = 100;
-/// An estimated standard deviation may be off by so many of its own.
+/// A standard deviation estimated from n numbers may be off by so many of its own, 1/sqrt(2n). Of a few numbers that says
+/// little, but that all of them are 0 it says of any.
 const WILDEST_ESTIMATE: f64 = 6.0;
 
 /// Number of vehicles in whose logs air or measurements are not those of the scenario.
@@ -102,8 +101,11 @@ fn noise_defect(what: &str, sigma: f64, pairs: &[[[f64; 3]; 2]]) -> Option<Strin
     if sigma == 0.0 {
         return (largest != 0.0).then(|| format!("the measured {what} is off by {largest:.3e}, without noise"));
     }
-    if pairs.len() < FEWEST_SAMPLES {
+    if pairs.is_empty() {
         return None;
+    }
+    if largest == 0.0 {
+        return Some(format!("the measured {what} is the true one, although the scenario asks for noise"));
     }
     let count = 3 * pairs.len();
     let estimate = (errors.map(|error| error * error).sum::<f64>() / count as f64).sqrt();

@@ -1,7 +1,7 @@
 //! Is the flight log whole, is everything in it a number, and did nobody crash?
 
 use scenarios::{Plan, Scenario, Vehicle};
-use sim::{EventKind, Flight, LoadSample, Sample, VehicleLog};
+use sim::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
@@ -17,11 +17,7 @@ const LONGEST_GAP_STEPS: f64 = 1.001;
 /// Number of numbers in the log that are not finite.
 pub fn check_finite(flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
-    let amounts = flight.events.iter().filter_map(|event| match event.kind {
-        EventKind::CableTaut { impulse_ns } => Some(impulse_ns),
-        EventKind::AnswerLate { by_s } => Some(by_s),
-        _ => None,
-    });
+    let amounts = flight.events.iter().filter_map(|event| amount(&event.kind));
     let mut count = times.chain(amounts).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
@@ -37,8 +33,8 @@ pub fn check_finite(flight: &Flight) -> Check {
 }
 
 /// Number of vehicles whose log is missing, misnamed, empty, with gaps, out of order in time, not from the vehicle's
-/// start, shorter than the plan, or with another reference than the plan's; and of logs without a vehicle. A start may be off by as much as the tracking: a
-/// disturbed start is a matter for the tracker.
+/// start, shorter than the plan, or with another reference than the plan's; and of logs without a vehicle. A start may be
+/// off by as much as the tracking: a disturbed start is a matter for the tracker.
 ///
 /// - `plan`: one that is flyable
 pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
@@ -63,10 +59,7 @@ pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Chec
 /// `flown`: the same flight, to look for oneself
 pub fn check_crash(scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flown<'_>>) -> Check {
     let question = Question::new(Group::Flight, "crash", "crashes");
-    let mut crashes = flight.events.iter().filter_map(|event| match &event.kind {
-        EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
-        _ => None,
-    });
+    let mut crashes = flight.events.iter().filter_map(crash);
     let Some((t_s, concerned)) = crashes.next() else {
         let unlogged = flown.ok().and_then(|flown| touch::deepest(scenario, &flown.motions));
         return match unlogged {
@@ -77,6 +70,36 @@ pub fn check_crash(scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flo
     let count = 1 + crashes.count();
     let measured = concerned.fold(Measured::value(count as f64).at(t_s), |measured, name| measured.with(name));
     question.at_most(measured, 0.0)
+}
+
+/// The number that an event tells of, if it tells of one.
+fn amount(kind: &EventKind) -> Option<f64> {
+    match kind {
+        EventKind::CableTaut { impulse_ns } => Some(*impulse_ns),
+        EventKind::AnswerLate { by_s } => Some(*by_s),
+        EventKind::Crash { .. }
+        | EventKind::SaturationBegan
+        | EventKind::SaturationEnded
+        | EventKind::CableSlack
+        | EventKind::Discovered { .. }
+        | EventKind::AnswerRejected { .. }
+        | EventKind::Arrived => None,
+    }
+}
+
+/// When, and who is concerned, if an event is a crash.
+fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
+    match &event.kind {
+        EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
+        EventKind::SaturationBegan
+        | EventKind::SaturationEnded
+        | EventKind::CableTaut { .. }
+        | EventKind::CableSlack
+        | EventKind::Discovered { .. }
+        | EventKind::AnswerLate { .. }
+        | EventKind::AnswerRejected { .. }
+        | EventKind::Arrived => None,
+    }
 }
 
 fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &VehicleLog) -> Option<String> {

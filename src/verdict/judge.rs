@@ -98,10 +98,11 @@ fn of_multirotors(
 ) -> Vec<Check> {
     let in_the_loop = logged.is_ok_and(|flight| flight.planning.is_some());
     let flyable = flyable.as_ref().map_err(String::as_str);
+    let flown = logged.map_err(str::to_owned).and_then(|flight| Flown::new(scenario, plan, flight));
+    let flown = flown.as_ref().map_err(String::as_str);
     let mut checks = multirotor::plan_checks(scenario, plan, flyable, in_the_loop);
-    // Obstacles and bodies are judged by their true shapes: what touches has no clearance.
-    checks.extend(log_checks(scenario, plan, logged, Err("")));
-    checks.extend(multirotor::flight_checks(scenario, plan, logged));
+    checks.extend(log_checks(scenario, plan, logged, flown));
+    checks.extend(multirotor::flight_checks(scenario, plan, logged, flown));
     checks
 }
 

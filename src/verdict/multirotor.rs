@@ -76,9 +76,12 @@ pub fn plan_checks(scenario: &Scenario, plan: &Plan, flyable: Evidence<'_, ()>, 
 }
 
 /// The group `flight`, what concerns the log itself aside.
-pub fn flight_checks(scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Vec<Check> {
-    let flown = flight.map_err(str::to_owned).and_then(|flight| Flown::new(scenario, plan, flight));
-    let flown = flown.as_ref().map_err(String::as_str);
+pub fn flight_checks(
+    scenario: &Scenario,
+    plan: &Plan,
+    flight: Evidence<'_, Flight>,
+    flown: Evidence<'_, Flown<'_>>,
+) -> Vec<Check> {
     let motions = flown.map(|flown| flown.motions.as_slice());
     vec![
         separation::check(Group::Flight, scenario, motions),

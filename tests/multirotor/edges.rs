@@ -137,6 +137,44 @@ fn there_is_a_red_test_for_every_check_of_a_verdict() {
     }
 }
 
+/// Two bodies in one place, without a rule for the fleet and without a word of it in the log.
+#[test]
+fn bodies_that_overlap_have_crashed_whatever_the_log_says() {
+    for (apart_m, status) in [(0.698, Status::Fail), (0.702, Status::Pass)] {
+        let mut case = Case::good();
+        case.scenario.fleet.separation_m = None;
+        fly_at(&mut case, 1, apart_m);
+        assert_eq!(case.status("flight.separation"), Status::Skip);
+        let check = case.check("flight.crash");
+        assert_eq!(check.status, status, "{check:#?}");
+    }
+}
+
+/// A reference that follows the vehicle would make tracking perfect.
+#[test]
+fn a_reference_that_is_not_the_plan_s_is_seen() {
+    for (off_m, status) in [(1e-5, Status::Fail), (1e-7, Status::Pass)] {
+        let mut case = Case::good();
+        case.samples(1)[321].reference_position_m[0] += off_m;
+        assert_eq!(case.status("flight.complete"), status, "{off_m} m");
+    }
+}
+
+/// The more a velocity changes from sample to sample, the less is known of what lies between them.
+#[test]
+fn what_lies_between_samples_widens_the_clearance() {
+    let width_m = |shake_mps: f64| {
+        let mut case = Case::good();
+        for (index, sample) in case.samples(0).iter_mut().enumerate() {
+            sample.velocity_mps[1] += if index % 4 < 2 { shake_mps } else { -shake_mps };
+        }
+        let check = case.check("flight.clearance");
+        check.upper.unwrap() - check.lower.unwrap()
+    };
+    assert!(width_m(0.0) < 2e-4, "{} m", width_m(0.0));
+    assert!(width_m(2.0) > 1e-3, "{} m", width_m(2.0));
+}
+
 #[test]
 fn clearance_is_kept_from_what_is_hidden_what_moves_and_the_frame() {
     let concerned = |change: fn(&mut Case)| {

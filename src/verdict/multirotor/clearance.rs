@@ -3,7 +3,8 @@
 //! The smallest distance from the surface of any vehicle's sphere to any obstacle, over continuous time, by branch and
 //! bound: within a span of time a distance cannot fall by more than vehicle and obstacle can move, which bounds it from
 //! below. Spans that could hold something closer are halved until nothing could. Distances to the frame are extremes of one
-//! coordinate.
+//! coordinate. A flight is known at samples only: what it may [deviate](Motion::deviation_m) from the curve through them
+//! makes a vehicle larger in the search, and widens the bounds.
 
 use scenarios::Scenario;
 use sim::multirotor::Surroundings;
@@ -73,13 +74,13 @@ pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
     let mut best = None;
     let (mut spans, mut unsure_m) = (0, f64::INFINITY);
     for (vehicle, motion) in motions.iter().enumerate() {
-        let radius_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m;
-        to_frame(scenario, vehicle, motion, radius_m, &mut best);
+        let reach_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m + motion.deviation_m();
+        to_frame(scenario, vehicle, motion, reach_m, &mut best);
         for obstacle in 0..surroundings.count() {
             let mut search = Search {
                 surroundings: &surroundings,
                 obstacle,
-                radius_m,
+                reach_m,
                 vehicle,
                 best: &mut best,
                 spans: &mut spans,
@@ -89,7 +90,11 @@ pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
         }
     }
     // Whatever was not looked at more closely is no nearer than this.
-    best.map(|best| Closest { lower_m: (best.upper_m - RESOLUTION_M).min(unsure_m), ..best })
+    best.map(|best| Closest {
+        lower_m: (best.upper_m - RESOLUTION_M).min(unsure_m),
+        upper_m: best.upper_m + 2.0 * motions[best.vehicle].deviation_m(),
+        ..best
+    })
 }
 
 /// Of the vehicle that is closest to anything, how close, at instants `step_s` apart, for a plot.
@@ -145,10 +150,10 @@ fn at<'s>(
     (nearest.0 - radius_m, nearest.1)
 }
 
-fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, radius_m: f64, best: &mut Option<Closest>) {
+fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<Closest>) {
     for (axis, range) in scenario.world.map.axes().into_iter().enumerate() {
         for (value, at_s) in extremes_m(motion, axis) {
-            let distance_m = range.margin(value) - radius_m;
+            let distance_m = range.margin(value) - reach_m;
             consider(best, distance_m, || Closest {
                 lower_m: distance_m,
                 upper_m: distance_m,
@@ -164,7 +169,8 @@ fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, radius_m: f64,
 struct Search<'a> {
     surroundings: &'a Surroundings,
     obstacle: usize,
-    radius_m: f64,
+    /// How far the vehicle reaches from its curve, m.
+    reach_m: f64,
     vehicle: usize,
     best: &'a mut Option<Closest>,
     /// How many spans were looked at.
@@ -179,7 +185,7 @@ impl Search<'_> {
         let middle = f64::midpoint(from, to);
         let t_s = segment.instant_s(middle);
         let position_m = segment.during(segment.t_s[0], t_s).points_m[3];
-        let distance_m = self.surroundings.distance_m(self.obstacle, t_s, position_m) - self.radius_m;
+        let distance_m = self.surroundings.distance_m(self.obstacle, t_s, position_m) - self.reach_m;
         consider(self.best, distance_m, || Closest {
             lower_m: distance_m,
             upper_m: distance_m,
