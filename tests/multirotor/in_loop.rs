@@ -79,6 +79,27 @@ fn who_flies_to_his_goal_passes_and_is_asked_for_no_plan() {
     assert!((plan.flight_time_s().unwrap() - 7.0).abs() < 0.3, "{:?}", plan.flight_time_s());
 }
 
+/// References of 0.3 s that end at 1 m/s: until the next one takes over, the vehicle is asked to stand.
+#[test]
+fn what_was_followed_is_what_was_asked_for_also_where_references_end_in_motion() {
+    let mut scenario = scenario();
+    scenario.simulation.planning.period_s = 0.5;
+    let (_, _, verdict) = flown(&scenario, |_| {
+        Box::new(Stubborn(|observation| {
+            let velocity_mps = [1.0, 0.0, 0.0];
+            let [x_m, y_m, z_m] = observation.position_m;
+            let node = |after_s: f64| Node {
+                t_s: observation.takes_effect_s + after_s,
+                position_m: [x_m + after_s, y_m, z_m],
+                velocity_mps,
+            };
+            Answer::fly(vec![node(0.0), node(0.3)])
+        }))
+    });
+    let complete = check(&verdict, "flight.complete");
+    assert_eq!(complete.status, Status::Pass, "{complete:?}");
+}
+
 #[test]
 fn a_wall_that_nobody_told_of_is_flown_into_and_judged() {
     let mut scenario = scenario();

@@ -170,6 +170,10 @@ impl Helm {
         let from_s = self.followed.last().map_or(0.0, |node| node.t_s);
         let between = |node: &&Node| node.t_s > from_s + ROUNDING_S && node.t_s < end_s - ROUNDING_S;
         self.followed.extend(self.in_force.nodes().iter().filter(between));
+        if let Some(last) = self.in_force.nodes().last().filter(between) {
+            // Beyond its end a reference stands, also one that ends in motion.
+            self.followed.push(Node { velocity_mps: [0.0; 3], ..*last });
+        }
         if end_s > from_s + ROUNDING_S {
             self.followed.push(self.in_force.at(end_s).node());
         }
