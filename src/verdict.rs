@@ -20,11 +20,13 @@ mod judge;
 mod limits;
 mod motion;
 pub mod multirotor;
+mod on_the_map;
 mod physics;
 mod planned;
 mod question;
 #[cfg(test)]
 mod random;
+mod rotors;
 mod separation;
 pub mod slung_load;
 mod touch;

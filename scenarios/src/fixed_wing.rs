@@ -9,10 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+pub use crate::GRAVITY_MPS2;
 pub use trajectory::{CSV_COLUMNS, Trajectory};
-
-/// Standard gravity as the papers use it, m/s².
-pub const GRAVITY_MPS2: f64 = 9.81;
 
 /// A fixed-wing aircraft as a point mass that is steered by load factors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -52,3 +52,6 @@ pub use validate::validate;
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
 pub use world::{Block, Cylinder, Gate, Map, Moving, Prism, Window, World};
+
+/// Gravity, m/s², as all four papers take it.
+pub const GRAVITY_MPS2: f64 = 9.81;

@@ -10,10 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+pub use crate::GRAVITY_MPS2;
 pub use trajectory::{CSV_COLUMNS, State, Trajectory};
-
-/// Standard gravity, m/s².
-pub const GRAVITY_MPS2: f64 = 9.81;
 
 /// A multirotor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
+pub use crate::GRAVITY_MPS2;
 pub use state::{Cable, Control, State};
 pub use trajectory::{CSV_COLUMNS, Trajectory};
 
@@ -83,6 +84,3 @@ impl Model {
         (self.mass_kg + self.load_mass_kg) * GRAVITY_MPS2 / 4.0
     }
 }
-
-/// Standard gravity as the paper uses it, m/s².
-pub const GRAVITY_MPS2: f64 = 9.81;

@@ -12,17 +12,15 @@ use scenarios::fixed_wing::{Control, Limits, Model};
 use scenarios::{Plan, Range, Scenario};
 
 use crate::verdict::Check;
-use crate::verdict::bernstein;
 use crate::verdict::flown::Flown;
 use crate::verdict::motion::Motion;
+use crate::verdict::on_the_map::OnTheMap;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::worst::{Quantity, Worst};
 
 /// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
 /// The limit that the check reports includes it. The physical limits know no such mercy.
 pub(super) const SOLVER_TOLERANCE: f64 = 1e-6;
-/// Distance between the bounds of an extreme position that counts as close enough, m.
-const RESOLUTION_M: f64 = 1e-9;
 
 /// States at the nodes against the planning limits.
 pub fn check_node_states(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
@@ -140,7 +138,7 @@ fn limited_vehicles<'a>(
 ) -> impl Iterator<Item = Limited<'a>> {
     scenario.vehicles.iter().map(move |vehicle| Limited {
         vehicle: &vehicle.name,
-        map: scenario.world.map.axes(),
+        map: OnTheMap::new(scenario, &vehicle.name),
         limits: limits(scenario.fixed_wing_model(vehicle)),
     })
 }
@@ -148,26 +146,19 @@ fn limited_vehicles<'a>(
 /// A vehicle and what it has to stay inside.
 struct Limited<'a> {
     vehicle: &'a str,
-    map: [Range; 3],
+    map: OnTheMap<'a>,
     limits: Limits,
 }
 
 impl<'a> Limited<'a> {
     fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
-        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
-            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-        }
+        self.map.place(worst, position_m, t_s);
         self.altitude(worst, position_m[2], t_s);
     }
 
     fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
-        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
-            for (value, t_s) in extremes_m(motion, axis) {
-                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-                if axis == 2 {
-                    self.altitude(worst, value, t_s);
-                }
-            }
+        for (value, t_s) in self.map.path(worst, motion) {
+            self.altitude(worst, value, t_s);
         }
     }
 
@@ -194,20 +185,4 @@ impl<'a> Limited<'a> {
             worst.consider(self.vehicle, Quantity { name, unit: "-", range }, value, t_s);
         }
     }
-}
-
-/// Lowest and highest value of one coordinate over continuous time, m, and when, s.
-pub(super) fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
-    [1.0, -1.0].map(|sign| {
-        let (mut lowest, mut at_s) = (f64::INFINITY, motion.knots()[0].t_s);
-        for segment in motion.segments() {
-            let c = segment.points_m.map(|point| sign * point[axis]);
-            if c.iter().any(|&coefficient| coefficient < lowest) {
-                let minimum = bernstein::minimise(&c, lowest, |_| RESOLUTION_M);
-                lowest = minimum.lower;
-                at_s = minimum.at.map_or(at_s, |u| segment.instant_s(u));
-            }
-        }
-        (sign * lowest, at_s)
-    })
 }

@@ -1,6 +1,6 @@
 //! What the columns of a plan mean, one table per vehicle family. World frame ENU, SI units, radians.
 
-use crate::Family;
+use crate::{Family, multirotor, slung_load};
 
 /// The columns that describe the motion of one kind of vehicle.
 #[derive(Clone, Copy, Debug)]
@@ -46,31 +46,7 @@ const FIXED_WING: Columns = Columns {
 /// The quadrotor with a slung load, whole: what is missing is not reconstructed.
 const SLUNG_LOAD: Columns = Columns {
     family: "slung-load",
-    required: &[
-        "x_m",
-        "y_m",
-        "z_m",
-        "vx_mps",
-        "vy_mps",
-        "vz_mps",
-        "roll_rad",
-        "pitch_rad",
-        "yaw_rad",
-        "rate_x_radps",
-        "rate_y_radps",
-        "rate_z_radps",
-        "load_x_m",
-        "load_y_m",
-        "load_z_m",
-        "load_vx_mps",
-        "load_vy_mps",
-        "load_vz_mps",
-        "thrust_1_n",
-        "thrust_2_n",
-        "thrust_3_n",
-        "thrust_4_n",
-        "cable",
-    ],
+    required: whole(&slung_load::CSV_COLUMNS),
     velocity: &[],
     controls: &[],
     converted: &[],
@@ -90,7 +66,7 @@ const SLUNG_LOAD: Columns = Columns {
 /// The multirotor, whole: position and velocity.
 const MULTIROTOR: Columns = Columns {
     family: "multirotor",
-    required: &["x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"],
+    required: whole(&multirotor::CSV_COLUMNS),
     velocity: &[],
     controls: &[],
     converted: &[],
@@ -98,6 +74,11 @@ const MULTIROTOR: Columns = Columns {
     arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],
     may_jump: true,
 };
+
+/// All columns of the files that we write, but for vehicle and time, which come first.
+const fn whole(written: &'static [&'static str]) -> &'static [&'static str] {
+    written.split_at(2).1
+}
 
 impl Columns {
     /// The columns of a family.

@@ -12,8 +12,8 @@ use sim::multirotor::Surroundings;
 use crate::metrics::Nearest;
 use crate::verdict::Check;
 use crate::verdict::compare::is_smaller;
-use crate::verdict::limits::extremes_m;
 use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::on_the_map::extremes_m;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Distance between the bounds that counts as close enough, m.

@@ -10,8 +10,9 @@ use scenarios::{Range, Scenario};
 use sim::{Actuation, Commanded, Sample};
 
 use crate::verdict::bernstein;
-use crate::verdict::limits::{SOLVER_TOLERANCE, answer, extremes_m};
+use crate::verdict::limits::{SOLVER_TOLERANCE, answer};
 use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::on_the_map::OnTheMap;
 use crate::verdict::question::{Evidence, Group};
 use crate::verdict::worst::{Quantity, Worst};
 use crate::verdict::{Check, Flown};
@@ -24,7 +25,7 @@ pub fn check_node_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -
     answer(Group::Nodes, "state_limits", motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             for knot in motion.knots() {
-                limited.place(worst, knot.position_m, knot.t_s);
+                limited.map.place(worst, knot.position_m, knot.t_s);
                 limited.speed(worst, norm(knot.velocity_mps), limited.promised.speed_mps, knot.t_s);
             }
         }
@@ -35,7 +36,7 @@ pub fn check_node_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -
 pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
     answer(Group::Plan, "state_limits", motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
-            limited.path(worst, motion);
+            limited.map.path(worst, motion);
             for segment in motion.segments().filter(Segment::lasts) {
                 let (speed_mps, t_s) = fastest(&segment);
                 limited.speed(worst, speed_mps, limited.physical().speed_mps, t_s);
@@ -49,7 +50,7 @@ pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -
     answer(Group::Flight, "state_limits", flown, |flown, worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
-            limited.path(worst, motion);
+            limited.map.path(worst, motion);
             for sample in vehicle.judged {
                 limited.speed(worst, norm(sample.air_velocity_mps()), limited.physical().speed_mps, sample.t_s);
                 limited.tilt(worst, sample);
@@ -90,14 +91,14 @@ fn limited_vehicles(scenario: &Scenario) -> impl Iterator<Item = Limited<'_>> {
         let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
         let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
         let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
-        Limited { vehicle: &vehicle.name, map: scenario.world.map.axes(), model, promised }
+        Limited { vehicle: &vehicle.name, map: OnTheMap::new(scenario, &vehicle.name), model, promised }
     })
 }
 
 /// A vehicle and what it has to stay inside.
 struct Limited<'a> {
     vehicle: &'a str,
-    map: [Range; 3],
+    map: OnTheMap<'a>,
     model: &'a Model,
     /// What its planner promised to keep, widened by what a solver may leave.
     promised: Limits,
@@ -106,20 +107,6 @@ struct Limited<'a> {
 impl<'a> Limited<'a> {
     fn physical(&self) -> &Limits {
         &self.model.limits
-    }
-
-    fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
-        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
-            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-        }
-    }
-
-    fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
-        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
-            for (value, t_s) in extremes_m(motion, axis) {
-                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-            }
-        }
     }
 
     fn speed(&self, worst: &mut Worst<'a>, speed_mps: f64, most_mps: f64, t_s: f64) {

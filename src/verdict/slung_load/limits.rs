@@ -13,15 +13,15 @@ use sim::{Actuation, VehicleLog};
 
 use super::planned::Planned;
 use crate::verdict::Check;
-use crate::verdict::limits::{SOLVER_TOLERANCE, answer, extremes_m};
-use crate::verdict::motion::Motion;
+use crate::verdict::limits::{SOLVER_TOLERANCE, answer};
+use crate::verdict::on_the_map::OnTheMap;
 use crate::verdict::question::{Evidence, Group};
 use crate::verdict::worst::{Quantity, Worst};
 
 /// A vehicle and what it has to stay inside.
 pub struct Limited<'a> {
     vehicle: &'a str,
-    map: [Range; 3],
+    map: OnTheMap<'a>,
     promised: Limits,
     physical: Limits,
 }
@@ -37,7 +37,7 @@ impl<'a> Limited<'a> {
         let Limits { thrust_n, attitude_deg, cable_deg, tension_n } = model.planning_limits;
         Self {
             vehicle: &vehicle.name,
-            map: scenario.world.map.axes(),
+            map: OnTheMap::new(scenario, &vehicle.name),
             promised: Limits {
                 thrust_n: widened(thrust_n),
                 attitude_deg: widened(attitude_deg),
@@ -54,7 +54,7 @@ impl<'a> Limited<'a> {
             for node in trajectory.planner_nodes() {
                 let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
                 for position_m in [state.position_m, state.load_position_m] {
-                    self.place(worst, position_m, t_s);
+                    self.map.place(worst, position_m, t_s);
                 }
                 self.attitude(worst, &Body::from(state).attitude, self.promised.attitude_deg, t_s);
                 self.cable(worst, &Body::from(state), self.promised.cable_deg, t_s);
@@ -65,7 +65,9 @@ impl<'a> Limited<'a> {
     /// States of the continuous plan against the physical limits.
     pub fn check_planned_states(&self, planned: Evidence<'_, Planned>) -> Check {
         answer(Group::Plan, "state_limits", planned, |planned, worst| {
-            planned.motions.iter().for_each(|motion| self.path(worst, motion));
+            for motion in &planned.motions {
+                self.map.path(worst, motion);
+            }
             for knot in &planned.knots {
                 self.attitude(worst, &knot.body.attitude, self.physical.attitude_deg, knot.t_s);
             }
@@ -75,7 +77,9 @@ impl<'a> Limited<'a> {
     /// Flown states against the physical limits.
     pub fn check_flown_states(&self, flown: Evidence<'_, super::Flown<'_>>) -> Check {
         answer(Group::Flight, "state_limits", flown, |flown, worst| {
-            flown.motions.iter().for_each(|motion| self.path(worst, motion));
+            for motion in &flown.motions {
+                self.map.path(worst, motion);
+            }
             for sample in &flown.log.samples {
                 let attitude = UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body));
                 self.attitude(worst, &attitude, self.physical.attitude_deg, sample.t_s);
@@ -106,9 +110,12 @@ impl<'a> Limited<'a> {
     pub fn check_flown_thrusts(&self, log: Evidence<'_, VehicleLog>) -> Check {
         answer(Group::Flight, "control_limits", log, |log, worst| {
             for sample in &log.samples {
-                if let Actuation::Thrusts(thrusts) = &sample.actuation {
-                    self.thrusts(worst, thrusts.control.thrust_n, self.physical.thrust_n, sample.t_s);
-                }
+                let thrust_n = match &sample.actuation {
+                    Actuation::Thrusts(thrusts) => thrusts.control.thrust_n,
+                    // A log with another vehicle's controls is no log of this one.
+                    Actuation::LoadFactors(_) | Actuation::Acceleration(_) => [f64::NAN; 4],
+                };
+                self.thrusts(worst, thrust_n, self.physical.thrust_n, sample.t_s);
             }
         })
     }
@@ -129,20 +136,6 @@ impl<'a> Limited<'a> {
                 self.cable(worst, &instant.body, self.physical.cable_deg, instant.t_s);
             }
         })
-    }
-
-    fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
-        for ((name, range), value) in ["x", "y", "z"].into_iter().zip(self.map).zip(position_m) {
-            worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-        }
-    }
-
-    fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
-        for (axis, (name, range)) in ["x", "y", "z"].into_iter().zip(self.map).enumerate() {
-            for (value, t_s) in extremes_m(motion, axis) {
-                worst.consider(self.vehicle, Quantity { name, unit: "m", range }, value, t_s);
-            }
-        }
     }
 
     fn attitude(&self, worst: &mut Worst<'a>, attitude: &UnitQuaternion<f64>, range: Range, t_s: f64) {

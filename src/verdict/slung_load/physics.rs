@@ -11,6 +11,7 @@ use sim::{Actuation, VehicleLog};
 use super::flown::instant;
 use crate::verdict::compare::is_larger;
 use crate::verdict::physics::{Defect, difference_m};
+use crate::verdict::rotors::Rotors;
 
 /// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
 const WINDOW_S: f64 = 0.1;
@@ -23,9 +24,8 @@ const PULL_N: f64 = 1e-6;
 pub struct Physics<'a> {
     replay: Replay,
     plant: Plant,
-    rotor_time_constant_s: Option<f64>,
-    /// Total thrust with which the plan begins, N: that of the rotors at the flight's beginning.
-    first_thrust_n: f64,
+    /// As the flight begins: with the thrust with which the plan begins.
+    rotors: Rotors,
     vehicle: &'a str,
 }
 
@@ -39,11 +39,11 @@ impl<'a> Physics<'a> {
             load_mass_kg: nominal.load_mass_kg * mismatch.load_mass_ratio,
             ..nominal
         };
+        let first_n = trajectory.controls.first().map_or(f64::NAN, |control| control.thrust_n.iter().sum());
         Self {
             replay: Replay::new(model, &plant),
             plant,
-            rotor_time_constant_s: model.rotor_time_constant_s,
-            first_thrust_n: trajectory.controls.first().map_or(f64::NAN, |control| control.thrust_n.iter().sum()),
+            rotors: Rotors::new(first_n, model.rotor_time_constant_s),
             vehicle: &vehicle.name,
         }
     }
@@ -57,7 +57,7 @@ impl<'a> Physics<'a> {
             return Err(format!("the log of {} has not as many samples of the load as of the vehicle", self.vehicle));
         }
         let bodies: Vec<Body> = log.samples.iter().zip(&log.loads).map(|both| instant(both).body).collect();
-        let mut rotors_n = self.first_thrust_n;
+        let mut rotors = self.rotors;
         let (mut motion, mut began_s, mut allowance_m) = (None, f64::NEG_INFINITY, 0.0);
         let mut worst: Option<Defect> = None;
         for step in 1..log.samples.len() {
@@ -68,7 +68,7 @@ impl<'a> Physics<'a> {
             }
             let tension_n = log.loads[step].tension_n;
             let acting = Acting {
-                thrust_n: self.mean_thrust_n(&from.actuation, step_s, &mut rotors_n),
+                thrust_n: rotors.mean_n(commanded_n(&from.actuation), step_s),
                 attitude: [bodies[step - 1].attitude, bodies[step].attitude],
                 tension_n,
                 wind_mps: [from.wind_mps.into(), to.wind_mps.into()],
@@ -119,15 +119,12 @@ impl<'a> Physics<'a> {
     fn is_near_ground(&self, body: &Body) -> bool {
         body.load_position_m.z <= self.plant.resting_height_m + NEAR_GROUND_M
     }
+}
 
-    /// Mean total thrust over a step, N: rotors follow their command with a lag, if they have one.
-    fn mean_thrust_n(&self, actuation: &Actuation, step_s: f64, rotors_n: &mut f64) -> f64 {
-        let Actuation::Thrusts(thrusts) = actuation else { return f64::NAN };
-        let commanded_n: f64 = thrusts.control.thrust_n.iter().sum();
-        let Some(time_s) = self.rotor_time_constant_s else { return commanded_n };
-        let ahead_n = *rotors_n - commanded_n;
-        let lag = (-step_s / time_s).exp();
-        *rotors_n = commanded_n + ahead_n * lag;
-        commanded_n + ahead_n * (1.0 - lag) * time_s / step_s
+/// Total thrust that is commanded, N.
+fn commanded_n(actuation: &Actuation) -> f64 {
+    match actuation {
+        Actuation::Thrusts(thrusts) => thrusts.control.thrust_n.iter().sum(),
+        Actuation::LoadFactors(_) | Actuation::Acceleration(_) => f64::NAN,
     }
 }
