@@ -7,6 +7,8 @@ mod completions;
 #[cfg(feature = "parquet")]
 mod diverge;
 mod list;
+#[cfg(feature = "parquet")]
+mod merge;
 mod plan;
 mod run;
 mod schema;
@@ -14,6 +16,8 @@ mod selection;
 mod selftest;
 mod session;
 mod stress;
+#[cfg(feature = "parquet")]
+mod sweep;
 
 use clap::{Parser, Subcommand};
 
@@ -54,6 +58,11 @@ enum Command {
     Bench(bench::Bench),
     #[cfg(feature = "parquet")]
     Diverge(diverge::Diverge),
+    #[cfg(feature = "parquet")]
+    #[command(name = "sweep")]
+    Sweep(sweep::SweepCommand),
+    #[cfg(feature = "parquet")]
+    Merge(merge::Merge),
     #[command(name = "stress")]
     Stress(stress::StressCommand),
     #[command(name = "selftest")]
@@ -76,6 +85,10 @@ impl Cli {
             Command::Bench(bench) => bench.execute(),
             #[cfg(feature = "parquet")]
             Command::Diverge(diverge) => diverge.execute(),
+            #[cfg(feature = "parquet")]
+            Command::Sweep(sweep) => sweep.execute(),
+            #[cfg(feature = "parquet")]
+            Command::Merge(merge) => merge.execute(),
             Command::Stress(stress) => stress.execute(),
             Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),

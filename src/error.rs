@@ -95,6 +95,15 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// A file is no table of samples, or not one that fits the others.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(help("expected the sweep.parquet of every partition of one `harness sweep`, with the same options"))]
+    Samples {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// `--planner` names none.
     #[error("--planner {name}: there is no planner of that name, expected one of {known}")]
     #[diagnostic(help("{remedy}"))]

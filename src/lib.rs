@@ -28,5 +28,7 @@ pub mod report;
 pub mod selftest;
 pub mod stress;
 pub mod submitted;
+#[cfg(feature = "parquet")]
+pub mod sweep;
 pub mod verdict;
 pub mod waterfall;

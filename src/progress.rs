@@ -68,6 +68,16 @@ impl Progress {
         self.begin(format!("recording {file_name}"));
     }
 
+    /// So many flights of a sweep are done; away from a terminal every tenth of them is told.
+    pub fn swept(&mut self, done: usize, total: usize) {
+        let message = format!("{done} of {total} flights");
+        match &self.display {
+            Display::Lines { .. } if done * 10 / total > (done - 1) * 10 / total => self.begin(message),
+            Display::Lines { .. } => {}
+            Display::Nothing | Display::Bar(_) => self.update(|_| message),
+        }
+    }
+
     /// The job is done; its line makes way for the result.
     pub fn finish(self) {
         if let Display::Bar(bar) = self.display {

@@ -130,10 +130,12 @@ pub struct Mismatch {
     pub mass_ratio: f64,
     /// True mass of a slung load over its nominal mass, -.
     pub load_mass_ratio: f64,
+    /// Radius of the horizontal disc about its nominal start in which every vehicle's true start is drawn, m.
+    pub start_radius_m: f64,
 }
 
 impl Default for Mismatch {
     fn default() -> Self {
-        Self { mass_ratio: 1.0, load_mass_ratio: 1.0 }
+        Self { mass_ratio: 1.0, load_mass_ratio: 1.0, start_radius_m: 0.0 }
     }
 }

@@ -18,6 +18,7 @@ mod runge_kutta;
 mod saturation;
 mod sensors;
 pub mod slung_load;
+mod start;
 mod state_hash;
 mod touch;
 

@@ -182,7 +182,8 @@ fn exit(summary: &Summary, compared: Option<&Comparison>) -> Exit {
     }
 }
 
-fn start_threads(jobs: Option<u16>) -> Result<(), Error> {
+/// Starts so many worker threads, where somebody asks for a number.
+pub fn start_threads(jobs: Option<u16>) -> Result<(), Error> {
     let Some(jobs) = jobs.map(usize::from) else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);
     pool.build_global().map_err(|error| Error::Threads { jobs, reason: error.to_string() })

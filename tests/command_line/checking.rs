@@ -2,12 +2,7 @@
 
 use std::fs;
 
-use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
-
-/// The pair, planned by multiple shooting: its nodes are those of a motion. (Those of the trapezoid rule are not quite.)
-fn shooting_pair() -> String {
-    PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
-}
+use crate::workplace::{PAIR, Workplace, code, shooting_pair, stderr, stdout};
 
 /// A workplace in which our own planner has planned the pair, and its plan with its first `columns` columns only.
 fn planned(columns: usize) -> Workplace {

@@ -13,6 +13,7 @@ mod recordings;
 mod results;
 mod running;
 mod schemas;
+mod sweeping;
 mod tools;
 mod trust;
 mod workplace;

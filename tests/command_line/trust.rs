@@ -5,12 +5,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
-
-/// The pair, planned by multiple shooting: its nodes are those of a motion.
-fn shooting_pair() -> String {
-    PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
-}
+use crate::workplace::{PAIR, Workplace, code, shooting_pair, stderr, stdout};
 
 #[test]
 fn every_fault_is_caught_every_near_miss_passes_and_no_check_is_idle() {

@@ -7,6 +7,11 @@ use std::process::{Command, Output};
 /// The smallest fleet; valid and quickly planned.
 pub const PAIR: &str = include_str!("../scenarios/pair.toml");
 
+/// [`PAIR`], planned by multiple shooting: its nodes are those of a motion. (Those of the trapezoid rule are not quite.)
+pub fn shooting_pair() -> String {
+    PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
+}
+
 /// A temporary folder with scenario files in it; it goes when this is dropped.
 pub struct Workplace {
     folder: tempfile::TempDir,

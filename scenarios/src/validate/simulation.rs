@@ -24,6 +24,7 @@ pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
         not_negative("simulation.sensors.sighting_velocity_noise_mps", simulation.sensors.sighting_velocity_noise_mps),
         positive("simulation.mismatch.mass_ratio", simulation.mismatch.mass_ratio),
         positive("simulation.mismatch.load_mass_ratio", simulation.mismatch.load_mass_ratio),
+        not_negative("simulation.mismatch.start_radius_m", simulation.mismatch.start_radius_m),
     ];
     let gusts = simulation.wind.iter().flat_map(|wind| &wind.gusts).flat_map(gusts);
     let pulses = simulation.wind.iter().flat_map(|wind| wind.pulses.iter().enumerate()).flat_map(pulse);

@@ -5,7 +5,7 @@ use scenarios::{Cylinder, Plan, Scenario};
 use super::aircraft::Aircraft;
 use super::collisions::{Collision, Obstacle, Way, collisions};
 use super::squadron::Squadron;
-use crate::{Event, EventKind, Setup, VehicleLog};
+use crate::{Event, EventKind, Setup, VehicleLog, start};
 
 /// Length of a stretch, s: after each it is seen who touched what.
 const STRETCH_S: f64 = 1.0;
@@ -50,12 +50,13 @@ impl<'a> Fleet<'a> {
                 squadrons.push(Squadron::new(step_s, setup.substeps()));
             }
             let trajectory = trajectory.fixed_wing();
-            let start = &trajectory.states[0];
+            let first = &trajectory.states[0];
+            let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
             squadrons.last_mut().expect("one was added").add(
                 Aircraft::new(scenario, vehicle, trajectory, setup.pilot, seed, steps),
                 scenario.simulation.mismatch.mass_ratio,
-                Vector3::from(start.position_m()) + Vector3::from(setup.start_offset_m),
-                Vector3::from(start.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps),
+                Vector3::from(first.position_m()) + offset_m,
+                Vector3::from(first.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps),
             );
         }
         let mut fleet = Self { squadrons, pillars: &scenario.world.cylinders, step_s, events: Vec::new() };

@@ -10,7 +10,7 @@ use crate::in_loop::{Fix, Helm, Other, PlanningLog, Replan, Senses};
 use crate::rapier_world::RapierWorld;
 use crate::sensors::{Measurement, Sensors};
 use crate::touch::first_touch;
-use crate::{Event, EventKind, Flight, Pilot, Setup, VehicleLog};
+use crate::{Event, EventKind, Flight, Pilot, Setup, VehicleLog, start};
 
 /// Longest step of a quadrotor's plant, s: an ordinary step of the simulator, for which a command is held, is divided into
 /// such.
@@ -114,7 +114,8 @@ impl Fleet {
             .iter()
             .enumerate()
             .map(|(index, vehicle)| {
-                let position_m = Vector3::from(vehicle.start.position_m()) + Vector3::from(setup.start_offset_m);
+                let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
+                let position_m = Vector3::from(vehicle.start.position_m()) + offset_m;
                 let velocity_mps =
                     Vector3::from(vehicle.start.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps);
                 Craft::new(scenario, (index, vehicle), seed, &mut world, [position_m, velocity_mps])

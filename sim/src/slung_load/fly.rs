@@ -12,7 +12,7 @@ use crate::air::Air;
 use crate::rapier_world::{Hoist, Loads};
 use crate::saturation::SaturationWatch;
 use crate::sensors::Sensors;
-use crate::{Actuation, Commanded, Event, EventKind, LoadSample, Pilot, Sample, Setup, VehicleLog};
+use crate::{Actuation, Commanded, Event, EventKind, LoadSample, Pilot, Sample, Setup, VehicleLog, start};
 
 /// Longest step of the plant, s: an ordinary step of the simulator, for which a command is held, is divided into such.
 const LONGEST_PLANT_STEP_S: f64 = 5e-4;
@@ -80,7 +80,7 @@ impl Sortie {
         };
         let reference = Reference::new(trajectory, &nominal);
         let first = reference.at(0.0);
-        let offset_m = Vector3::from(setup.start_offset_m);
+        let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
         let offset_mps = Vector3::from(setup.start_velocity_offset_mps);
         let start = Body {
             position_m: first.body.position_m + offset_m,

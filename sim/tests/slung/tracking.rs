@@ -81,7 +81,8 @@ fn undisturbed_it_stays_on_the_plan() {
 
 #[test]
 fn disturbed_it_stays_near() {
-    let mass = flown(|s| s.simulation.mismatch = Mismatch { mass_ratio: 1.05, load_mass_ratio: 1.05 });
+    let mass =
+        flown(|s| s.simulation.mismatch = Mismatch { mass_ratio: 1.05, load_mass_ratio: 1.05, ..Mismatch::default() });
     report("mass", &mass);
     let noise = flown(|s| s.simulation.sensors = sensors());
     report("noise", &noise);
@@ -90,7 +91,7 @@ fn disturbed_it_stays_near() {
     let lag = flown(|s| s.models.slung_load.get_mut("quad").unwrap().rotor_time_constant_s = Some(0.03));
     report("lag", &lag);
     let all = flown(|s| {
-        s.simulation.mismatch = Mismatch { mass_ratio: 1.05, load_mass_ratio: 1.05 };
+        s.simulation.mismatch = Mismatch { mass_ratio: 1.05, load_mass_ratio: 1.05, ..Mismatch::default() };
         s.simulation.sensors = sensors();
         gusts(s);
     });

@@ -1,0 +1,137 @@
+//! The samples of a sweep as a Parquet file, one row per sample.
+//!
+//! What the samples have in common stands in the file's metadata, so that the files of several machines can be merged, and
+//! those of different sweeps cannot.
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::Arc;
+
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::record::{Row, RowAccessor};
+use parquet::schema::parser::parse_message_type;
+
+use super::{Draw, Sample, Sweep};
+use crate::error::Error;
+use crate::output;
+use crate::verdict::Outcome;
+
+/// Key of the sweep in the file's metadata.
+const SWEEP: &str = "sweep";
+/// Types and names of the columns before the margins.
+const COLUMNS: [&str; 10] = [
+    "int64 sample",
+    "int64 seed",
+    "binary verdict (utf8)",
+    "binary red (utf8)",
+    "double wind_east_mps",
+    "double wind_north_mps",
+    "double mass_ratio",
+    "double load_mass_ratio",
+    "double position_noise_m",
+    "double start_radius_m",
+];
+/// The verdicts by their names in a table.
+const VERDICTS: [(&str, Outcome); 3] = [("pass", Outcome::Pass), ("fail", Outcome::Fail), ("no-plan", Outcome::NoPlan)];
+/// Between the names of several checks.
+const AND: &str = ", ";
+
+/// Writes the samples of a sweep, all or nothing.
+pub fn write(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Error> {
+    output::replace_file(path, |partial| Ok(write_table(sweep, samples, partial)?))
+}
+
+fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), ParquetError> {
+    let common = serde_json::to_string(sweep).map_err(|reason| ParquetError::External(reason.into()))?;
+    let about = vec![KeyValue::new(SWEEP.to_owned(), common)];
+    let properties = WriterProperties::builder().set_key_value_metadata(Some(about)).build();
+    let schema = Arc::new(parse_message_type(&schema(sweep))?);
+    let mut writer = SerializedFileWriter::new(File::create(path)?, schema, Arc::new(properties))?;
+    let mut group = writer.next_row_group()?;
+    let draws = || samples.iter().map(|sample| &sample.draw);
+    column::<Int64Type>(&mut group, samples.iter().map(|sample| sample.number as i64))?;
+    column::<Int64Type>(&mut group, draws().map(|draw| draw.seed.cast_signed()))?;
+    column::<ByteArrayType>(&mut group, samples.iter().map(|sample| name_of(sample.verdict).into()))?;
+    column::<ByteArrayType>(
+        &mut group,
+        samples.iter().map(|sample| ByteArray::from(sample.red.join(AND).into_bytes())),
+    )?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.wind_mps[0]))?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.wind_mps[1]))?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.mass_ratios[0]))?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.mass_ratios[1]))?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.noise_m))?;
+    column::<DoubleType>(&mut group, draws().map(|draw| draw.start_m))?;
+    for index in 0..sweep.checks.len() {
+        column::<DoubleType>(&mut group, samples.iter().map(|sample| sample.margins[index]))?;
+    }
+    group.close()?;
+    writer.close()?;
+    Ok(())
+}
+
+fn column<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, File>,
+    values: impl Iterator<Item = T::T>,
+) -> Result<(), ParquetError> {
+    let mut column = group.next_column()?.expect("the schema has as many columns as are written");
+    column.typed::<T>().write_batch(&values.collect::<Vec<_>>(), None, None)?;
+    column.close()
+}
+
+fn schema(sweep: &Sweep) -> String {
+    let margins = sweep.checks.iter().map(|(check, unit)| format!("double {}", margin_column(check, unit)));
+    let fields = COLUMNS.iter().map(|column| (*column).to_owned()).chain(margins);
+    let fields: String = fields.map(|field| format!("required {field};")).collect();
+    format!("message sweep {{ {fields} }}")
+}
+
+/// `separation_margin_m` for `flight.separation` in m.
+fn margin_column(check: &str, unit: &str) -> String {
+    let question = check.split_once('.').map_or(check, |(_, question)| question);
+    let unit: String = unit.replace('/', "p").chars().filter(char::is_ascii_alphanumeric).collect();
+    let unit = if unit.is_empty() { unit } else { format!("_{unit}") };
+    format!("{question}_margin{unit}")
+}
+
+fn name_of(verdict: Outcome) -> &'static str {
+    VERDICTS.iter().find(|(_, outcome)| *outcome == verdict).map_or("fail", |(name, _)| name)
+}
+
+/// Reads a table that [`write`] wrote.
+pub fn read(path: &Path) -> Result<(Sweep, Vec<Sample>), Error> {
+    read_table(path).map_err(|reason| Error::Samples { path: path.to_owned(), reason: reason.to_string() })
+}
+
+fn read_table(path: &Path) -> Result<(Sweep, Vec<Sample>), ParquetError> {
+    let reader = SerializedFileReader::new(File::open(path)?)?;
+    let about = reader.metadata().file_metadata().key_value_metadata();
+    let common = about.into_iter().flatten().find(|pair| pair.key == SWEEP).and_then(|pair| pair.value.clone());
+    let common = common.ok_or_else(|| ParquetError::General("it holds no samples of a sweep".to_owned()))?;
+    let sweep: Sweep = serde_json::from_str(&common).map_err(|reason| ParquetError::External(reason.into()))?;
+    let samples = reader.get_row_iter(None)?.map(|row| sample(&row?, sweep.checks.len())).collect::<Result<_, _>>()?;
+    Ok((sweep, samples))
+}
+
+fn sample(row: &Row, checks: usize) -> Result<Sample, ParquetError> {
+    let verdict = row.get_string(2)?;
+    let outcome = VERDICTS.iter().find(|(name, _)| name == verdict).map(|(_, outcome)| *outcome);
+    Ok(Sample {
+        number: usize::try_from(row.get_long(0)?).map_err(|reason| ParquetError::External(reason.into()))?,
+        draw: Draw {
+            seed: row.get_long(1)?.cast_unsigned(),
+            wind_mps: [row.get_double(4)?, row.get_double(5)?],
+            mass_ratios: [row.get_double(6)?, row.get_double(7)?],
+            noise_m: row.get_double(8)?,
+            start_m: row.get_double(9)?,
+        },
+        verdict: outcome.ok_or_else(|| ParquetError::General(format!("`{verdict}` is no verdict")))?,
+        red: row.get_string(3)?.split(AND).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
+        margins: (0..checks).map(|index| row.get_double(COLUMNS.len() + index)).collect::<Result<_, _>>()?,
+    })
+}
