@@ -106,7 +106,7 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
         near_misses: Vec::new(),
         checks: Vec::new(),
     };
-    for family in [Family::FixedWing, Family::SlungLoad] {
+    for family in [Family::FixedWing, Family::SlungLoad, Family::Multirotor] {
         let mut asked = BTreeSet::new();
         for specimen in specimen::all(family) {
             progress(&format!("{}: planning and flying", specimen.scenario.name));

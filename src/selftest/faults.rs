@@ -2,6 +2,7 @@ mod conditions;
 pub mod cuts;
 mod fixed_wing;
 mod log;
+mod multirotor;
 mod plan;
 mod slung_load;
 
@@ -16,10 +17,11 @@ pub fn of(specimen: &Specimen) -> Vec<Fault> {
     if specimen.scenario.simulation.wind.is_some() {
         return conditions::faults();
     }
-    let of_family = match specimen.family() {
+    let family = specimen.family();
+    let of_family = match family {
         Family::FixedWing => fixed_wing::faults(),
         Family::SlungLoad => slung_load::faults(),
-        Family::Multirotor => Vec::new(),
+        Family::Multirotor => return multirotor::faults(specimen),
     };
-    [plan::faults(), log::faults(), of_family, cuts::faults(specimen.family())].into_iter().flatten().collect()
+    [plan::faults(), log::faults(), of_family, cuts::faults(family)].into_iter().flatten().collect()
 }

@@ -1,6 +1,7 @@
 //! What is just inside a limit must pass: a judge that fails everything catches every fault too.
 
-use scenarios::{Cylinder, Family};
+use scenarios::multirotor::Plant;
+use scenarios::{Block, Cylinder, Family};
 
 use super::faults::cuts::{self, SHARE};
 use super::{NearMiss, Specimen};
@@ -13,14 +14,20 @@ pub fn of(specimen: &Specimen) -> Vec<NearMiss> {
     if specimen.scenario.simulation.wind.is_some() {
         return Vec::new();
     }
-    let mut all: Vec<NearMiss> = cuts::at_most(specimen.family()).map(just_above).collect();
-    all.extend(whole());
-    all.extend(match specimen.family() {
-        Family::FixedWing => fixed_wing(),
-        Family::SlungLoad => slung_load(),
-        Family::Multirotor => Vec::new(),
-    });
-    all
+    match specimen.family() {
+        Family::FixedWing => joined([limits(specimen), whole(), vec![as_near_as_may_be()], fixed_wing()]),
+        Family::SlungLoad => joined([limits(specimen), whole(), Vec::new(), slung_load()]),
+        Family::Multirotor if specimen.is_planned_in_the_loop() => in_the_loop(specimen),
+        Family::Multirotor => joined([limits(specimen), whole(), vec![as_near_as_may_be()], multirotor()]),
+    }
+}
+
+fn joined(parts: [Vec<NearMiss>; 4]) -> Vec<NearMiss> {
+    parts.into_iter().flatten().collect()
+}
+
+fn limits(specimen: &Specimen) -> Vec<NearMiss> {
+    cuts::at_most(specimen.family()).map(just_above).collect()
 }
 
 /// A limit just above the largest of the values that it decides.
@@ -49,14 +56,17 @@ fn whole() -> Vec<NearMiss> {
     ]
 }
 
+fn as_near_as_may_be() -> NearMiss {
+    NearMiss::new("vehicles as near to each other as they may be", |it| {
+        let groups = ["nodes.separation", "plan.separation", "flight.separation"];
+        let nearest_m = groups.iter().map(|check| it.value(check)).fold(f64::INFINITY, f64::min);
+        let unsure_m = 2.0 * it.value("flight.dynamics");
+        cuts::keep_apart(it, nearest_m - NEAR_M - unsure_m);
+    })
+}
+
 fn fixed_wing() -> Vec<NearMiss> {
     vec![
-        NearMiss::new("vehicles as near to each other as they may be", |it| {
-            let groups = ["nodes.separation", "plan.separation", "flight.separation"];
-            let nearest_m = groups.iter().map(|check| it.value(check)).fold(f64::INFINITY, f64::min);
-            let unsure_m = 2.0 * it.value("flight.dynamics");
-            cuts::keep_apart(it, nearest_m - NEAR_M - unsure_m);
-        }),
         NearMiss::new("a pole that a wing just clears", |it| {
             let (middle, wing_m) = (it.steps() / 2, it.fixed_wing_model().body_radius_m);
             let from = it.samples(0)[middle];
@@ -92,4 +102,61 @@ fn slung_load() -> Vec<NearMiss> {
             it.slung_load_model().limits.thrust_n.max = largest_n.max(planned_n) + NEAR_M;
         }),
     ]
+}
+
+fn multirotor() -> Vec<NearMiss> {
+    vec![
+        NearMiss::new("a pole that a rotor just clears", |it| {
+            let (middle, reach_m) = (it.planned_steps() / 2, it.multirotor_model().body_radius_m);
+            let [x_m, y_m, _] = it.samples(0)[middle].position_m;
+            let aside_m = reach_m + 0.01 + distance_m(it);
+            it.scenario.world.boxes.push(Block {
+                name: "planted".to_owned(),
+                center_m: [x_m, y_m - aside_m],
+                size_m: [0.02, 0.02],
+                heading_deg: 0.0,
+                z_m: None,
+            });
+        }),
+        NearMiss::new("a flight as fast as the vehicle may be", |it| {
+            let planned_mps = it.multirotor_model().planning_limits.speed_mps;
+            let airspeed = |sample: &sim::Sample| sample.air_velocity_mps().iter().map(|v| v * v).sum::<f64>().sqrt();
+            let samples = it.flight().vehicles.iter().flat_map(|log| &log.samples);
+            let fastest_mps = samples.map(airspeed).fold(planned_mps, f64::max);
+            it.multirotor_model().limits.speed_mps = fastest_mps + NEAR_M;
+        }),
+    ]
+}
+
+/// What is left between a vehicle and a pole that it just clears, m: what is known of the flight between its samples.
+fn distance_m(it: &Specimen) -> f64 {
+    NEAR_M + 10.0 * it.value("flight.dynamics")
+}
+
+fn in_the_loop(specimen: &Specimen) -> Vec<NearMiss> {
+    let mut all = vec![NearMiss::new("an answer that is there at its deadline", |it| {
+        let deadline_s = it.scenario.simulation.planning.deadline_s;
+        let mut slow = it.scenario.clone();
+        slow.simulation.planning.median_s = deadline_s;
+        it.fly_in(&slow);
+        it.scenario = slow;
+    })];
+    let has_rotors = specimen.scenario.models.multirotor.values().any(|model| model.plant == Plant::Quadrotor);
+    if has_rotors {
+        all.push(NearMiss::new("a quadrotor that tilts as far as it may", |it| {
+            let tilt_deg = |sample: &sim::Sample| {
+                let [x, y, ..] = sample.world_from_body;
+                (1.0 - 2.0 * (x * x + y * y)).acos().to_degrees()
+            };
+            let most_deg = it.samples(0).iter().map(tilt_deg).fold(0.0, f64::max);
+            it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.tilt_deg = most_deg + 1e-6);
+        }));
+    }
+    if !specimen.scenario.world.moving.is_empty() {
+        all.push(NearMiss::new("carts that are as wide as they may be", |it| {
+            let room_m = it.value("flight.clearance") - distance_m(it);
+            it.scenario.world.moving.iter_mut().for_each(|cart| cart.radius_m += room_m);
+        }));
+    }
+    all
 }

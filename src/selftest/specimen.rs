@@ -1,60 +1,24 @@
-use planners::Planner;
-use scenarios::{Family, Plan, Scenario, fixed_wing, slung_load};
+mod flying;
+
+use scenarios::{Family, Plan, Scenario, fixed_wing, multirotor, slung_load};
 use sim::{Actuation, Commanded, Flight, LoadSample, Sample};
 
+use crate::author::Author;
 use crate::verdict::{self, Check, Verdict};
 
+pub use flying::all;
+
 /// A scenario with a plan and a flight that pass: what faults are injected into.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Specimen {
     /// The question.
     pub scenario: Scenario,
-    /// The planner's answer.
+    /// The planner's answer; of one who plans in the loop, what was followed.
     pub plan: Plan,
     /// What was flown.
     pub flight: Option<Flight>,
-}
-
-/// A scenario that is still to be planned and flown.
-pub struct Unflown {
-    /// The scenario, one of those that are shipped.
-    pub scenario: Scenario,
-    planner: &'static Planner,
-}
-
-/// The specimens of a family: one in still air, one with everything that disturbs.
-///
-/// Panics if a file in the program is no scenario: a bug.
-pub fn all(family: Family) -> Vec<Unflown> {
-    let files: &[(&str, &str)] = match family {
-        Family::FixedWing => &[
-            ("rendezvous-2.toml", include_str!("../../scenarios/fixed-wing/rendezvous-2.toml")),
-            ("rendezvous-7-wind.toml", include_str!("../../scenarios/fixed-wing/rendezvous-7-wind.toml")),
-        ],
-        Family::SlungLoad => &[
-            ("drop-and-catch.toml", include_str!("../../scenarios/slung/drop-and-catch.toml")),
-            ("drop-and-catch-wind.toml", include_str!("../../scenarios/slung/drop-and-catch-wind.toml")),
-        ],
-        Family::Multirotor => &[],
-    };
-    let unflown = |(file, text): &(&str, &str)| {
-        let scenario = scenarios::parse(file, text).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let planner = planners::find(&scenario.planner.name).unwrap_or_else(|| panic!("{file}: unknown planner"));
-        Unflown { scenario, planner }
-    };
-    files.iter().map(unflown).collect()
-}
-
-impl Unflown {
-    /// Plans and flies it.
-    pub fn flown(self) -> Specimen {
-        let seed = self.scenario.simulation.seed;
-        let plan = self.planner.plan(&self.scenario, seed, &mut |_| {});
-        let flight = verdict::is_flyable(&self.scenario, &plan)
-            .ok()
-            .map(|()| sim::fly(&self.scenario, &plan, seed, &mut |_| {}));
-        Specimen { scenario: self.scenario, plan, flight }
-    }
+    /// Who planned it.
+    author: Author,
 }
 
 impl Specimen {
@@ -128,9 +92,12 @@ impl Specimen {
         }
     }
 
-    /// Flies the plan again, for instance in another scenario than it will be judged by.
-    pub fn fly_in(&mut self, scenario: &Scenario) {
-        self.flight = Some(sim::fly(scenario, &self.plan, scenario.simulation.seed, &mut |_| {}));
+    /// The nodes of a multirotor's plan. Panics for others.
+    pub fn multirotor(&mut self, vehicle: usize) -> &mut multirotor::Trajectory {
+        match &mut self.plan.trajectories[vehicle] {
+            scenarios::Trajectory::Multirotor(trajectory) => trajectory,
+            _ => panic!("not a multirotor"),
+        }
     }
 
     /// The plan of a fixed wing. Panics for others.
@@ -154,6 +121,11 @@ impl Specimen {
         self.scenario.models.fixed_wing.values_mut().next().expect("the specimen has a model")
     }
 
+    /// The only model of multirotors.
+    pub fn multirotor_model(&mut self) -> &mut multirotor::Model {
+        self.scenario.models.multirotor.values_mut().next().expect("the specimen has a model")
+    }
+
     /// The only model of slung loads.
     pub fn slung_load_model(&mut self) -> &mut slung_load::Model {
         self.scenario.models.slung_load.values_mut().next().expect("the specimen has a model")
@@ -173,5 +145,13 @@ pub fn thrusts(sample: &mut Sample) -> &mut Commanded<slung_load::Control> {
     match &mut sample.actuation {
         Actuation::Thrusts(thrusts) => thrusts,
         _ => panic!("not a quadrotor"),
+    }
+}
+
+/// Acceleration of a sample. Panics for one that does not stand for a point mass.
+pub fn acceleration(sample: &mut Sample) -> &mut Commanded<[f64; 3]> {
+    match &mut sample.actuation {
+        Actuation::Acceleration(acceleration) => acceleration,
+        _ => panic!("not a point mass"),
     }
 }

@@ -1,15 +1,16 @@
-//! Was it flown as the scenario says: in its air, and seen through its sensors?
+//! Was it flown as the scenario says: in its air, seen through its sensors, and planned at the instants that it allows?
 //!
 //! A simulator that forgets the wind, or turns it round, makes every flight look better than it is, and everything else
 //! about its log is in order.
 
 use nalgebra::Vector3;
-use scenarios::{GustPulse, Gusts, Scenario, Wind};
+use scenarios::{GustPulse, Gusts, Plan, Scenario, Wind};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
 use crate::verdict::integrity::none_of;
+use crate::verdict::multirotor::planning;
 use crate::verdict::question::{Group, Question};
 
 /// Air without gusts is known to this, m/s: what rounding leaves.
@@ -24,8 +25,11 @@ const WILDEST_MEAN: f64 = 5.0;
 /// little, but that all of them are 0 it says of any.
 const WILDEST_ESTIMATE: f64 = 6.0;
 
-/// Number of vehicles in whose logs air or measurements are not those of the scenario.
-pub fn check(scenario: &Scenario, flight: &Flight) -> Check {
+/// Number of vehicles in whose logs air or measurements are not those of the scenario, and one more if the planning in the
+/// loop is not.
+///
+/// - `plan`: what was flown; of one who plans in the loop what was followed
+pub fn check(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let question = Question::new(Group::Flight, "conditions", "vehicles");
     let odd = |log: &VehicleLog| {
         let empty = log.samples.is_empty().then(|| "the log is empty".to_owned());
@@ -34,7 +38,8 @@ pub fn check(scenario: &Scenario, flight: &Flight) -> Check {
             .or_else(|| sensor_defect(scenario, log));
         defect.map(|defect| format!("{}: {defect}", log.vehicle))
     };
-    let defects: Vec<String> = flight.vehicles.iter().filter_map(odd).collect();
+    let defects = flight.vehicles.iter().filter_map(odd).chain(planning::defect(scenario, plan, flight));
+    let defects: Vec<String> = defects.collect();
     none_of(&question, defects.len(), &[], defects.first())
 }
 

@@ -8,6 +8,7 @@ use crate::verdict::compare::exceeds;
 use crate::verdict::flown::Flown;
 use crate::verdict::flown_reference;
 use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
+use crate::verdict::multirotor::planning;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 use crate::verdict::touch;
 
@@ -18,7 +19,8 @@ const LONGEST_GAP_STEPS: f64 = 1.001;
 pub fn check_finite(flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
     let amounts = flight.events.iter().filter_map(|event| amount(&event.kind));
-    let mut count = times.chain(amounts).filter(|value| !value.is_finite()).count();
+    let planning = flight.planning.iter().flat_map(planning::numbers);
+    let mut count = times.chain(amounts).chain(planning).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
     for log in &flight.vehicles {
         let numbers =

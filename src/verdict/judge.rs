@@ -151,7 +151,7 @@ fn log_checks(
             &|| flight_integrity::check_finite(flight),
             &|| flight_integrity::check_complete(scenario, plan, flight),
             &|| flight_integrity::check_crash(scenario, flight, flown),
-            &|| conditions::check(scenario, flight),
+            &|| conditions::check(scenario, plan, flight),
         ]),
         Err(reason) => {
             [("finite", "numbers"), ("complete", "vehicles"), ("crash", "crashes"), ("conditions", "vehicles")]

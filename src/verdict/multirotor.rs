@@ -3,6 +3,7 @@
 mod clearance;
 mod limits;
 mod physics;
+pub mod planning;
 mod rest;
 
 use scenarios::{Plan, Scenario};

@@ -15,11 +15,7 @@ pub struct Cut {
 }
 
 /// Limits that a value may not exceed, in the unit of the check.
-pub const AT_MOST: &[Cut] = &[
-    cut("the limit of the defects", &["plan.dynamics"], |it, limit| it.scenario.verdict.dynamics_m = Some(limit)),
-    cut("the limit of the distance from the goal", &["nodes.goal", "plan.goal", "flight.goal"], |it, limit| {
-        it.scenario.verdict.goal_m = Some(limit);
-    }),
+const OF_ALL: &[Cut] = &[
     cut("the longest duration", &["plan.duration", "flight.duration"], |it, limit| {
         it.scenario.simulation.max_duration_s = limit;
     }),
@@ -32,6 +28,8 @@ pub const AT_MOST: &[Cut] = &[
 ];
 
 const OF_FIXED_WINGS: &[Cut] = &[
+    DEFECTS,
+    GOALS,
     cut("the limit of the open-loop error", &["plan.rollout"], |it, limit| it.scenario.verdict.rollout_m = Some(limit)),
     cut("the limit of the spread of arrivals", &["flight.arrival"], |it, limit| {
         it.scenario.verdict.arrival_spread_s = Some(limit);
@@ -39,6 +37,8 @@ const OF_FIXED_WINGS: &[Cut] = &[
 ];
 
 const OF_SLUNG_LOADS: &[Cut] = &[
+    DEFECTS,
+    GOALS,
     cut("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
         it.scenario.verdict.rest_mps = Some(limit);
     }),
@@ -49,6 +49,21 @@ const OF_SLUNG_LOADS: &[Cut] = &[
         it.scenario.verdict.switch_s = Some(limit);
     }),
 ];
+
+// A multirotor's plan ends in its goal to the last bit: below that there is no limit.
+const OF_MULTIROTORS: &[Cut] = &[
+    cut("the limit of the distance from the goal", &["flight.goal"], |it, limit| {
+        it.scenario.verdict.goal_m = Some(limit);
+    }),
+    cut("the limit of the speed at the end", &["flight.rest"], |it, limit| it.scenario.verdict.rest_mps = Some(limit)),
+];
+
+const DEFECTS: Cut =
+    cut("the limit of the defects", &["plan.dynamics"], |it, limit| it.scenario.verdict.dynamics_m = Some(limit));
+const GOALS: Cut =
+    cut("the limit of the distance from the goal", &["nodes.goal", "plan.goal", "flight.goal"], |it, limit| {
+        it.scenario.verdict.goal_m = Some(limit);
+    });
 
 /// How far a limit is from what was reached, as a share of it.
 pub const SHARE: f64 = 1e-6;
@@ -62,9 +77,9 @@ pub fn at_most(family: Family) -> impl Iterator<Item = &'static Cut> {
     let of_family = match family {
         Family::FixedWing => OF_FIXED_WINGS,
         Family::SlungLoad => OF_SLUNG_LOADS,
-        Family::Multirotor => &[],
+        Family::Multirotor => OF_MULTIROTORS,
     };
-    AT_MOST.iter().chain(of_family)
+    OF_ALL.iter().chain(of_family)
 }
 
 /// The faults.
@@ -80,9 +95,8 @@ pub fn faults(family: Family) -> Vec<Fault> {
         }
     }
     let distances: &[&'static str] = match family {
-        Family::FixedWing => &["nodes.separation", "plan.separation", "flight.separation"],
+        Family::FixedWing | Family::Multirotor => &["nodes.separation", "plan.separation", "flight.separation"],
         Family::SlungLoad => &["nodes.envelope", "plan.envelope"],
-        Family::Multirotor => &[],
     };
     all.extend(distances.iter().map(|check| {
         Fault::new(check, "a distance that is to be kept is longer than the smallest one", move |it| {

@@ -10,6 +10,7 @@ use scenarios::{Range, Scenario};
 use sim::{Actuation, Commanded, Sample};
 
 use crate::verdict::bernstein;
+use crate::verdict::compare::exceeds;
 use crate::verdict::limits::{SOLVER_TOLERANCE, answer};
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::on_the_map::OnTheMap;
@@ -17,6 +18,8 @@ use crate::verdict::question::{Evidence, Group};
 use crate::verdict::worst::{Quantity, Worst};
 use crate::verdict::{Check, Flown};
 
+/// What rounding leaves of the length of a quaternion that is a rotation.
+const ROTATION_TOLERANCE: f64 = 1e-6;
 /// Distance between the bounds of an extreme squared speed that counts as close enough, m²/s².
 const RESOLUTION_M2PS2: f64 = 1e-9;
 
@@ -124,8 +127,11 @@ impl<'a> Limited<'a> {
 
     fn tilt(&self, worst: &mut Worst<'a>, sample: &Sample) {
         let Some(airframe) = self.airframe() else { return };
-        let attitude = UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body));
-        let tilt_deg = (attitude * Vector3::z()).z.clamp(-1.0, 1.0).acos().to_degrees();
+        let attitude = Quaternion::from(sample.world_from_body);
+        // What is no rotation has no tilt.
+        let is_rotation = !exceeds((attitude.norm() - 1.0).abs(), ROTATION_TOLERANCE);
+        let body_z = UnitQuaternion::from_quaternion(attitude) * Vector3::z();
+        let tilt_deg = if is_rotation { body_z.z.clamp(-1.0, 1.0).acos().to_degrees() } else { f64::NAN };
         worst.consider(self.vehicle, up_to("tilt", "deg", airframe.tilt_deg), tilt_deg, sample.t_s);
     }
 

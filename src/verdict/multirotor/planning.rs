@@ -1,0 +1,184 @@
+//! Was it planned in the loop as the scenario says: asked in turn, flown no sooner than the answer was there, and flown as
+//! it was answered?
+//!
+//! A simulator that takes answers before they are there, or asks more often than it may, makes every planner look better
+//! than it is.
+
+use scenarios::in_loop::{LastAnswer, Node};
+use scenarios::multirotor::Trajectory;
+use scenarios::{Plan, Planning, PlanningClock, Scenario};
+use sim::multirotor::Reference;
+use sim::{EventKind, Flight, PlanningLog, Replan};
+
+use crate::in_loop::is_flown;
+use crate::verdict::compare::exceeds;
+
+/// What rounding leaves of two instants that should be the same, s.
+const ROUNDING_S: f64 = 1e-6;
+/// What rounding leaves of two positions that should be the same, m.
+const ROUNDING_M: f64 = 1e-6;
+
+/// The numbers of a log of planning, for whoever looks for one that is none.
+pub fn numbers(log: &PlanningLog) -> impl Iterator<Item = f64> + '_ {
+    log.replans.iter().flat_map(|replan| {
+        let times = [replan.asked_s, replan.ready_s, replan.takes_effect_s, replan.wall_s];
+        times.into_iter().chain(replan.nodes.iter().flat_map(node_numbers))
+    })
+}
+
+fn node_numbers(node: &Node) -> impl Iterator<Item = f64> {
+    let Node { t_s, position_m, velocity_mps } = *node;
+    [t_s].into_iter().chain(position_m).chain(velocity_mps)
+}
+
+/// What is not in order about the planning of a flight, in words.
+///
+/// - `plan`: what the flight says was followed, flyable
+pub fn defect(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Option<String> {
+    let log = flight.planning.as_ref()?;
+    if let Some(replan) = log.replans.iter().find(|replan| replan.vehicle >= scenario.vehicles.len()) {
+        return Some(format!(
+            "an answer at {} s is for vehicle {}, which there is not",
+            replan.asked_s, replan.vehicle
+        ));
+    }
+    let of_vehicle = |(index, trajectory): (usize, &scenarios::Trajectory)| {
+        let scenarios::Trajectory::Multirotor(followed) = trajectory else { return None };
+        let answers: Vec<&Replan> = log.replans.iter().filter(|replan| replan.vehicle == index).collect();
+        let turns = Turns { settings: &scenario.simulation.planning, step_s: scenario.simulation.step_s };
+        let first_s = index as f64 / scenario.vehicles.len() as f64 * turns.settings.period_s;
+        let end_s = flight.vehicles.get(index)?.samples.last()?.t_s;
+        let defect = turns
+            .order_defect(&answers, first_s, end_s)
+            .or_else(|| answers.iter().find_map(|replan| turns.answer_defect(replan)))
+            .or_else(|| unfollowed(&answers, followed, turns.step_s));
+        defect.map(|defect| format!("{}: {defect}", followed.vehicle))
+    };
+    plan.trajectories.iter().enumerate().find_map(of_vehicle).or_else(|| untold(flight, log))
+}
+
+/// When a planner may be asked, and when its answer may be flown.
+struct Turns<'a> {
+    settings: &'a Planning,
+    step_s: f64,
+}
+
+impl Turns<'_> {
+    /// Was it asked at every turn at which it was not busy, and at no other time?
+    ///
+    /// - `first_s`: its first turn, s
+    /// - `end_s`: end of the flight, s
+    fn order_defect(&self, answers: &[&Replan], first_s: f64, end_s: f64) -> Option<String> {
+        let out_of_turn = |at_s: f64| Some(format!("its planner was asked at {at_s} s, which was not its turn"));
+        let mut turns_s: Vec<f64> = (0..)
+            .map(|turn| self.on_step(first_s + f64::from(turn) * self.settings.period_s))
+            .take_while(|turn_s| *turn_s <= end_s + ROUNDING_S)
+            .collect();
+        turns_s.dedup();
+        let (mut asked, mut busy_s) = (answers.iter().peekable(), f64::NEG_INFINITY);
+        for turn_s in turns_s {
+            match asked.next_if(|replan| !exceeds(replan.asked_s, turn_s + ROUNDING_S)) {
+                Some(replan) if exceeds(turn_s, replan.asked_s + ROUNDING_S) => return out_of_turn(replan.asked_s),
+                Some(replan) if exceeds(busy_s, turn_s + ROUNDING_S) => {
+                    return Some(format!("its planner was asked at {} s, when it was busy", replan.asked_s));
+                }
+                Some(replan) => busy_s = replan.ready_s,
+                // Whether it is still asked at the very end is all the same.
+                None if busy_s <= turn_s - ROUNDING_S && turn_s < end_s - self.step_s => {
+                    return Some(format!("its planner was not asked at {turn_s:.3} s, its turn"));
+                }
+                None => {}
+            }
+        }
+        asked.next().and_then(|replan| out_of_turn(replan.asked_s))
+    }
+
+    /// Did an answer take the time that the scenario gives it, and was it flown no sooner than it was there?
+    fn answer_defect(&self, replan: &Replan) -> Option<String> {
+        let Replan { asked_s, ready_s, takes_effect_s, .. } = *replan;
+        let took_s = ready_s - asked_s;
+        let is_known = self.settings.time == PlanningClock::Modelled && self.settings.spread == 0.0;
+        let is_recorded = |asked: &f64| !exceeds((took_s - asked).abs(), ROUNDING_S);
+        let is_right = match self.settings.time {
+            PlanningClock::Modelled if is_known => is_recorded(&self.settings.median_s),
+            PlanningClock::Recorded => self.settings.recorded_s.iter().any(is_recorded),
+            PlanningClock::Modelled | PlanningClock::Measured => took_s > 0.0,
+        };
+        if !is_right {
+            return Some(format!(
+                "the answer that was asked for at {asked_s} s took {took_s:.3} s, not as the scenario says"
+            ));
+        }
+        let planned_s = self.on_step(asked_s + self.settings.deadline_s);
+        let due_s = planned_s.max(self.on_step(ready_s));
+        if exceeds((takes_effect_s - due_s).abs(), ROUNDING_S) {
+            return Some(format!(
+                "the answer that was asked for at {asked_s} s was due at {due_s:.3} s and was flown from {takes_effect_s} s on"
+            ));
+        }
+        let late_s = due_s - planned_s;
+        let is_told = match replan.outcome {
+            LastAnswer::InTime => late_s <= ROUNDING_S,
+            LastAnswer::Late { by_s } => late_s > 0.0 && !exceeds((by_s - late_s).abs(), ROUNDING_S),
+            LastAnswer::None | LastAnswer::Kept { .. } | LastAnswer::Rejected { .. } => true,
+        };
+        (!is_told).then(|| {
+            format!("the answer that was asked for at {asked_s} s was {late_s:.3} s late; its log says otherwise")
+        })
+    }
+
+    /// The first step of the simulator that is not before `t_s`, s.
+    fn on_step(&self, t_s: f64) -> f64 {
+        (t_s / self.step_s - ROUNDING_S).ceil() * self.step_s
+    }
+}
+
+/// Is the motion that was followed, at every step, the one that was answered last?
+fn unfollowed(answers: &[&Replan], followed: &Trajectory, step_s: f64) -> Option<String> {
+    let flown = Reference::new(followed.nodes());
+    let end_s = followed.times_s.last()?;
+    let standing = Node::at_rest(0.0, followed.states.first()?.position_m);
+    let mut in_force = (0.0, Reference::new(vec![standing]));
+    let mut next =
+        taken(answers).map(|replan| (replan.takes_effect_s, Reference::new(replan.nodes.clone()))).peekable();
+    for step in 0.. {
+        let t_s = f64::from(step) * step_s;
+        if t_s >= *end_s {
+            return None;
+        }
+        while let Some(due) = next.next_if(|(from_s, _)| *from_s <= t_s + ROUNDING_S) {
+            in_force = due;
+        }
+        // Just after the step: at the instant of a change both are right.
+        let at_s = (t_s + 0.5 * step_s).min(*end_s);
+        let distance_m = (flown.at(at_s).position_m - in_force.1.at(at_s).position_m).norm();
+        if exceeds(distance_m, ROUNDING_M) {
+            let from_s = in_force.0;
+            return Some(format!(
+                "at {at_s:.3} s what it followed is {distance_m:.3e} m away from its planner's answer of {from_s:.3} s"
+            ));
+        }
+    }
+    None
+}
+
+/// The answers that came into force: a new one takes the place of one that still waits for its instant.
+fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
+    let flown: Vec<&Replan> =
+        answers.iter().copied().filter(|replan| is_flown(replan) && !replan.nodes.is_empty()).collect();
+    let next_s: Vec<f64> = flown.iter().skip(1).map(|next| next.asked_s).chain([f64::INFINITY]).collect();
+    flown
+        .into_iter()
+        .zip(next_s)
+        .filter(|(replan, next_s)| *next_s >= replan.takes_effect_s - ROUNDING_S)
+        .map(|pair| pair.0)
+}
+
+/// Late and rejected answers of which there is no event.
+fn untold(flight: &Flight, log: &PlanningLog) -> Option<String> {
+    let is_event =
+        |event: &&sim::Event| matches!(event.kind, EventKind::AnswerLate { .. } | EventKind::AnswerRejected { .. });
+    let is_odd = |replan: &&Replan| matches!(replan.outcome, LastAnswer::Late { .. } | LastAnswer::Rejected { .. });
+    let (told, odd) = (flight.events.iter().filter(is_event).count(), log.replans.iter().filter(is_odd).count());
+    (told != odd).then(|| format!("{odd} answers were late or rejected, and the log tells of {told}"))
+}
