@@ -9,6 +9,14 @@ use scenarios::GustPulse;
 
 use turbulence::Turbulence;
 
+/// Density of the air, kg/m³ (ICAO standard atmosphere, sea level).
+const AIR_DENSITY_KGPM3: f64 = 1.225;
+
+/// Force of air that moves past a body at a velocity, N: half its density times the drag area times the speed squared.
+pub(crate) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
+    relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
+}
+
 /// The air around one vehicle.
 #[derive(Clone, Debug)]
 pub(crate) struct Air {

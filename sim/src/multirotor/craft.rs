@@ -4,15 +4,13 @@ use scenarios::{Scenario, Vehicle, slung_load};
 
 use super::reference::{Reference, ReferencePoint};
 use super::tracker::{Autopilot, Tracker, limited_mps2, turned_towards, upright_towards};
-use crate::air::Air;
+use crate::air::{Air, drag_n};
 use crate::quadrotor::Turning;
 use crate::rapier_world::RapierWorld;
 use crate::saturation::SaturationWatch;
 use crate::sensors::{Measurement, Sensors};
 use crate::{Actuation, Commanded, EventKind, Sample, VehicleLog};
 
-/// Density of the air, kg/m³ (ICAO standard atmosphere, sea level).
-const AIR_DENSITY_KGPM3: f64 = 1.225;
 
 /// One multirotor: everything about it but its body.
 pub(super) struct Craft {
@@ -192,9 +190,4 @@ impl Craft {
             actuation,
         }
     }
-}
-
-/// Force of air that moves past the body at a velocity, N: half its density times the drag area times the speed squared.
-pub(super) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
-    relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
 }

@@ -1,7 +1,7 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector6};
 use scenarios::multirotor::{GRAVITY_MPS2, Model};
 
-use super::craft::drag_n;
+use crate::air::drag_n;
 use crate::runge_kutta;
 
 /// What carries a multirotor during one step of the simulator.

@@ -93,7 +93,8 @@ impl Hoist {
     /// The motion now.
     ///
     /// A half of each step's impulses comes after rapier's own step; the rope's came inside it. While the cable stays taut,
-    /// half of it belongs to what comes after: without it, the ends would seem to part or to close by λ h/(2 m).
+    /// half of it belongs to what comes after: without it, the ends would seem to part by λ h/(2 m). How much that is, is
+    /// told by their parting itself, and not by the last impulse, of which the rest of an impact may be a part.
     pub fn body(&self) -> Body {
         let (quadrotor, load) = (&self.physics.bodies[self.quadrotor], &self.physics.bodies[self.load]);
         let rotation = quadrotor.rotation();
@@ -108,7 +109,9 @@ impl Hoist {
             load_velocity_mps: from_rapier(load.linvel()),
         };
         if self.was_taut == [true; 2] {
-            let half_ns = body.cable_m().normalize() * (self.impulse_ns / 2.0);
+            let direction = body.cable_m().normalize();
+            let parting_mps = direction.dot(&body.load_relative_mps()).max(0.0);
+            let half_ns = direction * (parting_mps / (1.0 / quadrotor.mass() + 1.0 / load.mass()));
             body.velocity_mps += half_ns / quadrotor.mass();
             body.load_velocity_mps -= half_ns / load.mass();
         }

@@ -8,7 +8,7 @@ use super::dynamics::Plant;
 use super::reference::{Reference, ReferencePoint};
 use super::shapes::{GROUND, Part, Parts};
 use super::tracker::{Thrusts, Tracker};
-use crate::air::Air;
+use crate::air::{Air, drag_n};
 use crate::rapier_world::{Hoist, Loads};
 use crate::saturation::SaturationWatch;
 use crate::sensors::Sensors;
@@ -16,8 +16,6 @@ use crate::{Actuation, Commanded, Event, EventKind, LoadSample, Pilot, Sample, S
 
 /// Longest step of the plant, s: an ordinary step of the simulator, for which a command is held, is divided into such.
 const LONGEST_PLANT_STEP_S: f64 = 5e-4;
-/// Density of the air, kg/m³ (ICAO standard atmosphere, sea level).
-const AIR_DENSITY_KGPM3: f64 = 1.225;
 
 /// Flies a plan of quadrotors with loads for so many steps, each by itself, and returns their logs and what happened.
 pub(crate) fn fly(
@@ -231,9 +229,4 @@ impl Sortie {
             load_force_n: drag_n(&(wind_mps - body.load_velocity_mps), self.model.load_drag_area_m2),
         }
     }
-}
-
-/// Force of air that moves past a body at a velocity, N: half its density times the drag area times the speed squared.
-pub(super) fn drag_n(relative_mps: &Vector3<f64>, drag_area_m2: f64) -> Vector3<f64> {
-    relative_mps * (relative_mps.norm() * 0.5 * AIR_DENSITY_KGPM3 * drag_area_m2)
 }

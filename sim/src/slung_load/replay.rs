@@ -3,7 +3,7 @@ use scenarios::slung_load::{GRAVITY_MPS2, Model};
 
 use super::body::Body;
 use super::dynamics::Plant;
-use super::fly::drag_n;
+use crate::air::drag_n;
 use crate::runge_kutta;
 
 /// What acts on quadrotor and load during one step of the simulator.

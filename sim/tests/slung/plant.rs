@@ -105,6 +105,23 @@ fn a_dropped_load_is_caught_when_and_with_the_impulse_that_it_must() {
     assert!((momentum - expected).abs() < 1e-9, "{momentum} {expected}");
 }
 
+/// The steps of the plant meet the catch somewhere: its impulse is that of one step, or of two. Whichever it is, the ends of
+/// the cable no longer part as soon as it is over.
+#[test]
+fn after_a_hard_catch_the_ends_of_the_cable_do_not_part() {
+    let total_n = M_Q * GRAVITY_MPS2;
+    for shift in 0..12 {
+        let drop_m = 0.5 + 5e-4 * f64::from(shift);
+        let load_m = [0.0, 0.0, -(L_0 - drop_m)];
+        let flight = flown(state([0.0; 3], [0.0; 3], load_m, [0.0; 3]), Cable::Slack, [total_n; 2], 0.4);
+        let caught_s = (2.0 * drop_m / GRAVITY_MPS2).sqrt() + 0.001;
+        let after = log(&flight).filter(|(sample, _)| sample.t_s > caught_s);
+        let parting_mps = |(s, l): (&Sample, &LoadSample)| s.velocity_mps[2] - l.velocity_mps[2];
+        let worst_mps = after.map(|both| parting_mps(both).abs()).fold(0.0, f64::max);
+        assert!(worst_mps < 1e-3, "dropped by {drop_m} m they part with {worst_mps} m/s");
+    }
+}
+
 #[test]
 fn slack_and_taut_agree_with_an_independent_integrator() {
     // Thrown up and sideways, caught twice and more, with a thrust that falls and rises.
