@@ -11,7 +11,6 @@ use crate::saturation::SaturationWatch;
 use crate::sensors::{Measurement, Sensors};
 use crate::{Actuation, Commanded, EventKind, Sample, VehicleLog};
 
-
 /// One multirotor: everything about it but its body.
 pub(super) struct Craft {
     index: usize,
