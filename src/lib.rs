@@ -16,6 +16,7 @@ pub mod diverge;
 pub mod error;
 mod export;
 pub mod in_loop;
+pub mod interrupt;
 mod jobs;
 pub mod metrics;
 pub mod notation;

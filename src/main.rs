@@ -7,6 +7,7 @@ use harness::cli::Cli;
 use harness::error::Exit;
 
 fn main() -> ExitCode {
+    harness::interrupt::watch();
     match Cli::parse().execute() {
         Ok(exit) => exit.into(),
         Err(error) => {

@@ -1,7 +1,9 @@
 //! Files and standard output.
 //!
 //! A file appears under its name only when it is complete: it is written beside it under a temporary name and renamed, so
-//! that a killed run leaves no half file behind.
+//! that a killed run leaves no half file behind under the name of a result. What it does leave, the next run removes.
+
+mod leftovers;
 
 use std::error;
 use std::fs::{self, File};
@@ -12,6 +14,7 @@ use serde::Serialize;
 use tempfile::NamedTempFile;
 
 use crate::error::Error;
+use crate::interrupt::Partial;
 
 /// What may go wrong while a file is written by somebody else's library.
 type Failure = Box<dyn error::Error + Send + Sync>;
@@ -38,9 +41,11 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Error> {
     })
 }
 
-/// Makes a folder and those above it.
+/// Makes a folder and those above it, and rids it of what killed runs left in it.
 pub fn create_folder(path: &Path) -> Result<(), Error> {
-    fs::create_dir_all(path).map_err(|reason| Error::Write { path: path.to_owned(), reason: reason.into() })
+    fs::create_dir_all(path).map_err(|reason| Error::Write { path: path.to_owned(), reason: reason.into() })?;
+    leftovers::remove(path);
+    Ok(())
 }
 
 /// Removes a result of an earlier run, if there is one.
@@ -71,20 +76,20 @@ pub fn tell(text: &str) {
 fn complete(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let partial = new_file(folder)?.into_temp_path(); // removed when it is dropped
+    let _with_us = Partial::new(&partial);
     write(&partial)?;
     Ok(partial.persist(path)?)
 }
 
-/// A file for everybody to read, as far as the user's umask lets them (temporary files are private by default).
-#[cfg(unix)]
+/// A file for everybody to read, as far as the user's umask lets them (temporary files are private by default). Its name
+/// tells whose it is.
 fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
-    use std::os::unix::fs::PermissionsExt;
-    tempfile::Builder::new().permissions(fs::Permissions::from_mode(0o666)).tempfile_in(folder)
-}
-
-#[cfg(not(unix))]
-fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
-    NamedTempFile::new_in(folder)
+    let prefix = leftovers::prefix();
+    let mut file = tempfile::Builder::new();
+    file.prefix(&prefix);
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    file.tempfile_in(folder)
 }
 
 #[cfg(test)]

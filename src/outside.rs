@@ -9,7 +9,7 @@
 //! Whatever the command does, the result is a plan or a reason why there is none: a crash, a hang, a reply that makes no
 //! sense are findings about that planner, and other scenarios go on.
 
-mod group;
+pub(crate) mod group;
 mod in_loop;
 mod process;
 mod reply;

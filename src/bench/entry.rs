@@ -9,7 +9,9 @@ use scenarios::Scenario;
 use serde::Serialize;
 
 use crate::error::Error;
+use crate::interrupt::Partial;
 use crate::output;
+use crate::outside::group::{self, Guard};
 use crate::report::Report;
 
 /// Time between two looks at the process.
@@ -53,11 +55,16 @@ pub struct Entry {
 /// Plans, flies and judges `scenario` with `planner`; all of it within `limit_s`.
 pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Error> {
     let folder = tempfile::tempdir().map_err(|error| environment("make a temporary folder", &error))?;
+    let _with_us = Partial::new(folder.path());
     let file = folder.path().join(format!("{}.toml", scenario.name));
     output::write_file(&file, |writer| writer.write_all(scenario.to_toml().as_bytes()))?;
     let out = folder.path().join("out");
     let mut child = start(&file, planner, &out)?;
-    if !ends_within(&mut child, limit_s)? {
+    let guard = Guard::of(&child);
+    let is_over = ends_within(&guard, &mut child, limit_s);
+    guard.end(&mut child);
+    let _ = child.wait();
+    if !is_over {
         return Ok(Entry { ending: Ending::TimedOut, report: None });
     }
     let path = out.join(&scenario.name).join(planner).join("report.json");
@@ -71,26 +78,21 @@ fn start(file: &Path, planner: &str, out: &Path) -> Result<Child, Error> {
     let program = std::env::current_exe().map_err(|error| environment("find this program", &error))?;
     let mut command = Command::new(program);
     command.arg("run").arg(file).args(["--planner", planner, "--record", "none", "--quiet", "--out"]).arg(out);
+    group::apart(&mut command);
     let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
     child.map_err(|error| environment("start this program once more", &error))
 }
 
-/// Waits for the end, and brings it about when the time is over.
-fn ends_within(child: &mut Child, limit_s: f64) -> Result<bool, Error> {
+/// Waits for the end, or for the end of the time.
+fn ends_within(guard: &Guard, child: &mut Child, limit_s: f64) -> bool {
     let started = Instant::now();
-    loop {
-        match child.try_wait() {
-            Ok(Some(_)) => return Ok(true),
-            Ok(None) if started.elapsed().as_secs_f64() < limit_s => std::thread::sleep(POLL),
-            Ok(None) => {
-                // it may have ended by itself in between: then there is nothing to end
-                let _ = child.kill();
-                let _ = child.wait();
-                return Ok(false);
-            }
-            Err(error) => return Err(environment("wait for a benchmark", &error)),
+    while !guard.has_exited(child) {
+        if started.elapsed().as_secs_f64() >= limit_s {
+            return false;
         }
+        std::thread::sleep(POLL);
     }
+    true
 }
 
 fn ending(report: &Report) -> Ending {

@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::record::Recorder;
 use crate::report::json_lines::Event;
 use crate::report::{Report, Summary, comparison, github, json_lines, junit, terminal};
-use crate::{output, pipeline};
+use crate::{interrupt, output, pipeline};
 
 /// What is written, where, and what is printed.
 #[derive(Args, Debug)]
@@ -105,6 +105,7 @@ impl Session {
             refusal.error.print();
         }
         let total = jobs.good.len();
+        interrupt::begin(jobs.good.iter().map(|job| format!("{} ({})", job.scenario.name, job.author.name())));
         for (index, job) in jobs.good.into_iter().enumerate() {
             let report = self.run_job(&job, &outputs, index + 1, total)?;
             done.summary.add(&report);
@@ -118,6 +119,7 @@ impl Session {
         let mut progress = Progress::new(job, number, total, self.quiet);
         let folder = self.out.join(&job.scenario.name).join(job.author.name());
         let done = pipeline::run(job, outputs, &folder, &mut progress)?;
+        interrupt::complete_one();
         progress.finish();
         self.show(&terminal::report(&done.report, done.log.as_deref()))?;
         self.event(&Event::Report { report: &done.report })?;

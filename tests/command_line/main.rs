@@ -13,6 +13,8 @@ mod recordings;
 mod results;
 mod running;
 mod schemas;
+#[cfg(unix)]
+mod stopping;
 mod sweeping;
 mod tools;
 mod trust;
