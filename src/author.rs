@@ -2,8 +2,10 @@
 
 use planners::Planner;
 use scenarios::in_loop::InLoopPlanner;
-use scenarios::{Iteration, Scenario};
+use scenarios::{Iteration, Plan, Scenario};
+use sim::Flight;
 
+use crate::in_loop;
 use crate::outside::{self, OutsidePlanner};
 use crate::submitted::Answer;
 
@@ -67,6 +69,14 @@ impl Author {
             }
             _ => None,
         }
+    }
+
+    /// The flight of one who plans in the loop, and what he followed as a plan; `None` if he answers before the flight.
+    pub fn fly_in_loop(&self, scenario: &Scenario, seed: u64) -> Option<(Plan, Flight)> {
+        let (crew, _) = self.crew(scenario, seed)?;
+        let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
+        let plan = in_loop::as_plan(scenario, self.name(), seed, flight.planning.as_ref()?);
+        Some((plan, flight))
     }
 
     /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a planner of ours as they end.

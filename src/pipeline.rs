@@ -18,7 +18,8 @@ use crate::progress::Progress;
 use crate::record::{self, Recorder, Run};
 use crate::report::{ReplanTimes, Report, Timings};
 use crate::submitted::Answer;
-use crate::verdict::Integration;
+use crate::verdict::{Integration, Verdict};
+use crate::waterfall::Waterfall;
 use crate::{in_loop, metrics, output, verdict, waterfall};
 
 /// What an outside planner wrote to its standard error.
@@ -68,13 +69,10 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
         )
     });
     output::create_folder(folder)?;
-    let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict };
+    let waterfall = if outputs.waterfall { waterfall(job, &answer, &verdict) } else { Vec::new() };
+    let run = Run { scenario: &job.scenario, plan, flight: flight.as_ref(), verdict: &verdict, waterfall: &waterfall };
     timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
     export(flight.as_ref(), outputs, folder)?;
-    let waterfall = match outputs.waterfall {
-        true => waterfall::of(&job.scenario, plan, &answer.given, job.seed, &verdict),
-        false => Vec::new(),
-    };
     let report = Report { waterfall, ..Report::new(&answer, flight.as_ref(), verdict, metrics, timings) };
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
@@ -120,6 +118,14 @@ fn fly_in_loop(
     timings.flying_s = (both_s - plan.timings.wall_s).max(0.0);
     timings.replans = ReplanTimes::of(planning);
     (HandedOver { answer: Answer::whole(plan), log: log.map(|log| log()) }, Some(flight))
+}
+
+/// Where the margins went, rung by rung.
+fn waterfall(job: &Job, answer: &Answer, verdict: &Verdict) -> Vec<Waterfall> {
+    match job.author.plans_in_the_loop() {
+        true => waterfall::in_the_loop(&job.scenario, &job.author, job.seed, verdict),
+        false => waterfall::of(&job.scenario, &answer.plan, &answer.given, job.seed, verdict),
+    }
 }
 
 fn flight_duration_s(scenario: &Scenario, plan: &Plan) -> f64 {

@@ -12,6 +12,7 @@ use sim::Flight;
 use crate::error::Error;
 use crate::output;
 use crate::verdict::Verdict;
+use crate::waterfall::Waterfall;
 
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 mod colours;
@@ -37,6 +38,8 @@ pub struct Run<'a> {
     pub flight: Option<&'a Flight>,
     /// What the judge made of it.
     pub verdict: &'a Verdict,
+    /// Where the margins went; empty if nobody asked.
+    pub waterfall: &'a [Waterfall],
 }
 
 /// One recording format.

@@ -1,6 +1,6 @@
 //! How much of a disturbance does a plan bear? The disturbance at which the verdict turns, as a number.
 //!
-//! The plan stays; only what disturbs the flight grows. First in doubling steps until a flight fails, then on a grid up to
+//! The plan stays (who plans in the loop plans anew); only what disturbs the flight grows. First in doubling steps until a flight fails, then on a grid up to
 //! beyond that, because a response need not be monotone (a gust may push a vehicle away from what it would have hit), then
 //! by bisection at the first failure.
 
@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use scenarios::{Plan, Scenario};
 use serde::Serialize;
 
-use crate::verdict::{self, Outcome};
+use crate::author::Author;
+use crate::verdict::{self, Outcome, Verdict};
 
 pub use axis::Axis;
 
@@ -67,12 +68,50 @@ pub struct Turn {
     pub red: Vec<String>,
 }
 
-/// Searches for the level of a disturbance at which a plan fails.
+/// Whose flights are disturbed.
+#[derive(Clone, Copy)]
+pub enum Contender<'a> {
+    /// A plan: it stays as it is.
+    Plan(&'a Plan),
+    /// Somebody who plans in the loop: he plans anew at every level.
+    InLoop(&'a Author),
+}
+
+impl Contender<'_> {
+    fn planner(&self) -> &str {
+        match self {
+            Self::Plan(plan) => &plan.planner,
+            Self::InLoop(author) => author.name(),
+        }
+    }
+
+    fn judged_in(&self, scenario: &Scenario, seed: u64) -> Verdict {
+        match self {
+            Self::Plan(plan) => {
+                let is_flyable = verdict::is_flyable(scenario, plan).is_ok();
+                let flight = is_flyable.then(|| sim::fly(scenario, plan, seed, &mut |_| {}));
+                verdict::judge(scenario, plan, flight.as_ref())
+            }
+            Self::InLoop(author) => {
+                let (plan, flight) = author.fly_in_loop(scenario, seed).expect("one who plans in the loop");
+                verdict::judge(scenario, &plan, Some(&flight))
+            }
+        }
+    }
+}
+
+/// Searches for the level of a disturbance at which a plan, or one who plans in the loop, fails.
 ///
 /// - `seed`: of gusts and noise, the same at every level
 /// - `progress`: is called before every round of flights, with the number of levels in it
-pub fn run(scenario: &Scenario, plan: &Plan, over: Axis, seed: u64, progress: &mut dyn FnMut(usize)) -> Stress {
-    let fly = |level: f64| trial(scenario, plan, over, seed, level);
+pub fn run(
+    scenario: &Scenario,
+    contender: Contender<'_>,
+    over: Axis,
+    seed: u64,
+    progress: &mut dyn FnMut(usize),
+) -> Stress {
+    let fly = |level: f64| trial(scenario, contender, over, seed, level);
     progress(1);
     let mut trials = vec![fly(0.0)];
     let mut level = over.first_step(scenario);
@@ -86,13 +125,13 @@ pub fn run(scenario: &Scenario, plan: &Plan, over: Axis, seed: u64, progress: &m
         progress(GRID);
         let levels: Vec<f64> = (1..=GRID).map(|i| end * i as f64 / GRID as f64).collect();
         trials.par_extend(levels.into_par_iter().map(fly));
-        close_in(&mut trials, &fly, progress);
+        close_in(&mut trials, over.finest(scenario), &fly, progress);
     }
     sort(&mut trials);
     Stress {
         schema: SCHEMA,
         scenario: scenario.name.clone(),
-        planner: plan.planner.clone(),
+        planner: contender.planner().to_owned(),
         over,
         unit: over.unit(),
         asked: over.level_of(scenario),
@@ -102,12 +141,12 @@ pub fn run(scenario: &Scenario, plan: &Plan, over: Axis, seed: u64, progress: &m
     }
 }
 
-/// Halves the first bracket until it is narrow enough.
-fn close_in(trials: &mut Vec<Trial>, fly: &impl Fn(f64) -> Trial, progress: &mut dyn FnMut(usize)) {
+/// Halves the first bracket until it is narrow enough, or as narrow as levels differ.
+fn close_in(trials: &mut Vec<Trial>, finest: f64, fly: &impl Fn(f64) -> Trial, progress: &mut dyn FnMut(usize)) {
     loop {
         sort(trials);
         let Some(turn) = first_turn(trials) else { return };
-        if turn.fails - turn.passes <= RESOLUTION * turn.fails {
+        if turn.fails - turn.passes <= (RESOLUTION * turn.fails).max(finest) {
             return;
         }
         progress(1);
@@ -115,11 +154,10 @@ fn close_in(trials: &mut Vec<Trial>, fly: &impl Fn(f64) -> Trial, progress: &mut
     }
 }
 
-fn trial(scenario: &Scenario, plan: &Plan, over: Axis, seed: u64, level: f64) -> Trial {
+fn trial(scenario: &Scenario, contender: Contender<'_>, over: Axis, seed: u64, level: f64) -> Trial {
     let mut disturbed = scenario.clone();
     over.set(&mut disturbed, level);
-    let flight = verdict::is_flyable(&disturbed, plan).is_ok().then(|| sim::fly(&disturbed, plan, seed, &mut |_| {}));
-    let verdict = verdict::judge(&disturbed, plan, flight.as_ref());
+    let verdict = contender.judged_in(&disturbed, seed);
     let decisive = verdict.checks.into_iter().filter(|check| check.is_bad() && !check.advisory);
     let red = decisive.map(|check| check.name).collect();
     Trial { level, passed: verdict.outcome == Outcome::Pass, red }
@@ -154,11 +192,20 @@ mod tests {
         let fly = |level: f64| trial(level, level < 6.4 || (7.0..8.0).contains(&level));
         let mut trials: Vec<Trial> = (0..=10).map(|level| fly(f64::from(level))).collect();
         trials.push(fly(6.7));
-        close_in(&mut trials, &fly, &mut |_| {});
+        close_in(&mut trials, 0.0, &fly, &mut |_| {});
         sort(&mut trials);
         let turn = first_turn(&trials).unwrap();
         assert!(turn.passes < 6.4 && 6.4 <= turn.fails && turn.fails - turn.passes <= 0.005 * turn.fails, "{turn:?}");
         assert!(!is_monotone(&trials));
+    }
+
+    #[test]
+    fn levels_that_are_the_same_are_not_told_apart() {
+        let fly = |level: f64| trial(level, (level / 0.01).round() < 7.0);
+        let mut trials = vec![fly(0.04), fly(0.08)];
+        close_in(&mut trials, 0.01, &fly, &mut |_| {});
+        let turn = first_turn(&trials).unwrap();
+        assert!(turn.fails - turn.passes < 0.01 + 1e-12 && trials.len() == 4, "{trials:?}");
     }
 
     #[test]

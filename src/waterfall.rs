@@ -7,6 +7,7 @@ use scenarios::{Mismatch, Plan, Scenario, Sensors};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::author::Author;
 use crate::verdict::{self, Given, Verdict};
 
 /// The ladder of one question.
@@ -42,12 +43,30 @@ pub fn of(scenario: &Scenario, plan: &Plan, given: &Given, seed: u64, flown: &Ve
     if verdict::is_flyable(scenario, plan).is_err() {
         return Vec::new();
     }
-    let mut rungs: Vec<(&str, Verdict)> = Vec::new();
-    for (name, scenario) in milder(scenario) {
+    let fly = |(name, scenario): (&'static str, Scenario)| {
         let flight = sim::fly(&scenario, plan, seed, &mut |_| {});
-        rungs.push((name, verdict::judge_given(&scenario, plan, given, Some(&flight))));
+        (name, verdict::judge_given(&scenario, plan, given, Some(&flight)))
+    };
+    let flights: Vec<(&str, Verdict)> = milder(scenario).into_iter().map(fly).collect();
+    let from = [("nodes", "nodes", flown), ("between the nodes", "plan", flown)];
+    QUESTIONS.into_iter().filter_map(|question| ladder(question, &from, &flights, flown)).collect()
+}
+
+/// The ladders of a flight that was planned while it lasted. On every rung it is planned anew; the first one is what was
+/// followed in the mildest flight, as if it had been a plan before.
+///
+/// Empty for one who plans ahead.
+pub fn in_the_loop(scenario: &Scenario, author: &Author, seed: u64, flown: &Verdict) -> Vec<Waterfall> {
+    let mut followed = None;
+    let mut flights: Vec<(&str, Verdict)> = Vec::new();
+    for (name, scenario) in milder(scenario) {
+        let Some((plan, flight)) = author.fly_in_loop(&scenario, seed) else { return Vec::new() };
+        followed.get_or_insert_with(|| verdict::judge(&scenario, &plan, None));
+        flights.push((name, verdict::judge(&scenario, &plan, Some(&flight))));
     }
-    QUESTIONS.into_iter().filter_map(|question| ladder(question, &rungs, flown)).collect()
+    let Some(followed) = &followed else { return Vec::new() };
+    let from = [("followed", "plan", followed)];
+    QUESTIONS.into_iter().filter_map(|question| ladder(question, &from, &flights, flown)).collect()
 }
 
 /// The scenario with one disturbance after the other put back, the last one aside: that is the scenario itself. What it does
@@ -66,13 +85,24 @@ fn milder(scenario: &Scenario) -> Vec<(&'static str, Scenario)> {
         calm.simulation.wind = scenario.simulation.wind.clone();
         rungs.push(("wind", calm.clone()));
     }
+    if calm.simulation.sensors.delay_s != scenario.simulation.sensors.delay_s {
+        calm.simulation.sensors.delay_s = scenario.simulation.sensors.delay_s;
+        rungs.push(("delay", calm.clone()));
+    }
     if calm.simulation.sensors != scenario.simulation.sensors {
         rungs.push(("noise", scenario.clone()));
     }
     rungs
 }
 
-fn ladder(question: &str, flights: &[(&str, Verdict)], flown: &Verdict) -> Option<Waterfall> {
+/// - `from`: the first rungs: their names, the groups of checks that answer them, and whose
+/// - `flights`: the rungs above, from mild to wild
+fn ladder(
+    question: &str,
+    from: &[(&str, &str, &Verdict)],
+    flights: &[(&str, Verdict)],
+    flown: &Verdict,
+) -> Option<Waterfall> {
     let check = |verdict: &Verdict, group: &str| {
         let name = format!("{group}.{question}");
         verdict
@@ -81,14 +111,13 @@ fn ladder(question: &str, flights: &[(&str, Verdict)], flown: &Verdict) -> Optio
             .find(|check| check.name == name)
             .and_then(|check| Some((check.margin?, check.unit.clone())))
     };
-    let (at_nodes, unit) = check(flown, "nodes")?;
-    let mut margins = vec![("nodes", at_nodes), ("between the nodes", check(flown, "plan")?.0)];
-    for (name, verdict) in flights {
-        margins.push((name, check(verdict, "flight")?.0));
-    }
+    let unit = check(flown, "flight")?.1;
+    let planned = from.iter().map(|(name, group, verdict)| Some((*name, check(verdict, group)?.0)));
+    let flights = flights.iter().map(|(name, verdict)| Some((*name, check(verdict, "flight")?.0)));
+    let mut margins: Vec<(&str, f64)> = planned.chain(flights).collect::<Option<_>>()?;
     // The last rung is the flight itself, not one that should be the same.
     margins.last_mut()?.1 = check(flown, "flight")?.0;
-    let mut before = at_nodes;
+    let mut before = margins.first()?.1;
     let rungs = margins.into_iter().map(|(name, margin)| {
         let change = margin - before;
         before = margin;
@@ -99,8 +128,26 @@ fn ladder(question: &str, flights: &[(&str, Verdict)], flown: &Verdict) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use super::{QUESTIONS, of};
+    use super::{QUESTIONS, in_the_loop, of};
+    use crate::author::Author;
     use crate::verdict::{Given, judge};
+
+    #[test]
+    fn a_flight_that_is_planned_while_it_lasts_has_a_ladder_too() {
+        let text = include_str!("../scenarios/multirotor/paper-map-gusts.toml");
+        let scenario = scenarios::parse("paper-map-gusts.toml", text).unwrap();
+        let author = Author::Registered(planners::find(&scenario.planner.name).unwrap());
+        let (plan, flight) = author.fly_in_loop(&scenario, 1).unwrap();
+        let verdict = judge(&scenario, &plan, Some(&flight));
+        let ladders = in_the_loop(&scenario, &author, 1, &verdict);
+        let [ladder] = ladders.as_slice() else { panic!("one vehicle has no separation: {ladders:?}") };
+        let names: Vec<&str> = ladder.rungs.iter().map(|rung| rung.name.as_str()).collect();
+        assert_eq!(names, ["followed", "tracking", "model", "wind", "noise"]);
+        let flown = verdict.checks.iter().find(|check| check.name == "flight.clearance").unwrap();
+        assert_eq!(Some(ladder.rungs[4].margin), flown.margin);
+        let sum: f64 = ladder.rungs.iter().map(|rung| rung.change).sum();
+        assert!((ladder.rungs[0].margin + sum - ladder.rungs[4].margin).abs() < 1e-12, "{ladder:?}");
+    }
 
     #[test]
     fn the_terms_add_up_and_the_ends_are_those_of_the_verdict() {

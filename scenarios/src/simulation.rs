@@ -100,7 +100,8 @@ pub struct Gusts {
     pub sigma_aloft_mps: f64,
 }
 
-/// Standard deviations of the white noise on what the tracker measures, per axis. Zero: the truth.
+/// What is wrong with what the tracker measures: standard deviations of its white noise, per axis, and its age. Zero: the
+/// truth, at once.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensors {
@@ -116,6 +117,9 @@ pub struct Sensors {
     pub load_position_noise_m: f64,
     /// Velocity of a slung load, m/s.
     pub load_velocity_noise_mps: f64,
+    /// Age of what a vehicle measures of itself and of its load when its tracker (or planner) gets it, s, rounded to steps of
+    /// the simulator. The tracker does not know of it, and takes it for now.
+    pub delay_s: f64,
     /// Position of moving obstacles and of other vehicles, m.
     pub sighting_position_noise_m: f64,
     /// Velocity of moving obstacles and of other vehicles, m/s.

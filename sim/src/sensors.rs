@@ -1,3 +1,5 @@
+use std::collections::VecDeque;
+
 use nalgebra::{UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -76,6 +78,30 @@ impl Sensors {
     }
 }
 
+/// Hands on what was measured a while ago; in the beginning, the first that there was.
+#[derive(Clone, Debug)]
+pub(crate) struct Delay<T> {
+    steps: usize,
+    under_way: VecDeque<T>,
+}
+
+impl<T: Copy> Delay<T> {
+    /// By so much time, s, in steps of the simulator.
+    pub fn new(delay_s: f64, step_s: f64) -> Self {
+        Self { steps: (delay_s / step_s).round() as usize, under_way: VecDeque::new() }
+    }
+
+    /// Takes what is measured now, once per step, and returns what the vehicle gets to know now.
+    pub fn pass(&mut self, measured: T) -> T {
+        self.under_way.push_back(measured);
+        let oldest = self.under_way[0];
+        if self.under_way.len() > self.steps {
+            self.under_way.pop_front();
+        }
+        oldest
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,5 +131,13 @@ mod tests {
         let mut sensors = Sensors::new(&scenarios::Sensors::default(), scenarios::stream(0, "sensors/test"));
         let (p, v) = (Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, 5.0, 6.0));
         assert_eq!(sensors.measure(p, v), Measurement { position_m: p, velocity_mps: v });
+    }
+
+    #[test]
+    fn what_is_late_comes_in_order_and_nothing_is_lost() {
+        let mut delay = Delay::new(0.021, 0.01);
+        assert_eq!([1, 2, 3, 4, 5].map(|value| delay.pass(value)), [1, 1, 1, 2, 3]);
+        let mut none = Delay::new(0.0, 0.01);
+        assert_eq!([1, 2, 3].map(|value| none.pass(value)), [1, 2, 3]);
     }
 }

@@ -1,18 +1,19 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenarios::PlanStatus;
+use scenarios::{Plan, PlanStatus};
 
 use super::run::AuthorArgs;
 use crate::error::{Error, Exit};
+use crate::jobs::Job;
 use crate::notation::{number, quantity};
 use crate::progress::Progress;
-use crate::stress::{self, Axis, Stress};
+use crate::stress::{self, Axis, Contender, Stress};
 use crate::{jobs, output, pipeline};
 
 /// Find the disturbance at which the verdict turns.
 ///
-/// The scenario is planned once; then the plan is flown with a disturbance that grows until a flight fails. Levels up to
+/// The scenario is planned once (in the loop: for every flight); then it is flown with a disturbance that grows until a flight fails. Levels up to
 /// beyond the first failure are tried, so that a response which is not monotone is noticed and said. The exit code is 1 if
 /// the plan fails without any disturbance of the kind.
 #[derive(Args, Debug)]
@@ -40,7 +41,7 @@ pub struct StressCommand {
 const EXAMPLES: &str = "\
 Examples:
   harness stress scenarios/fixed-wing/rendezvous-7-wind.toml --over wind
-  harness stress scenarios/slung/rectangle.toml --over wind,mass,noise
+  harness stress scenarios/slung/rectangle.toml --over wind,mass,delay,noise
 
 Results:
   out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and where the verdict turns";
@@ -54,19 +55,18 @@ impl StressCommand {
             return Err(refusal.error);
         }
         let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
-        let mut progress = Progress::new(job, 1, 1, self.quiet);
-        let plan = pipeline::plan(job, &mut progress).answer.plan;
-        progress.finish();
-        if plan.status == PlanStatus::NoPlan {
+        let plan = (!job.author.plans_in_the_loop()).then(|| self.planned(job));
+        if let Some(plan) = plan.as_ref().filter(|plan| plan.status == PlanStatus::NoPlan) {
             output::tell(&format!("no plan: {}", plan.reason.as_deref().unwrap_or("the planner gives no reason")));
             return Ok(Exit::Failed);
         }
+        let contender = plan.as_ref().map_or(Contender::InLoop(&job.author), Contender::Plan);
         let folder = self.out.join(&job.scenario.name).join(job.author.name());
         output::create_folder(&folder)?;
         let mut exit = Exit::Passed;
         for &over in &self.over {
             let mut flown = 0;
-            let stress = stress::run(&job.scenario, &plan, over, job.seed, &mut |count| flown += count);
+            let stress = stress::run(&job.scenario, contender, over, job.seed, &mut |count| flown += count);
             output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
             if !self.quiet {
                 output::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;
@@ -77,13 +77,20 @@ impl StressCommand {
         }
         Ok(exit)
     }
+
+    fn planned(&self, job: &Job) -> Plan {
+        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let plan = pipeline::plan(job, &mut progress).answer.plan;
+        progress.finish();
+        plan
+    }
 }
 
 /// The result in one line.
 fn in_words(stress: &Stress) -> String {
     let level = |level: f64| match stress.over {
         Axis::Mass => format!("{:+.1} %", 100.0 * level),
-        Axis::Wind | Axis::Noise => quantity(level, stress.unit),
+        Axis::Wind | Axis::Delay | Axis::Noise => quantity(level, stress.unit),
     };
     let what = name(stress.over);
     let asked = format!("the scenario has {}", level(stress.asked));
@@ -105,6 +112,7 @@ fn name(over: Axis) -> &'static str {
     match over {
         Axis::Wind => "wind",
         Axis::Mass => "mass",
+        Axis::Delay => "delay",
         Axis::Noise => "noise",
     }
 }

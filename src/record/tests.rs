@@ -57,7 +57,7 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
         timings: PlanTimings::default(),
     };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };
-    look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict });
+    look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[] });
 }
 
 #[test]

@@ -154,7 +154,8 @@ fn waterfall_line(waterfall: &Waterfall) -> String {
     let terms: Vec<String> =
         rungs[1..].iter().map(|rung| format!("{} {}", rung.name, signed(rung.change, unit))).collect();
     let [first, last] = [first, last].map(|rung| signed_quantity(rung.margin, unit));
-    format!("margin of {question}: {first} at the nodes; {}; {last} flown", terms.join("; "))
+    let where_first = if rungs[0].name == "nodes" { "at the nodes" } else { &rungs[0].name };
+    format!("margin of {question}: {first} {where_first}; {}; {last} flown", terms.join("; "))
 }
 
 fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {

@@ -128,9 +128,10 @@ fn multirotor() -> Vec<NearMiss> {
     ]
 }
 
-/// What is left between a vehicle and a pole that it just clears, m: what is known of the flight between its samples.
+/// What is left between a vehicle and a pole that it just clears, m: the resolution of the search, and what is known of the
+/// flight between its samples.
 fn distance_m(it: &Specimen) -> f64 {
-    NEAR_M + 10.0 * it.value("flight.dynamics")
+    2e-4 + 10.0 * it.value("flight.dynamics")
 }
 
 fn in_the_loop(specimen: &Specimen) -> Vec<NearMiss> {

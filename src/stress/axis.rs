@@ -10,6 +10,8 @@ pub enum Axis {
     Wind,
     /// True mass beyond the nominal one, as a share of it; of a slung load too
     Mass,
+    /// Age of what the tracker measures when it gets it, in steps of the simulator
+    Delay,
     /// Standard deviation of the measured position; all other noise grows with it
     Noise,
 }
@@ -20,6 +22,7 @@ impl Axis {
         match self {
             Self::Wind => "m/s",
             Self::Mass => "-",
+            Self::Delay => "s",
             Self::Noise => "m",
         }
     }
@@ -30,6 +33,7 @@ impl Axis {
         match self {
             Self::Wind => simulation.wind.as_ref().map_or(0.0, mean_speed_mps),
             Self::Mass => simulation.mismatch.mass_ratio - 1.0,
+            Self::Delay => simulation.sensors.delay_s,
             Self::Noise => simulation.sensors.position_noise_m,
         }
     }
@@ -39,6 +43,7 @@ impl Axis {
         match (self, scenario.family()) {
             (Self::Wind, _) => 1.0,
             (Self::Mass, _) => 0.02,
+            (Self::Delay, _) => scenario.simulation.step_s,
             (Self::Noise, Family::FixedWing) => 0.25,
             (Self::Noise, Family::SlungLoad | Family::Multirotor) => 0.002,
         }
@@ -49,7 +54,16 @@ impl Axis {
         match self {
             Self::Wind => 64.0,
             Self::Mass => 4.0,
+            Self::Delay => 10.0,
             Self::Noise => 1000.0 * self.first_step(scenario),
+        }
+    }
+
+    /// Levels closer to each other than this are the same.
+    pub fn finest(self, scenario: &Scenario) -> f64 {
+        match self {
+            Self::Delay => scenario.simulation.step_s,
+            Self::Wind | Self::Mass | Self::Noise => 0.0,
         }
     }
 
@@ -65,6 +79,7 @@ impl Axis {
                 simulation.mismatch.mass_ratio = 1.0 + level;
                 simulation.mismatch.load_mass_ratio = 1.0 + level;
             }
+            Self::Delay => simulation.sensors.delay_s = level,
             Self::Noise => {
                 let sensors = &mut simulation.sensors;
                 let factor = if sensors.position_noise_m > 0.0 { level / sensors.position_noise_m } else { 0.0 };

@@ -87,6 +87,7 @@ fn largest_sigma_mps(gusts: &Gusts) -> f64 {
 
 fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
     let asked = &scenario.simulation.sensors;
+    let late = (asked.delay_s / scenario.simulation.step_s).round() as usize;
     let vehicle = |of: fn(&Sample) -> [[f64; 3]; 2]| log.samples.iter().map(of).collect::<Vec<_>>();
     let load = |of: fn(&sim::LoadSample) -> [[f64; 3]; 2]| log.loads.iter().map(of).collect::<Vec<_>>();
     let series = [
@@ -95,24 +96,39 @@ fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
         ("load's position", asked.load_position_noise_m, load(|it| [it.measured_position_m, it.position_m])),
         ("load's velocity", asked.load_velocity_noise_mps, load(|it| [it.measured_velocity_mps, it.velocity_mps])),
     ];
-    series.iter().find_map(|(what, sigma, pairs)| noise_defect(what, *sigma, pairs))
+    series.iter().find_map(|(what, sigma, pairs)| {
+        let errors = errors(pairs, late);
+        // Of noise, what is said again and again in the beginning says nothing new.
+        let told = if *sigma == 0.0 { &errors } else { errors.get(late..).unwrap_or_default() };
+        noise_defect(what, *sigma, told)
+    })
+}
+
+/// What measurements are off by, each against the truth of so many samples before; those of the beginning, when nothing
+/// could be known yet, against the first.
+fn errors(pairs: &[[[f64; 3]; 2]], late: usize) -> Vec<[f64; 3]> {
+    let error = |(index, [measured, _]): (usize, &[[f64; 3]; 2])| {
+        let [_, truth] = pairs[index.saturating_sub(late)];
+        std::array::from_fn(|axis| measured[axis] - truth[axis])
+    };
+    pairs.iter().enumerate().map(error).collect()
 }
 
 /// Do measurements differ from the truth as noise of this standard deviation does? Without noise they are the truth.
-fn noise_defect(what: &str, sigma: f64, pairs: &[[[f64; 3]; 2]]) -> Option<String> {
-    let errors = pairs.iter().flat_map(|[measured, truth]| (0..3).map(move |axis| measured[axis] - truth[axis]));
+fn noise_defect(what: &str, sigma: f64, errors: &[[f64; 3]]) -> Option<String> {
+    let count = 3 * errors.len();
+    let errors = errors.iter().copied().flatten();
     let largest =
         errors.clone().fold(0.0, |worst: f64, error| if exceeds(error.abs(), worst) { error.abs() } else { worst });
     if sigma == 0.0 {
         return (largest != 0.0).then(|| format!("the measured {what} is off by {largest:.3e}, without noise"));
     }
-    if pairs.is_empty() {
+    if count == 0 {
         return None;
     }
     if largest == 0.0 {
         return Some(format!("the measured {what} is the true one, although the scenario asks for noise"));
     }
-    let count = 3 * pairs.len();
     let estimate = (errors.map(|error| error * error).sum::<f64>() / count as f64).sqrt();
     let tolerance = WILDEST_ESTIMATE / (2.0 * count as f64).sqrt();
     let is_off = exceeds((estimate / sigma - 1.0).abs(), tolerance);

@@ -1,6 +1,7 @@
 //! Do airframes touch each other or an obstacle?
 
-use scenarios::Scenario;
+use scenarios::{Family, Scenario};
+use sim::multirotor::Surroundings;
 
 use crate::verdict::closest::{self, Approach};
 use crate::verdict::motion::Motion;
@@ -20,6 +21,9 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
     if let Some(touch) = closest::overlap(motions, &radii_m).filter(is_touch) {
         return Some(crash(&touch).with(name(touch.who[1])));
     }
+    if scenario.family() == Family::Multirotor {
+        return sampled(scenario, motions);
+    }
     let cylinders = &scenario.world.cylinders;
     let entered = motions.iter().zip(&radii_m).enumerate().find_map(|(vehicle, (motion, radius_m))| {
         let nearest = closest::to_cylinders(std::slice::from_ref(motion), cylinders)?;
@@ -27,4 +31,18 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
         is_touch(&touch).then_some(touch)
     })?;
     Some(crash(&entered).with(&cylinders[entered.who[1]].name))
+}
+
+/// The first sample of a multirotor inside an obstacle, one that moves included. What lies between two samples is a matter
+/// for the clearance.
+fn sampled(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
+    let surroundings = Surroundings::of(&scenario.world);
+    scenario.vehicles.iter().zip(motions).find_map(|(vehicle, motion)| {
+        let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
+        motion.knots().iter().find_map(|knot| {
+            let distance_m = |obstacle| surroundings.distance_m(obstacle, knot.t_s, knot.position_m) - radius_m;
+            let entered = (0..surroundings.count()).find(|obstacle| distance_m(*obstacle) < -GRAZE_M)?;
+            Some(Measured::value(1.0).at(knot.t_s).with(&vehicle.name).with(surroundings.name(entered)))
+        })
+    })
 }

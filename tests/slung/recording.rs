@@ -9,7 +9,13 @@ use crate::case::Case;
 fn recorded(case: &Case) -> u64 {
     let folder = tempfile::tempdir().unwrap();
     let verdict = case.judge();
-    let run = Run { scenario: &case.scenario, plan: &case.plan, flight: case.flight.as_ref(), verdict: &verdict };
+    let run = Run {
+        scenario: &case.scenario,
+        plan: &case.plan,
+        flight: case.flight.as_ref(),
+        verdict: &verdict,
+        waterfall: &[],
+    };
     let path = record(&Rrd, &run, folder.path()).unwrap();
     std::fs::metadata(path).unwrap().len()
 }

@@ -1,6 +1,11 @@
 //! Names end up in paths, tables and CSV files, so they are plain words.
 
+use std::collections::HashMap;
+
 use crate::Problem;
+
+/// Longest name: every system takes files of this name, with what results add to it, and tables stay readable.
+const LONGEST_NAME: usize = 64;
 
 /// A scenario's name: lower case letters, digits and `-`.
 pub(super) fn scenario_name(name: &str) -> Option<Problem> {
@@ -16,21 +21,28 @@ pub(super) fn entity_name(field: &str, name: &str) -> Option<Problem> {
 
 fn well_formed(field: &str, name: &str, is_allowed: impl Fn(char) -> bool, expected: &str) -> Option<Problem> {
     let is_good = name.starts_with(|c: char| c.is_ascii_alphanumeric()) && name.chars().all(is_allowed);
-    (!is_good).then(|| Problem::new(field, format!("\"{name}\""), expected))
+    if !is_good {
+        return Some(Problem::new(field, format!("\"{name}\""), expected));
+    }
+    let length = name.len();
+    (length > LONGEST_NAME).then(|| {
+        let found = format!("a name of {length} characters");
+        Problem::new(field, found, format!("{LONGEST_NAME} characters at most")).remedy("shorten it")
+    })
 }
 
 /// Problems with a list of things that need names of their own: `list[i].name`.
 pub(super) fn entity_names<'n>(list: &str, names: impl IntoIterator<Item = &'n str>) -> Vec<Problem> {
     let mut problems = Vec::new();
-    let mut seen: Vec<&str> = Vec::new();
+    let mut seen: HashMap<&str, usize> = HashMap::new();
     for (index, name) in names.into_iter().enumerate() {
         let field = format!("{list}[{index}].name");
         problems.extend(entity_name(&field, name));
-        if let Some(first) = seen.iter().position(|other| *other == name) {
+        if let Some(first) = seen.get(name) {
             let expected = format!("a name of its own; {list}[{first}] has this one already");
             problems.push(Problem::new(field, format!("\"{name}\""), expected).remedy("rename one of the two"));
         }
-        seen.push(name);
+        seen.entry(name).or_insert(index);
     }
     problems
 }

@@ -5,6 +5,8 @@ use crate::{GustPulse, Gusts, Planning, PlanningClock, Problem, Simulation};
 
 /// Longest step that the simulator takes, s.
 const LONGEST_STEP_S: f64 = 0.1;
+/// Most steps of a flight: more than a day at the default step, and as many as a log can hold.
+const MOST_STEPS: f64 = 1e7;
 
 pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
     let tracker = &simulation.tracker;
@@ -22,13 +24,25 @@ pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
         not_negative("simulation.sensors.load_velocity_noise_mps", simulation.sensors.load_velocity_noise_mps),
         not_negative("simulation.sensors.sighting_position_noise_m", simulation.sensors.sighting_position_noise_m),
         not_negative("simulation.sensors.sighting_velocity_noise_mps", simulation.sensors.sighting_velocity_noise_mps),
+        not_negative("simulation.sensors.delay_s", simulation.sensors.delay_s),
         positive("simulation.mismatch.mass_ratio", simulation.mismatch.mass_ratio),
         positive("simulation.mismatch.load_mass_ratio", simulation.mismatch.load_mass_ratio),
         not_negative("simulation.mismatch.start_radius_m", simulation.mismatch.start_radius_m),
     ];
+    let steps = too_many_steps(simulation);
     let gusts = simulation.wind.iter().flat_map(|wind| &wind.gusts).flat_map(gusts);
     let pulses = simulation.wind.iter().flat_map(|wind| wind.pulses.iter().enumerate()).flat_map(pulse);
-    rules.into_iter().flatten().chain(gusts).chain(pulses).chain(planning(simulation)).collect()
+    rules.into_iter().flatten().chain(steps).chain(gusts).chain(pulses).chain(planning(simulation)).collect()
+}
+
+fn too_many_steps(simulation: &Simulation) -> Option<Problem> {
+    let Simulation { step_s, max_duration_s, .. } = simulation;
+    let steps = max_duration_s / step_s;
+    (*step_s > 0.0 && *max_duration_s > 0.0 && steps > MOST_STEPS).then(|| {
+        let found = format!("{max_duration_s} s, {steps:.1e} steps of {step_s} s");
+        Problem::new("simulation.max_duration_s", found, format!("{MOST_STEPS:.0} steps at most"))
+            .remedy("take longer steps, or a shorter flight")
+    })
 }
 
 fn pulse((index, pulse): (usize, &GustPulse)) -> Vec<Problem> {

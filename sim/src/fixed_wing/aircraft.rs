@@ -6,7 +6,7 @@ use super::tracker::{Tracker, saturated};
 use super::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
 use crate::air::Air;
 use crate::saturation::SaturationWatch;
-use crate::sensors::{Measurement, Sensors};
+use crate::sensors::{Delay, Measurement, Sensors};
 use crate::{Actuation, Commanded, EventKind, Pilot, Sample, VehicleLog};
 
 /// One aircraft of the fleet: everything about it but its body.
@@ -16,6 +16,7 @@ pub(crate) struct Aircraft {
     pilot: Pilot,
     tracker: Tracker,
     sensors: Sensors,
+    delay: Delay<Measurement>,
     air: Air,
     step_s: f64,
     /// Load factors that act during the coming step.
@@ -47,6 +48,7 @@ impl Aircraft {
             pilot,
             tracker: Tracker::new(&settings.tracker, settings.step_s),
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
+            delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
             step_s: settings.step_s,
             control: Control::CRUISE,
@@ -104,7 +106,7 @@ impl Aircraft {
 
     /// Measures, decides on the control of the coming step, and logs. `position_m`, `velocity_mps`: the truth at `t_s`.
     pub fn decide(&mut self, t_s: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
-        let measured = self.sensors.measure(position_m, velocity_mps);
+        let measured = self.delay.pass(self.sensors.measure(position_m, velocity_mps));
         let reference = self.reference.at(t_s);
         let command = self.command(t_s, &measured, &reference);
         self.control = saturated(command, &self.model.limits);

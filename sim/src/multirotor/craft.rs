@@ -8,7 +8,7 @@ use crate::air::{Air, drag_n};
 use crate::quadrotor::Turning;
 use crate::rapier_world::RapierWorld;
 use crate::saturation::SaturationWatch;
-use crate::sensors::{Measurement, Sensors};
+use crate::sensors::{Delay, Measurement, Sensors};
 use crate::{Actuation, Commanded, EventKind, Sample, VehicleLog};
 
 /// One multirotor: everything about it but its body.
@@ -19,6 +19,8 @@ pub(super) struct Craft {
     /// Of a quadrotor.
     autopilot: Option<Autopilot>,
     sensors: Sensors,
+    delay: Delay<Measurement>,
+    turning_delay: Delay<Turning>,
     air: Air,
     step_s: f64,
     /// Acceleration that was decided on, m/s²: that of a point mass acts during the coming step.
@@ -66,6 +68,8 @@ impl Craft {
             tracker: Tracker::new(&settings.tracker),
             autopilot,
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
+            delay: Delay::new(settings.sensors.delay_s, settings.step_s),
+            turning_delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
             step_s: settings.step_s,
             acceleration_mps2: Vector3::zeros(),
@@ -87,9 +91,9 @@ impl Craft {
         Truth { position_m: world.position_m(self.index), velocity_mps: world.velocity_mps(self.index), turning }
     }
 
-    /// The body as its sensors have it.
+    /// The body as its sensors have it, once per step.
     pub fn measure(&mut self, truth: &Truth) -> Measurement {
-        self.sensors.measure(truth.position_m, truth.velocity_mps)
+        self.delay.pass(self.sensors.measure(truth.position_m, truth.velocity_mps))
     }
 
     /// Decides on the control of the coming step, and logs. Returns an event with its time, s, if there is one.
@@ -113,7 +117,7 @@ impl Craft {
         let actuation = match &self.autopilot {
             None => Actuation::Acceleration(Commanded { command: wanted_mps2.into(), control: limited.into() }),
             Some(autopilot) => {
-                let turning = self.sensors.measure_turning(&truth.turning);
+                let turning = self.turning_delay.pass(self.sensors.measure_turning(&truth.turning));
                 let [command_n, limited_n] = autopilot.thrusts_n(&turning, &wanted_mps2, &limited);
                 self.command_n = limited_n;
                 let control = |thrust_n: Vector4<f64>| slung_load::Control { thrust_n: thrust_n.into() };

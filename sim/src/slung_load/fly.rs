@@ -11,7 +11,7 @@ use super::tracker::{Thrusts, Tracker};
 use crate::air::{Air, drag_n};
 use crate::rapier_world::{Hoist, Loads};
 use crate::saturation::SaturationWatch;
-use crate::sensors::Sensors;
+use crate::sensors::{Delay, Sensors};
 use crate::{Actuation, Commanded, Event, EventKind, LoadSample, Pilot, Sample, Setup, VehicleLog, start};
 
 /// Longest step of the plant, s: an ordinary step of the simulator, for which a command is held, is divided into such.
@@ -50,6 +50,7 @@ struct Sortie {
     pilot: Pilot,
     tracker: Tracker,
     sensors: Sensors,
+    delay: Delay<Body>,
     air: Air,
     obstacles: Vec<Prism>,
     parts: Parts,
@@ -93,6 +94,7 @@ impl Sortie {
             hoist: Hoist::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
             tracker: Tracker::new(&reference, &nominal, model.limits.thrust_n, settings.step_s),
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
+            delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
             obstacles: scenario.world.flat_obstacles(),
             parts: Parts::of(&model),
@@ -137,7 +139,7 @@ impl Sortie {
     /// Measures, decides on the thrusts of the coming step, and logs.
     fn decide(&mut self, t_s: f64) -> Vector4<f64> {
         let truth = self.hoist.body();
-        let measured = self.sensors.measure_slung_load(&truth);
+        let measured = self.delay.pass(self.sensors.measure_slung_load(&truth));
         let reference = self.reference.at(t_s);
         let ahead = self.reference.at(t_s + self.step_s / 2.0);
         let thrusts = match self.pilot {

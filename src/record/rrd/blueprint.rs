@@ -21,6 +21,8 @@ type Error = Box<dyn std::error::Error + Send + Sync>;
 pub enum ViewClass {
     /// Space.
     Spatial3D,
+    /// A drawing.
+    Spatial2D,
     /// Scalars over time.
     TimeSeries,
     /// A text log.
@@ -33,6 +35,7 @@ impl ViewClass {
     fn identifier(self) -> &'static str {
         match self {
             Self::Spatial3D => "3D",
+            Self::Spatial2D => "2D",
             Self::TimeSeries => "TimeSeries",
             Self::TextLog => "TextLog",
             Self::TextDocument => "TextDocument",

@@ -34,6 +34,9 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
     let layout = Blueprint::new()?;
     let left = layout.rows("", &[(world(&layout, run.scenario)?, 3.4), (events(&layout)?, 1.0)])?;
     let mut tabs = vec![verdict(&layout, run, distances)?];
+    if !run.waterfall.is_empty() {
+        tabs.push(layout.view(ViewClass::Spatial2D, "Margins", "/margins", &["$origin/**".to_owned()])?);
+    }
     if let Some(flight) = run.flight {
         use Quantity::{Airspeed, Altitude, Nx, Ny, Nz};
         match run.scenario.family() {

@@ -28,6 +28,11 @@ pub fn faults() -> Vec<Fault> {
             quieter.simulation.sensors.position_noise_m /= 2.0;
             it.fly_in(&quieter);
         }),
+        Fault::new("flight.conditions", "the measurements came later than the scenario says", |it| {
+            let mut late = it.scenario.clone();
+            late.simulation.sensors.delay_s += 0.05;
+            it.fly_in(&late);
+        }),
         Fault::new("flight.dynamics", "the true mass was the nominal one", |it| {
             let mut nominal = it.scenario.clone();
             nominal.simulation.mismatch = scenarios::Mismatch::default();

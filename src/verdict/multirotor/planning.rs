@@ -51,7 +51,8 @@ pub fn defect(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Option<Strin
         let defect = turns
             .order_defect(&answers, first_s, end_s)
             .or_else(|| answers.iter().find_map(|replan| turns.answer_defect(replan)))
-            .or_else(|| unfollowed(&answers, followed, turns.step_s));
+            .or_else(|| unfollowed(&answers, followed, turns.step_s))
+            .or_else(|| end_defect(followed, flight.plan_end_s));
         defect.map(|defect| format!("{}: {defect}", followed.vehicle))
     };
     plan.trajectories.iter().enumerate().find_map(of_vehicle).or_else(|| untold(flight, log))
@@ -160,6 +161,13 @@ fn unfollowed(answers: &[&Replan], followed: &Trajectory, step_s: f64) -> Option
         }
     }
     None
+}
+
+/// Does what was followed end with the flight? What comes after it is nobody's plan.
+fn end_defect(followed: &Trajectory, end_s: f64) -> Option<String> {
+    let last_s = *followed.times_s.last()?;
+    exceeds((last_s - end_s).abs(), ROUNDING_S)
+        .then(|| format!("what it followed ends at {last_s:.3} s, and the planned part of the flight at {end_s:.3} s"))
 }
 
 /// The answers that came into force: a new one takes the place of one that still waits for its instant.

@@ -31,7 +31,13 @@ impl Synthetic {
     }
 
     pub fn run(&self) -> super::Run<'_> {
-        super::Run { scenario: &self.scenario, plan: &self.plan, flight: Some(&self.flight), verdict: &self.verdict }
+        super::Run {
+            scenario: &self.scenario,
+            plan: &self.plan,
+            flight: Some(&self.flight),
+            verdict: &self.verdict,
+            waterfall: &[],
+        }
     }
 
     pub fn trajectory(&mut self, vehicle: usize) -> &mut fixed_wing::Trajectory {

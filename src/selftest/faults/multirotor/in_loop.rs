@@ -71,7 +71,7 @@ fn answers() -> Vec<Fault> {
         Fault::new("flight.conditions", "the plan that is reported is not the one that was followed", |it| {
             it.multirotor(0).states.iter_mut().for_each(|state| state.position_m[2] += 5e-3);
         }),
-        Fault::new("flight.complete", "the plan that is reported ends before the flight did", |it| {
+        Fault::new("flight.conditions", "the plan that is reported ends before the flight did", |it| {
             let trajectory = it.multirotor(0);
             let kept = trajectory.times_s.len() * 3 / 4;
             trajectory.times_s.truncate(kept);

@@ -12,7 +12,9 @@ const DELAY_S: f64 = 0.1;
 pub fn faults() -> Vec<Fault> {
     vec![
         Fault::new("flight.clearance", "a cart that crosses comes later than it was seen", |it| delay(it, 0)),
-        Fault::new("flight.clearance", "the cart that comes the other way is late", |it| delay(it, 3)),
+        Fault::new("flight.clearance", "a cart that crosses at the end comes later than it was seen", |it| {
+            delay(it, 2);
+        }),
         Fault::new("flight.crash", "a cart drove into a vehicle, and the log tells of no crash", |it| delay(it, 1)),
         Fault::new(
             "flight.clearance",
