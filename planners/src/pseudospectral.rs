@@ -16,6 +16,7 @@ mod layout;
 mod mesh;
 mod motion;
 mod polynomial;
+mod products;
 mod programme;
 mod radau;
 mod refinement;

@@ -14,6 +14,7 @@ mod optimise;
 mod planner;
 mod polygon;
 mod problem;
+mod pull;
 mod question;
 mod rotation;
 mod route;

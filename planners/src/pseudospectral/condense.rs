@@ -237,6 +237,7 @@ impl Stages {
     /// ```text
     /// Σ_k D_ki y_k - η G_i^T y_i = g_i,     G = [0 1; A^q A^v]       <=>       y_k = Σ_i Ã_ik (g_i + η G_i^T y_i)
     /// ```
+    #[inline(always)]
     pub fn adjoint(&mut self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], y: &mut [f64]) {
         let d = self.dimensions;
         let (n, nq, nn) = (d.order, d.coordinates, d.essential());
@@ -259,6 +260,7 @@ impl Stages {
     }
 
     /// One evaluation of the right-hand sides, with the multipliers of the accelerations that `work` holds.
+    #[inline(always)]
     fn adjoint_pass(&self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], work: &mut Adjoint, y: &mut [f64]) {
         let d = self.dimensions;
         let (n, nq, width) = (d.order, d.coordinates, d.width());
@@ -286,6 +288,7 @@ impl Stages {
     }
 
     /// Σ_k Ã_ik r_k for one component: what the defects' right-hand sides force at point i + 1.
+    #[inline(always)]
     pub fn forced(&self, i: usize, component: usize, residuals: &[f64]) -> f64 {
         let states = self.dimensions.states();
         (0..self.dimensions.order).map(|k| self.unit_weight(i, k) * residuals[k * states + component]).sum()

@@ -8,6 +8,7 @@ impl Segment {
     /// Backward pass of a right-hand side: `gradient` of the node vectors (the negative of the right-hand side's first
     /// block), `residuals` of the defects (its second). `next.vector` must be set; writes the vector of the cost-to-go at
     /// the segment's beginning.
+    #[inline(always)]
     pub fn backward(&mut self, nodes: &Nodes, gradient: &[f64], residuals: &[f64], before: &mut [f64]) {
         let d = self.dimensions;
         let (n, nq, states, node_width, w) = (d.order, d.coordinates, d.states(), d.width(), self.width);
@@ -58,6 +59,7 @@ impl Segment {
         before.copy_from_slice(&self.vector[x..x + states + d.parameters]);
     }
 
+    #[inline(always)]
     fn add_next_vector(&mut self) {
         let d = self.dimensions;
         let (w, nq, states, p) = (self.width, d.coordinates, d.states(), self.parameter());
@@ -78,6 +80,7 @@ impl Segment {
 
     /// Forward pass: from the first state and the parameters to the node vectors and the last state, `solution` (whose
     /// first state is given), and the multipliers of the defects.
+    #[inline(always)]
     pub fn forward(
         &mut self,
         nodes: &Nodes,
@@ -111,6 +114,7 @@ impl Segment {
         self.multipliers(nodes, gradient, parameters, solution, multipliers);
     }
 
+    #[inline(always)]
     fn multipliers(
         &mut self,
         nodes: &Nodes,

@@ -265,6 +265,7 @@ impl Segment {
 }
 
 /// Writes the negative gradient of a cost-to-go with respect to the state.
+#[inline(always)]
 pub fn costate(next: &CostToGo, state: &[f64], parameters: &[f64], to: &mut [f64]) {
     let (states, size) = (state.len(), next.vector.len());
     for (r, to) in to.iter_mut().enumerate() {

@@ -20,10 +20,19 @@ pub fn add_scaled(to: &mut [f64], factor: f64, from: &[f64]) {
     }
 }
 
-/// Inner product.
+/// Inner product; four partial sums, whatever the processor.
 #[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let count = a.len().min(b.len());
+    let ((a, a_rest), (b, b_rest)) = (a[..count].as_chunks::<4>(), b[..count].as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// `to += left^T right` on and above the diagonal, `size` x `width`; both factors have `rows` rows of `width` columns.
@@ -182,6 +191,7 @@ impl Lu {
     }
 
     /// `b <- A^-T b`, one column.
+    #[inline(always)]
     pub fn solve_transposed(&self, b: &mut [f64]) {
         let n = self.size;
         for k in 0..n {

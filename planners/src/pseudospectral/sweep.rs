@@ -145,6 +145,7 @@ impl Sweep {
 
     /// Solves in place: `x` from the right-hand side of the variables to their step, `y` from that of the equalities to
     /// the step of their multipliers.
+    #[inline(always)]
     pub fn solve(&mut self, layout: &Layout, point: &Linearisation, x: &mut [f64], y: &mut [f64]) {
         let mut work = std::mem::take(&mut self.work);
         for (gradient, value) in work.gradient.iter_mut().zip(&*x) {
@@ -155,6 +156,7 @@ impl Sweep {
         self.work = work;
     }
 
+    #[inline(always)]
     fn backward(&mut self, layout: &Layout, point: &Linearisation, y: &[f64], work: &mut Workspace) {
         let n = self.states;
         let Workspace { after_vector: after, before_vector: before, gradient, .. } = work;
@@ -178,6 +180,7 @@ impl Sweep {
     }
 
     /// Gradient of the cost-to-go at the last state of a phase.
+    #[inline(always)]
     fn end_vector(
         &self,
         layout: &Layout,
@@ -207,6 +210,7 @@ impl Sweep {
         }
     }
 
+    #[inline(always)]
     fn forward(&mut self, layout: &Layout, point: &Linearisation, x: &mut [f64], y: &mut [f64], work: &mut Workspace) {
         let (n, width) = (self.states, layout.width());
         work.state.copy_from_slice(&y[..n]);
@@ -247,6 +251,7 @@ impl Sweep {
     }
 
     /// Multipliers of the events and of the link; the state goes on to the next phase.
+    #[inline(always)]
     fn end_forward(&self, phase: &PhaseLayout, end: &End, index: usize, y: &mut [f64], work: &mut Workspace) {
         let n = self.states;
         let Workspace { state, next, parameters, .. } = work;

@@ -12,6 +12,7 @@ pub fn value(model: &Model, node: &[f64]) -> f64 {
 }
 
 /// Adds the gradient, and `factor` times the Hessian.
+#[inline(always)]
 pub fn differentiate(model: &Model, node: &[f64], factor: f64, derivatives: &mut NodeDerivatives) {
     let width = model.width();
     for (index, value) in node.iter().enumerate() {
@@ -22,6 +23,7 @@ pub fn differentiate(model: &Model, node: &[f64], factor: f64, derivatives: &mut
 }
 
 /// Weight of the square of an entry of the node vector.
+#[inline(always)]
 fn weight(model: &Model, index: usize) -> f64 {
     let (weights, nq) = (&model.problem.weights, model.coordinates);
     let rate = index.wrapping_sub(nq);

@@ -50,10 +50,14 @@ impl<const N: usize> Jet<N> {
     /// `f(self)` by the chain rule, from `f`, `f'` and `f''` at the value.
     #[inline(always)]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
-        let gradient = self.gradient;
-        let second = |i: usize, j: usize| df * self.hessian[i][j] + ddf * gradient[i] * gradient[j];
-        let hessian = std::array::from_fn(|i| std::array::from_fn(|j| second(i, j)));
-        Self { value: f, gradient: gradient.map(|g| df * g), hessian }
+        let mut image = Self::constant(f);
+        for i in 0..N {
+            image.gradient[i] = df * self.gradient[i];
+            for j in 0..N {
+                image.hessian[i][j] = df * self.hessian[i][j] + ddf * self.gradient[i] * self.gradient[j];
+            }
+        }
+        image
     }
 
     /// Sine and cosine.

@@ -210,12 +210,9 @@ impl Motion for Model<'_> {
         cost::value(self, node)
     }
 
-    fn differentiate(&self, phase: usize, node: &[f64], weights: NodeWeights, mut derivatives: NodeDerivatives) {
+    fn differentiate(&self, phase: usize, node: &[f64], weights: NodeWeights, derivatives: NodeDerivatives) {
         let mode = self.mode(phase);
-        Translation::at(self, mode, node, &weights).differentiate(&mut derivatives);
-        rotation::differentiate(self, node, &weights, &mut derivatives);
-        cost::differentiate(self, node, weights.cost, &mut derivatives);
-        rows::differentiate(self, mode, node, weights.rows, &mut derivatives);
+        pulp::Arch::new().dispatch(Differentiate { model: self, mode, node, weights, derivatives });
     }
 
     fn end_values(&self, phase: usize, state: &[f64], values: &mut EndValues) {
@@ -224,5 +221,27 @@ impl Motion for Model<'_> {
 
     fn end_differentiate(&self, phase: usize, state: &[f64], weights: EndWeights, mut derivatives: EndDerivatives) {
         ends::differentiate(self, phase, state, &weights, &mut derivatives);
+    }
+}
+
+/// All derivatives at a node, to be compiled for the widest vector registers that the processor turns out to have.
+struct Differentiate<'a> {
+    model: &'a Model<'a>,
+    mode: Mode,
+    node: &'a [f64],
+    weights: NodeWeights<'a>,
+    derivatives: NodeDerivatives<'a>,
+}
+
+impl pulp::WithSimd for Differentiate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Self { model, mode, node, weights, mut derivatives } = self;
+        Translation::at(model, mode, node, &weights).differentiate(&mut derivatives);
+        rotation::differentiate(model, node, &weights, &mut derivatives);
+        cost::differentiate(model, node, weights.cost, &mut derivatives);
+        rows::differentiate(model, mode, node, weights.rows, &mut derivatives);
     }
 }

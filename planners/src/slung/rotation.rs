@@ -15,6 +15,7 @@ pub fn values(model: &Model, node: &[f64], acceleration: &mut [f64]) {
 }
 
 /// Writes their derivatives, and adds the weighted Hessian.
+#[inline(always)]
 pub fn differentiate(model: &Model, node: &[f64], weights: &NodeWeights, derivatives: &mut NodeDerivatives) {
     let (at, width, rotors) = (arguments_at(model), model.width(), model.thrusts());
     let turning: Angular<5> = turning(model, node, Jet::variables(at.map(|index| node[index])));
@@ -48,6 +49,7 @@ fn arguments_at(model: &Model) -> [usize; 5] {
     [EULER + 1, EULER + 2, rate, rate + 1, rate + 2]
 }
 
+#[inline(always)]
 fn turning<const N: usize>(model: &Model, node: &[f64], arguments: [Jet<N>; 5]) -> Angular<N> {
     let body = &model.problem.body;
     let thrusts = &node[model.thrusts()];
@@ -56,6 +58,7 @@ fn turning<const N: usize>(model: &Model, node: &[f64], arguments: [Jet<N>; 5]) 
 }
 
 /// Rows of `I^-1 E` for roll, pitch, yaw.
+#[inline(always)]
 fn torque_rows(body: &Body) -> [[f64; ROTORS]; 3] {
     let (arm, yaw) = (body.arm_m, body.yaw_m);
     let [i_x, i_y, i_z] = body.inertia_kgm2;

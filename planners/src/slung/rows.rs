@@ -30,6 +30,7 @@ pub fn count(model: &Model, mode: Mode) -> usize {
 }
 
 /// `√2 ρ d_x`, `√2 ρ d_y`: either sign of them must fit between quadrotor and obstacle.
+#[inline(always)]
 fn reaches<const N: usize>(cable: &Cable<N>, length: Jet<N>) -> [Jet<N>; 2] {
     [cable.direction[0], cable.direction[1]].map(|d| d * length * std::f64::consts::SQRT_2)
 }
@@ -64,6 +65,7 @@ pub fn values(model: &Model, mode: Mode, node: &[f64], cable: &Cable<0>, tension
 }
 
 /// Writes first derivatives, and adds the weighted Hessian; those of the taut cable's tension are not from here.
+#[inline(always)]
 pub fn differentiate(model: &Model, mode: Mode, node: &[f64], weights: &[f64], derivatives: &mut NodeDerivatives) {
     let width = model.width();
     let arguments = model.cable_arguments(mode, node);
@@ -110,6 +112,7 @@ pub fn differentiate(model: &Model, mode: Mode, node: &[f64], weights: &[f64], d
 }
 
 /// Of `ε - λ (l_0 - ρ)`.
+#[inline(always)]
 fn differentiate_complementarity(model: &Model, node: &[f64], weight: f64, derivatives: &mut NodeDerivatives) {
     let (width, tension) = (model.width(), model.tension());
     derivatives.rows[tension] = node[LENGTH] - model.problem.body.cable_m;

@@ -11,9 +11,9 @@ use super::problem::{GRAVITY, Mode};
 use crate::pseudospectral::{NodeDerivatives, NodeWeights};
 
 /// Outputs by index.
-const ALPHA_OUT: usize = 3;
-const BETA_OUT: usize = 4;
-const LENGTH_OUT: usize = 5;
+pub(super) const ALPHA_OUT: usize = 3;
+pub(super) const BETA_OUT: usize = 4;
+pub(super) const LENGTH_OUT: usize = 5;
 const TENSION_OUT: usize = 6;
 const OUTPUTS: usize = 7;
 
@@ -50,24 +50,24 @@ fn axes<const N: usize>(model: &Model, mode: Mode, cable: &Cable<N>) -> [[Jet<N>
 }
 
 /// Gravity that the ground takes off the load, m/s^2.
-fn carried(mode: Mode) -> f64 {
+pub(super) fn carried(mode: Mode) -> f64 {
     if mode == Mode::Parked { GRAVITY } else { 0.0 }
 }
 
 /// A node with everything that derivatives are made of.
 pub struct Translation<'a> {
-    model: &'a Model<'a>,
-    mode: Mode,
+    pub(super) model: &'a Model<'a>,
+    pub(super) mode: Mode,
     specific: f64,
-    tension_n: f64,
+    pub(super) tension_n: f64,
     b3: [Jet<3>; 3],
-    cable: Cable<3>,
-    rates: Rates<5>,
-    axes: [[Jet<3>; 3]; OUTPUTS],
-    weights: [f64; OUTPUTS],
+    pub(super) cable: Cable<3>,
+    pub(super) rates: Rates<5>,
+    pub(super) axes: [[Jet<3>; 3]; OUTPUTS],
+    pub(super) weights: [f64; OUTPUTS],
     /// Where (α, ρ, α', β', ρ') stand, and which of them are variables.
-    rates_at: [usize; 5],
-    rates_used: [bool; 5],
+    pub(super) rates_at: [usize; 5],
+    pub(super) rates_used: [bool; 5],
 }
 
 impl<'a> Translation<'a> {
@@ -140,6 +140,7 @@ impl<'a> Translation<'a> {
     }
 
     /// Writes first derivatives, of the tension into the first path rows, and adds the weighted Hessian.
+    #[inline(always)]
     pub fn differentiate(&self, derivatives: &mut NodeDerivatives) {
         self.thrust_rows(derivatives);
         self.thrust_hessian(derivatives.hessian);
@@ -158,7 +159,7 @@ impl<'a> Translation<'a> {
     }
 
     /// The row of an output: of an acceleration, or of the tension.
-    fn row<'r>(&self, derivatives: &'r mut NodeDerivatives, output: usize) -> &'r mut [f64] {
+    pub(super) fn row<'r>(&self, derivatives: &'r mut NodeDerivatives, output: usize) -> &'r mut [f64] {
         let width = self.model.width();
         if output == TENSION_OUT {
             &mut derivatives.rows[..width]
@@ -221,7 +222,8 @@ impl<'a> Translation<'a> {
     }
 
     /// Adds a function of the rates to a row.
-    fn add_rates(&self, row: &mut [f64], function: &Jet<5>, factor: f64) {
+    #[inline(always)]
+    pub(super) fn add_rates(&self, row: &mut [f64], function: &Jet<5>, factor: f64) {
         for i in (0..5).filter(|&i| self.rates_used[i]) {
             row[self.rates_at[i]] += factor * function.gradient[i];
         }
@@ -245,66 +247,11 @@ impl<'a> Translation<'a> {
         self.scatter_rates(derivatives.hessian, &sum);
     }
 
-    fn scatter_rates(&self, hessian: &mut [f64], function: &Jet<5>) {
+    #[inline(always)]
+    pub(super) fn scatter_rates(&self, hessian: &mut [f64], function: &Jet<5>) {
         let (width, used) = (self.model.width(), self.rates_used);
         for (i, j) in (0..5).flat_map(|i| (0..5).map(move |j| (i, j))).filter(|&(i, j)| used[i] && used[j]) {
             hessian[self.rates_at[i] * width + self.rates_at[j]] += function.hessian[i][j];
-        }
-    }
-
-    /// Taut: `m l_0/m_Q (α'^2 + cos^2 α β'^2) d` in the position's rows.
-    #[inline(always)]
-    fn pull_of_rates(&self, derivatives: &mut NodeDerivatives) {
-        let body = &self.model.problem.body;
-        let gain = self.model.reduced_kg() * body.cable_m / body.quadrotor_kg;
-        let squares = &self.rates.squares;
-        let (width, count, cable_at) = (self.model.width(), self.model.cable_count(self.mode), self.model.cable_at());
-        let mut pull = Jet::<3>::constant(0.0);
-        for (k, d) in self.cable.direction.iter().enumerate() {
-            let row = self.row(derivatives, k);
-            self.add_rates(row, squares, gain * d.value);
-            for (index, slope) in cable_at.into_iter().zip(d.gradient).take(count) {
-                row[index] += gain * squares.value * slope;
-            }
-            pull = pull + *d * (gain * self.weights[k]);
-        }
-        pull.scatter(derivatives.hessian, width, cable_at, count, squares.value);
-        self.scatter_rates(derivatives.hessian, &(*squares * pull.value));
-        for (j, i) in (0..count).flat_map(|j| (0..5).map(move |i| (j, i))).filter(|&(_, i)| self.rates_used[i]) {
-            let mixed = pull.gradient[j] * squares.gradient[i];
-            add_both(derivatives.hessian, width, cable_at[j], self.rates_at[i], mixed);
-        }
-    }
-
-    /// Parked: the ground carries the load's weight.
-    fn carried_weight(&self, derivatives: &mut NodeDerivatives) {
-        let (width, cable_at) = (self.model.width(), self.model.cable_at());
-        for output in [ALPHA_OUT, BETA_OUT, LENGTH_OUT] {
-            let up = &self.axes[output][2];
-            let row = self.row(derivatives, output);
-            for (index, slope) in cable_at.into_iter().zip(up.gradient) {
-                row[index] -= carried(self.mode) * slope;
-            }
-            up.scatter(derivatives.hessian, width, cable_at, 3, -carried(self.mode) * self.weights[output]);
-        }
-    }
-
-    /// Either: the tension is a control.
-    fn free_tension(&self, derivatives: &mut NodeDerivatives) {
-        let (width, tension, cable_at) = (self.model.width(), self.model.tension(), self.model.cable_at());
-        let quadrotor_kg = self.model.problem.body.quadrotor_kg;
-        self.row(derivatives, LENGTH_OUT)[tension] = -1.0 / self.model.reduced_kg();
-        for (k, d) in self.cable.direction.iter().enumerate() {
-            let weight = self.weights[k] / quadrotor_kg;
-            let row = self.row(derivatives, k);
-            row[tension] = d.value / quadrotor_kg;
-            for (index, slope) in cable_at.into_iter().zip(d.gradient) {
-                row[index] += self.tension_n / quadrotor_kg * slope;
-            }
-            d.scatter(derivatives.hessian, width, cable_at, 3, weight * self.tension_n);
-            for (index, slope) in cable_at.into_iter().zip(d.gradient) {
-                add_both(derivatives.hessian, width, index, tension, weight * slope);
-            }
         }
     }
 }
@@ -314,7 +261,8 @@ pub fn has_ceiling(model: &Model) -> bool {
     model.problem.limits.tension_n.is_finite()
 }
 
-fn add_both(matrix: &mut [f64], width: usize, i: usize, j: usize, value: f64) {
+#[inline(always)]
+pub(super) fn add_both(matrix: &mut [f64], width: usize, i: usize, j: usize, value: f64) {
     matrix[i * width + j] += value;
     matrix[j * width + i] += value;
 }
