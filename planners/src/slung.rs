@@ -10,6 +10,7 @@ mod gate;
 mod guess;
 mod jet;
 mod model;
+mod opening;
 mod optimise;
 mod planner;
 mod polygon;

@@ -1,9 +1,9 @@
 //! The planner's optima against references that were computed by other means.
 
 use planners::nlp::Settings;
-use planners::pseudospectral::{Duration, Motion, Transcription};
+use planners::pseudospectral::{Duration, Motion, Tolerances, Transcription};
 use planners::slung::{
-    Candidate, Gate, Limits, Mode, Model, Options, Problem, Rest, Stage, candidate_routes, optimise,
+    Candidate, Gate, Limits, Mode, Model, Options, Problem, Rest, Stage, Weights, candidate_routes, optimise,
 };
 
 /// An optimum: J, and, where there is a switch, when it comes and with what impulse.
@@ -76,12 +76,41 @@ fn refined_meshes_reach_the_paper_cases_optimum() {
 /// The complementarity of the paper, at a small ε from the start, finds the same motion: the cable stays taut.
 #[test]
 fn complementarity_finds_the_taut_optimum() {
-    let stage =
-        Stage { mode: Mode::Either { epsilon: 1e-6 }, duration: Duration::Fixed(4.0), impulse_ns: None, gate: None };
-    let problem = Problem { stages: vec![stage], ..Problem::paper() };
-    let [right, left] = objectives(&problem, &fixed(20, 3));
+    let [right, left] = objectives(&complementary(), &fixed(20, 3));
     assert!((right - 2432.138).abs() < 0.01, "{right}");
     assert!((left - 2432.449).abs() < 0.01, "{left}");
+}
+
+/// On refined meshes too, where a start a hand's breadth short of the full length would find a slack phase.
+#[test]
+fn complementarity_finds_the_taut_optimum_on_refined_meshes() {
+    let [right, left] = objectives(&complementary(), &Options::default());
+    assert!((right - 2433.73).abs() < 0.05, "{right}");
+    assert!((left - 2433.82).abs() < 0.05, "{left}");
+}
+
+fn complementary() -> Problem {
+    let (mode, duration) = (Mode::COMPLEMENTARITY, Duration::Fixed(4.0));
+    let stage = Stage { mode, duration, impulse_ns: None, gate: None };
+    Problem { stages: vec![stage], ..Problem::paper() }
+}
+
+/// The shortest times round either side, on a mesh that was refined and on a fine one.
+#[test]
+fn the_fastest_flights_do_not_depend_on_the_mesh() {
+    let duration = Duration::Free { least_s: 0.02, guess_s: 3.0, most_s: 12.0 };
+    let stage = Stage { mode: Mode::Taut, duration, impulse_ns: None, gate: None };
+    let problem = Problem { stages: vec![stage], weights: Weights::time(), ..Problem::paper() };
+    let seconds = |options: &Options| objectives(&problem, options).map(|cost| problem.reported(cost));
+    let refined = Options { tolerances: Some(Tolerances { error: 1e-3, ..usual() }), ..Options::default() };
+    let fine = Options { segments: 60, points: 4, tolerances: None, ..Options::default() };
+    for (a, b) in seconds(&refined).into_iter().zip(seconds(&fine)) {
+        assert!((a - b).abs() < 5e-3, "{a} {b}");
+    }
+}
+
+fn usual() -> Tolerances {
+    Options::default().tolerances.expect("meshes are refined")
 }
 
 fn phased(mode: Mode, position_m: [f64; 3], guess_s: f64, impulse_ns: Option<f64>) -> Problem {
@@ -168,4 +197,21 @@ fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
     };
     let gains = [0.0, 0.05, 0.1, 0.15].map(gain);
     assert!(gains[0] > 0.0 && gains.is_sorted(), "{gains:?}");
+}
+
+/// A gate that says where the load has to be, and nothing of the quadrotor: it is found from a guess that leaves the way.
+#[test]
+fn a_gate_for_the_load_alone_is_passed() {
+    let paper = Problem::paper();
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    let gate = Gate { quadrotor_m: [open; 3], load_m: [[-0.3, 0.3], [0.5, 1.1], [1.4, 1.8]] };
+    let duration = Duration::Free { least_s: 0.02, guess_s: 2.0, most_s: 3.6 };
+    let stages = vec![
+        Stage { mode: Mode::Taut, duration, impulse_ns: None, gate: Some(gate) },
+        Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None },
+    ];
+    let problem = Problem { obstacles: Vec::new(), obstacle_names: Vec::new(), stages, ..paper };
+    let routes = candidate_routes(&problem);
+    let candidate = optimise(&problem, &routes[0], &Options::default());
+    assert!(candidate.is_solved() && candidate.is_refined, "{:?}", candidate.rounds);
 }

@@ -39,8 +39,8 @@ pub use models::{Family, Model, Models};
 pub use nearest::nearest;
 pub use plan::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
-    Collocation, Convergence, CostMap, Field, FieldForm, Horizon, Objective, PlannerSettings, RepulsionForm, Sampler,
-    Shape, Solver, Transcription, TrustRegion,
+    Collocation, Convergence, CostMap, Field, FieldForm, Formulation, Horizon, Objective, PlannerSettings,
+    RepulsionForm, Sampler, Shape, Solver, Transcription, TrustRegion,
 };
 pub use problem::Problem;
 pub use random::stream;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use collocation::{Collocation, Objective, Shape};
+pub use collocation::{Collocation, Formulation, Objective, Shape};
 pub use horizon::{CostMap, Field, FieldForm, Horizon, RepulsionForm, Sampler};
 
 /// Which planner answers, and its options. An option that is absent takes the planner's own default, in most cases the

@@ -81,6 +81,17 @@ fn obstacles_are_convex_with_names_of_their_own() {
 }
 
 #[test]
+fn complementarity_has_no_phases() {
+    let (phases, cable) = ("cable = [\"slack\", \"taut\"]", "planner.collocation.cable");
+    let both = format!("{phases}, formulation = \"complementarity\"");
+    assert_fault(phases, &both, cable, "phases", "none");
+    let alone = TEXT.replace(phases, "formulation = \"complementarity\"");
+    let scenario = scenarios::parse("slung.toml", &alone).expect("a formulation of its own");
+    let settings = scenario.planner.collocation.expect("settings of the collocation");
+    assert_eq!(settings.formulation, Some(scenarios::Formulation::Complementarity));
+}
+
+#[test]
 fn gates_have_windows_with_faces_in_order() {
     let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
     assert_eq!(scenario.world.gates[0].load.z_m, Some(scenarios::Range::new(1.2, 2.0)));

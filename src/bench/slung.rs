@@ -12,9 +12,6 @@ use serde::Serialize;
 
 pub use show::{markdown, text};
 
-/// Complementarity of the formulation that leaves slack or taut to the optimiser, N m.
-const EPSILON: f64 = 1e-6;
-
 /// What is measured.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -114,7 +111,7 @@ pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> 
 fn free_tension(problem: &Problem) -> Problem {
     let mut problem = problem.clone();
     for stage in &mut problem.stages {
-        stage.mode = Mode::Either { epsilon: EPSILON };
+        stage.mode = Mode::COMPLEMENTARITY;
     }
     problem
 }

@@ -119,7 +119,7 @@ impl InteriorPoint {
 
     fn begin(&mut self, program: &mut impl Program, start: &Start) {
         (self.μ, self.δ_last, self.δ_least) = (self.settings.start, 0.0, 0.0);
-        self.point = Iterate::begin(program, &self.sides, start, self.μ);
+        self.point = Iterate::begin(program, &self.sides, start, (self.μ, self.settings.push));
         self.values.objective = program.values(&self.point.x, &mut self.values.c, &mut self.values.d);
         let θ = barrier::violation(&self.point, self.sides.0.len(), &self.values);
         self.filter.reset(1e4 * θ.max(1.0));

@@ -1,8 +1,5 @@
 use super::program::{Program, Sizes};
 
-/// Least distance of a start to the bounds and rows, relative to the bound or the width of its box.
-const PUSH: f64 = 1e-2;
-
 /// Where to begin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Start {
@@ -84,24 +81,24 @@ impl Iterate {
     }
 
     /// A strictly interior point near `start`, its duals on the central path of μ.
-    pub fn begin(program: &mut impl Program, sides: &Sides, start: &Start, μ: f64) -> Self {
+    pub fn begin(program: &mut impl Program, sides: &Sides, start: &Start, at: (f64, f64)) -> Self {
         let mut point = Self::zero(program.sizes(), sides);
         match start {
-            Start::Cold(x) => point.begin_cold(program, sides, x, μ),
-            Start::Warm(warm) => point.begin_warm(program, sides, warm, μ),
+            Start::Cold(x) => point.begin_cold(program, sides, x, at),
+            Start::Warm(warm) => point.begin_warm(program, sides, warm, at),
         }
         point
     }
 
-    fn begin_cold(&mut self, program: &mut impl Program, sides: &Sides, x: &[f64], μ: f64) {
+    fn begin_cold(&mut self, program: &mut impl Program, sides: &Sides, x: &[f64], (μ, push): (f64, f64)) {
         self.x.copy_from_slice(x);
         let (lower, upper) = program.bounds();
         for (x, (&lower, &upper)) in self.x.iter_mut().zip(lower.iter().zip(upper)) {
-            *x = interior(*x, lower, upper);
+            *x = interior(*x, (lower, upper), push);
         }
         self.fill_slacks(program, sides);
         for slack in &mut self.slack[sides.0.len()..] {
-            *slack = slack.max(PUSH);
+            *slack = slack.max(push);
         }
         for (dual, slack) in self.dual.iter_mut().zip(&self.slack) {
             *dual = μ / slack;
@@ -109,24 +106,30 @@ impl Iterate {
     }
 
     /// Of each pair the larger one is kept (in units in which both are of order one), the other follows from μ.
-    fn begin_warm(&mut self, program: &mut impl Program, sides: &Sides, Warm { x, y, v, z }: &Warm, μ: f64) {
+    fn begin_warm(
+        &mut self,
+        program: &mut impl Program,
+        sides: &Sides,
+        Warm { x, y, v, z }: &Warm,
+        (μ, push): (f64, f64),
+    ) {
         self.x.copy_from_slice(x);
         self.y.copy_from_slice(y);
         sides.slacks(x, &mut self.slack);
         for (j, side) in sides.0.iter().enumerate() {
             let dual = z[usize::from(side.sign < 0.0)][side.index];
-            let slack = on_path(self.slack[j], dual, μ);
+            let slack = on_path(self.slack[j], dual, (μ, push));
             self.x[side.index] += side.sign * (slack - self.slack[j]);
         }
         let (lower, upper) = program.bounds();
         for (x, (&lower, &upper)) in self.x.iter_mut().zip(lower.iter().zip(upper)) {
             if !(lower < *x && *x < upper) {
-                *x = interior(*x, lower, upper);
+                *x = interior(*x, (lower, upper), push);
             }
         }
         self.fill_slacks(program, sides);
         for (slack, &dual) in self.slack[sides.0.len()..].iter_mut().zip(v) {
-            *slack = on_path(*slack, dual, μ);
+            *slack = on_path(*slack, dual, (μ, push));
         }
         for (dual, slack) in self.dual.iter_mut().zip(&self.slack) {
             *dual = μ / slack;
@@ -142,15 +145,15 @@ impl Iterate {
 }
 
 /// The slack of the pair on the central path that is nearest in spirit to what was there.
-fn on_path(slack: f64, dual: f64, μ: f64) -> f64 {
-    if dual > slack.max(μ.sqrt()) { μ / dual } else { slack.max(μ.sqrt().min(PUSH)) }
+fn on_path(slack: f64, dual: f64, (μ, push): (f64, f64)) -> f64 {
+    if dual > slack.max(μ.sqrt()) { μ / dual } else { slack.max(μ.sqrt().min(push)) }
 }
 
 /// `x` moved into the box, off its faces.
-fn interior(x: f64, lower: f64, upper: f64) -> f64 {
+fn interior(x: f64, (lower, upper): (f64, f64), push: f64) -> f64 {
     let width = upper - lower;
     let margin =
-        |bound: f64| (PUSH * bound.abs().max(1.0)).min(if width.is_finite() { PUSH * width } else { f64::MAX });
+        |bound: f64| (push * bound.abs().max(1.0)).min(if width.is_finite() { push * width } else { f64::MAX });
     let x = if lower.is_finite() { x.max(lower + margin(lower)) } else { x };
     if upper.is_finite() { x.min(upper - margin(upper)) } else { x }
 }

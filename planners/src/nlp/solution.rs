@@ -5,13 +5,15 @@ pub struct Settings {
     pub tolerance: f64,
     /// Barrier parameter of the start.
     pub start: f64,
+    /// Least distance of a cold start to the bounds and rows, relative to the bound or the width of its box.
+    pub push: f64,
     /// Most iterations.
     pub max_iterations: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-7, start: 0.1, max_iterations: 200 }
+        Self { tolerance: 1e-7, start: 0.1, push: 1e-2, max_iterations: 200 }
     }
 }
 

@@ -3,7 +3,8 @@
 //! The error of a segment is that of Patterson, Hager, Rao 2015: the solution's controls drive the equations along the
 //! solution's own states, integrated by a rule of higher order, and the result is compared with these states. Where the
 //! error is too large the order rises, as one more point divides the error of a smooth solution by about N; where it would
-//! have to rise too far, or where a row or a bound is violated between the nodes, the segment is split.
+//! have to rise too far, or where a row or a bound is violated between the nodes, the segment is split. A mesh that is a
+//! little too fine costs less than one more mesh: twice as much is aimed at as is asked for.
 
 use super::mesh::{Mesh, Segment};
 use super::polynomial::Place;
@@ -13,8 +14,15 @@ use super::transcription::Transcription;
 /// Points between the nodes of a segment at which rows and bounds are checked, for every collocation point.
 const SAMPLES: usize = 4;
 
-/// Most parts of a segment that is split.
-const MOST_PARTS: f64 = 4.0;
+/// Most parts of a segment that is split for a violated row, and for an error.
+const MOST_PARTS: f64 = 8.0;
+const MOST_PARTS_OF_ERROR: f64 = 4.0;
+
+/// Least order of the parts of a segment that is split for its error.
+const LEAST_ORDER: usize = 3;
+
+/// So many times better than it must be is what a finer mesh aims at.
+const AIM: f64 = 2.0;
 
 /// What a mesh has to reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +81,9 @@ pub fn refine(problem: &Transcription, x: &[f64], tolerances: &Tolerances) -> Op
     if qualities.iter().flatten().all(|quality| quality.meets(tolerances)) {
         return None;
     }
+    let aim = Tolerances { error: tolerances.error / AIM, ..*tolerances };
     let better = |(segments, qualities): (&Vec<Segment>, &Vec<Quality>)| {
-        segments.iter().zip(qualities).flat_map(|(segment, quality)| refined(segment, quality, tolerances)).collect()
+        segments.iter().zip(qualities).flat_map(|(segment, quality)| refined(segment, quality, &aim)).collect()
     };
     Some(Mesh { phases: problem.mesh.phases.iter().zip(&qualities).map(better).collect() })
 }
@@ -83,15 +92,20 @@ fn refined(segment: &Segment, quality: &Quality, tolerances: &Tolerances) -> Vec
     if quality.meets(tolerances) {
         return vec![*segment];
     }
-    let bounded = quality.violation <= tolerances.violation && quality.overshoot <= tolerances.overshoot;
-    let order = segment.order as f64;
-    let missing = ((quality.error / tolerances.error).ln() / order.max(2.0).ln()).ceil().max(1.0) as usize;
-    if bounded && segment.order + missing <= tolerances.highest_order {
-        return vec![Segment { order: segment.order + missing, ..*segment }];
+    let is_bounded = quality.violation <= tolerances.violation && quality.overshoot <= tolerances.overshoot;
+    let (order, excess) = (segment.order, quality.error / tolerances.error);
+    let missing = (excess.ln() / (order.max(2) as f64).ln()).ceil().max(1.0) as usize;
+    if is_bounded && order + missing <= tolerances.highest_order {
+        return vec![Segment { order: order + missing, ..*segment }];
     }
-    // between its nodes a smooth row is off by the square of their distance
-    let parts = (quality.violation / tolerances.violation).sqrt().ceil().clamp(2.0, MOST_PARTS) as usize;
-    vec![Segment { share: segment.share / parts as f64, ..*segment }; parts]
+    let (parts, order) = if is_bounded {
+        // what no polynomial follows is best met by short segments of low order
+        (excess.sqrt().ceil().clamp(2.0, MOST_PARTS_OF_ERROR), order.min(LEAST_ORDER.max(order - 1)))
+    } else {
+        // between its nodes a smooth row is off by the square of their distance
+        ((AIM * quality.violation / tolerances.violation).sqrt().ceil().clamp(2.0, MOST_PARTS), order)
+    };
+    vec![Segment { share: segment.share / parts, order }; parts as usize]
 }
 
 fn quality(problem: &Transcription, x: &[f64], phase: usize, segment: usize) -> Quality {

@@ -6,9 +6,9 @@ use scenarios::{Interpolation, PlannedEvent};
 use super::attitude::body_rate;
 use super::cable::Cable as Direction;
 use super::jet::Jet;
-use super::model::Model;
+use super::model::{LENGTH, Model};
 use super::optimise::Candidate;
-use super::problem::{Mode, Problem};
+use super::problem::{GRAVITY, Mode, Problem};
 use crate::pseudospectral::{Motion, Place, Transcription};
 
 /// Longest time between two samples, s.
@@ -44,8 +44,9 @@ pub fn trajectory(problem: &Problem, candidate: &Candidate, vehicle: &str) -> Tr
         };
         trajectory.controls.push(Control { thrust_n: std::array::from_fn(thrust_n) });
         trajectory.cable.push(match problem.stages[place.phase].mode {
-            Mode::Taut | Mode::Either { .. } => Cable::Taut,
+            Mode::Taut => Cable::Taut,
             Mode::Slack | Mode::Parked => Cable::Slack,
+            Mode::Either { .. } => nearest(problem, &model, &node),
         });
     };
     let nodes = programme.times_s(&candidate.x);
@@ -95,6 +96,15 @@ pub fn path_m(problem: &Problem, candidate: &Candidate) -> Vec<[f64; 3]> {
         [node[0], node[1], node[2]]
     };
     programme.times_s(&candidate.x).into_iter().map(&mut position).collect()
+}
+
+/// What the cable does under complementarity, where neither tension nor slack length is quite zero: whichever is smaller,
+/// the one in weights of the load, the other in lengths of the cable, counts as zero.
+fn nearest(problem: &Problem, model: &Model, node: &[f64]) -> Cable {
+    let body = &problem.body;
+    let tension = node[model.tension()] / (body.load_kg * GRAVITY);
+    let slack = (body.cable_m - node[LENGTH]) / body.cable_m;
+    if tension > slack { Cable::Taut } else { Cable::Slack }
 }
 
 /// A state in world coordinates.

@@ -52,7 +52,9 @@ impl<'a> Guess<'a> {
         node[..2].copy_from_slice(&self.route.at(along));
         let lifted_m = if (0..=phase).any(is_parked) { length_m - start.cable[2] } else { 0.0 };
         node[2] = start.position_m[2] + lifted_m + along * (goal[2] - start.position_m[2] - lifted_m);
-        (node[6], node[7]) = self.swing(before_s + share * self.durations_s[phase]);
+        let time_s = before_s + share * self.durations_s[phase];
+        (node[6], node[7]) = self.swing(time_s);
+        self.lean_towards_gates(time_s, node);
         if self.coordinates > 8 {
             node[8] = length_m;
         }
@@ -69,13 +71,32 @@ impl<'a> Guess<'a> {
         for (stage, duration_s) in self.problem.stages.iter().zip(&self.durations_s) {
             end_s += duration_s;
             let Some(gate) = stage.gate else { continue };
-            let [x, y, z] = hanging_m(&gate);
+            let [x, y, z] = hanging(&gate);
             let near = (-((time_s - end_s) / SWING_S).powi(2)).exp();
             let [least, most] = self.problem.limits.cable_rad;
             alpha += near * y.atan2(x.hypot(z));
             beta += near * (-x).atan2(-z).clamp(0.9 * least, 0.9 * most);
         }
         (alpha, beta)
+    }
+
+    /// About the instant of a gate the quadrotor leaves the route for the gate: for the nearest point of its own window, and
+    /// where that is open, for one from which the load hangs in the middle of its window.
+    fn lean_towards_gates(&self, time_s: f64, node: &mut [f64]) {
+        let mut end_s = 0.0;
+        for (stage, duration_s) in self.problem.stages.iter().zip(&self.durations_s) {
+            end_s += duration_s;
+            let Some(gate) = stage.gate else { continue };
+            let near = (-((time_s - end_s) / SWING_S).powi(2)).exp();
+            let hanging_m = hanging(&gate).map(|part| part * self.problem.body.cable_m);
+            for axis in 0..3 {
+                let [low, high] = gate.quadrotor_m[axis];
+                let below = gate.load_m[axis].map(|face_m| face_m - hanging_m[axis]);
+                let is_open = !low.is_finite() && !high.is_finite();
+                let [low, high] = if is_open { below } else { [low, high] };
+                node[axis] += near * (node[axis].clamp(low, high) - node[axis]);
+            }
+        }
     }
 
     /// From the start's length to the full one while the cable is slack for the first time; full from then on.
@@ -87,13 +108,15 @@ impl<'a> Guess<'a> {
     }
 }
 
-/// From the middle of the quadrotor's window to that of the load's, m; along an axis on which one of them is open, nothing,
-/// but straight down where nothing is said of the height.
-fn hanging_m(gate: &Gate) -> [f64; 3] {
-    std::array::from_fn(|axis| {
+/// Direction from the quadrotor to the load as a gate is passed, as far as its windows tell: from the middle of the one to
+/// that of the other; along an axis on which one of them is open, nothing, but down where nothing is said of the height.
+fn hanging(gate: &Gate) -> [f64; 3] {
+    let apart_m: [f64; 3] = std::array::from_fn(|axis| {
         let middle_m = |[low, high]: [f64; 2]| 0.5 * (low + high);
         let apart_m = middle_m(gate.load_m[axis]) - middle_m(gate.quadrotor_m[axis]);
         let unknown_m = if axis == 2 { -1.0 } else { 0.0 };
         if apart_m.is_finite() { apart_m } else { unknown_m }
-    })
+    });
+    let length_m = apart_m.iter().map(|part_m| part_m.powi(2)).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+    apart_m.map(|part_m| part_m / length_m)
 }

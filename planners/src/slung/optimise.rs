@@ -4,19 +4,24 @@ use std::time::Instant;
 
 use super::guess::Guess;
 use super::model::Model;
+use super::opening;
 use super::problem::Problem;
 use super::route::Route;
 use crate::nlp::{InteriorPoint, Settings, Solution, Start, Status, Warm};
 use crate::pseudospectral::{Mesh, Motion, Quality, Tolerances, Transcription, qualities, refine};
 
-/// Tolerance on meshes that are not expected to be the last.
-const COARSE_TOLERANCE: f64 = 1e-3;
+/// Tolerance on meshes that are not expected to be the last, as a share of what a flight costs.
+const COARSE_TOLERANCE: f64 = 5e-6;
 
 /// Fewest segments of a phase.
 const FEWEST: usize = 4;
 
-/// Barrier parameter from which a solution of a coarser mesh is taken up.
-const WARM_BARRIER: f64 = 1e-4;
+/// Barrier parameter from which a solution of a coarser mesh is taken up, as a share of what a flight costs.
+const WARM_BARRIER: f64 = 4.5e-7;
+
+/// Distance from the bounds at which complementarity begins, relative to their box: where the cable would start visibly
+/// shorter than it is, a slack phase that leads nowhere would be found at the start.
+const PUSH_OF_COMPLEMENTARITY: f64 = 1e-4;
 
 /// How a problem is solved.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,23 +109,23 @@ impl Candidate<'_> {
 pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> Candidate<'a> {
     let model = Model::new(problem);
     let guess = Guess::new(problem, route, model.coordinates());
+    let cost = problem.hover_cost(guess.durations_s().iter().sum());
     let mut mesh = first_mesh(&guess, options);
     let mut start: Option<(Transcription, Warm)> = None;
     let mut rounds = Vec::new();
+    let is_complementary = problem.is_complementary();
     // a mesh that is good enough for a rough solution is solved on once more
-    let mut is_rough = options.tolerances.is_some();
+    let mut is_rough = options.tolerances.is_some() && !is_complementary;
     loop {
         let begin = Instant::now();
         let mut programme = Transcription::new(&model, mesh.clone());
-        let mut settings = options.solver;
-        if is_rough {
-            settings.tolerance = settings.tolerance.max(COARSE_TOLERANCE);
-        }
+        let settings = settings(problem, options, cost, (start.is_none(), is_rough));
         let from = match &start {
-            None => Start::Cold(programme.guess(&|phase, share, node| guess.write(phase, share, node))),
+            None => Start::Cold(opening::point(problem, &guess, &programme, settings)),
             Some((coarse, solution)) => {
-                settings.start = WARM_BARRIER;
-                Start::Warm(coarse.carry_over(solution, &programme))
+                let carried = coarse.carry_over(solution, &programme);
+                // slacks of the size of ε, and multipliers of that of 1/ε, belong to one mesh: the motion goes on without
+                if is_complementary { Start::Cold(carried.x) } else { Start::Warm(carried) }
             }
         };
         let mut method = InteriorPoint::new(&programme, settings);
@@ -137,6 +142,21 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
         mesh = finer.unwrap_or(mesh);
         start = Some((programme, method.warm_start()));
     }
+}
+
+/// How the programme of a mesh is solved: roughly if another mesh is to come, from near the end if another came before.
+fn settings(problem: &Problem, options: &Options, cost: f64, (is_first, is_rough): (bool, bool)) -> Settings {
+    let mut settings = options.solver;
+    if is_rough {
+        settings.tolerance = settings.tolerance.max(COARSE_TOLERANCE * cost);
+    }
+    if !is_first {
+        settings.start = WARM_BARRIER * cost;
+    }
+    if problem.is_complementary() {
+        settings.push = PUSH_OF_COMPLEMENTARITY;
+    }
+    settings
 }
 
 /// Segments, shared among the phases by their durations.

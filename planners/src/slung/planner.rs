@@ -46,7 +46,7 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         let reason = "no way between the obstacles leads from start to goal".to_owned();
         return without_trajectory(scenario, seed, reason, elapsed);
     };
-    let history: Vec<Iteration> = best.rounds.iter().map(iteration).collect();
+    let history: Vec<Iteration> = best.rounds.iter().map(|round| iteration(&problem, round)).collect();
     history.iter().for_each(progress);
     let (status, reason) = status(best);
     let trajectory = answer::trajectory(&problem, best, &scenario.vehicles[0].name);
@@ -57,7 +57,7 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         seed,
         status,
         reason,
-        objective: Some(best.last().objective),
+        objective: Some(problem.reported(best.last().objective)),
         trajectories: vec![trajectory.into()],
         history,
         account: account(&problem, best, &candidates),
@@ -85,7 +85,7 @@ fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Acc
     let alternative = |candidate: &Candidate| Alternative {
         name: name_of(candidate.route, problem),
         status: status(candidate).0,
-        objective: Some(candidate.last().objective),
+        objective: Some(problem.reported(candidate.last().objective)),
         path_m: answer::path_m(problem, candidate),
     };
     Account { events, alternatives: others.map(alternative).collect() }
@@ -125,9 +125,9 @@ fn status(candidate: &Candidate) -> (PlanStatus, Option<String>) {
 }
 
 /// One entry of the history per mesh.
-fn iteration(round: &Round) -> Iteration {
+fn iteration(problem: &Problem, round: &Round) -> Iteration {
     Iteration {
-        objective: round.objective,
+        objective: problem.reported(round.objective),
         dt_s: round.longest_s,
         defect_m: round.quality.error,
         slack: round.violation,

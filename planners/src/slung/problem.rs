@@ -61,6 +61,33 @@ pub struct Weights {
     pub time: f64,
 }
 
+/// Weight of a second where time is what counts: large enough for the barrier to be small beside it, as it is beside the
+/// effort.
+const TIME: f64 = 30.0;
+
+/// Weight of the effort beside the duration: next to nothing, but it tells apart controls that are equally fast.
+const EFFORT_OF_TIME: f64 = 1e-4;
+
+impl Weights {
+    /// The paper's.
+    pub fn effort() -> Self {
+        Self { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 }
+    }
+
+    /// Time, with a trace of the paper's.
+    pub fn time() -> Self {
+        let (effort, share) = (Self::effort(), TIME * EFFORT_OF_TIME);
+        Self {
+            euler: share * effort.euler,
+            cable: share * effort.cable,
+            euler_rate: share * effort.euler_rate,
+            cable_rate: share * effort.cable_rate,
+            thrust: share * effort.thrust,
+            time: TIME,
+        }
+    }
+}
+
 /// What the cable does in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
@@ -75,6 +102,11 @@ pub enum Mode {
         /// ε.
         epsilon: f64,
     },
+}
+
+impl Mode {
+    /// The paper's complementarity, relaxed by next to nothing: larger ε lead into motions whose cable is a spring.
+    pub const COMPLEMENTARITY: Self = Self::Either { epsilon: 1e-6 };
 }
 
 /// Where quadrotor and load have to be at one instant, lowest and highest of each coordinate, m.
@@ -152,7 +184,7 @@ impl Problem {
                 clearance_m: 0.05,
                 floor_m: None,
             },
-            weights: Weights { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 },
+            weights: Weights::effort(),
             obstacles: vec![Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -half)],
             obstacle_names: vec!["block".to_owned()],
             start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
@@ -164,5 +196,36 @@ impl Problem {
     /// Thrust of each rotor in hover with the load, N.
     pub fn hover_n(&self) -> f64 {
         0.25 * (self.body.quadrotor_kg + self.body.load_kg) * GRAVITY
+    }
+
+    /// Whether a phase leaves slack or taut to the optimiser.
+    pub fn is_complementary(&self) -> bool {
+        self.stages.iter().any(|stage| matches!(stage.mode, Mode::Either { .. }))
+    }
+
+    /// Cost of hovering for so long, s: about what a flight costs.
+    pub fn hover_cost(&self, duration_s: f64) -> f64 {
+        let Weights { thrust, cable, time, .. } = self.weights;
+        duration_s * (4.0 * thrust * self.hover_n().powi(2) + cable * self.body.cable_m.powi(2) + time)
+    }
+
+    /// A cost as it is reported: where time counts, in seconds.
+    pub fn reported(&self, cost: f64) -> f64 {
+        if self.weights.time > 0.0 { cost / self.weights.time } else { cost }
+    }
+
+    /// The same flight at least effort, in the time that is guessed for it.
+    pub fn at_leisure(&self) -> Self {
+        let mut problem = Self { weights: Weights::effort(), ..self.clone() };
+        let guess_s = |duration: Duration| match duration {
+            Duration::Free { guess_s, .. } => guess_s,
+            Duration::Fixed(seconds) => seconds,
+            Duration::RestOf(_) => 0.0,
+        };
+        let total_s = self.stages.iter().map(|stage| guess_s(stage.duration)).sum();
+        if let Some(last) = problem.stages.last_mut() {
+            last.duration = Duration::RestOf(total_s);
+        }
+        problem
     }
 }

@@ -1,7 +1,7 @@
 //! From a scenario to the planner's problem.
 
 use scenarios::slung_load::{Cable, Limits as ScenarioLimits, Model, State};
-use scenarios::{Collocation, Family, Objective, Range, Scenario, Shape, Window};
+use scenarios::{Collocation, Family, Formulation, Objective, Range, Scenario, Shape, Window};
 
 use super::optimise::Options;
 use super::polygon::Polygon;
@@ -13,9 +13,6 @@ const PAPER_CLEARANCE_M: f64 = 0.05;
 
 /// Mean speed, m/s, for which the time is chosen where neither scenario nor objective says.
 const USUAL_SPEED_MPS: f64 = 1.0;
-
-/// Weight of the effort beside the duration: next to nothing, but it tells apart controls that are equally fast.
-const EFFORT_OF_TIME: f64 = 1e-4;
 
 /// Shortest phase, s.
 const SHORTEST_S: f64 = 0.02;
@@ -45,6 +42,8 @@ pub fn refuses(scenario: &Scenario) -> Option<String> {
         "it plans from rest to rest"
     } else if vehicle.goal.load.is_some() {
         "at the goal the load hangs straight down"
+    } else if is_complementary(&settings) && !scenario.world.gates.is_empty() {
+        "a gate is passed between two phases, and under complementarity there is but one"
     } else if alike(&phases).count() != scenario.world.gates.len() {
         "a gate is passed where two phases of the cable in a row are alike, and there are not as many such as gates"
     } else if gates(scenario).any(|gate| gate.quadrotor_m.iter().chain(&gate.load_m).any(|[low, high]| low >= high)) {
@@ -53,7 +52,7 @@ pub fn refuses(scenario: &Scenario) -> Option<String> {
         "the cable is taut at the goal, so the last phase must be taut"
     } else if start.cable[0].abs().max(start.cable[1].abs()) > 1.4 {
         "the load begins beside or above the quadrotor"
-    } else if first_mode(scenario) == Mode::Taut && is_slack(scenario, &start) {
+    } else if !is_complementary(&settings) && first_mode(scenario) == Mode::Taut && is_slack(scenario, &start) {
         "the cable is slack at the start, so the first phase must be slack"
     } else {
         return None;
@@ -75,7 +74,10 @@ pub fn problem(scenario: &Scenario) -> Problem {
             position_m: world.map.axes().map(ends),
             ..limits(&model.planning_limits)
         },
-        weights: weights(settings.objective.unwrap_or(Objective::Effort)),
+        weights: match settings.objective.unwrap_or(Objective::Effort) {
+            Objective::Effort => Weights::effort(),
+            Objective::Time => Weights::time(),
+        },
         obstacle_names: world.flat_obstacles().into_iter().map(|prism| prism.name).collect(),
         obstacles: world.flat_obstacles().into_iter().map(|prism| Polygon::new(prism.corners_m)).collect(),
         start: rest(scenario),
@@ -135,22 +137,6 @@ fn ends(range: Range) -> [f64; 2] {
     [range.min, range.max]
 }
 
-/// The paper's weights (Q', R'), or time with a trace of them.
-fn weights(objective: Objective) -> Weights {
-    let paper = Weights { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 };
-    match objective {
-        Objective::Effort => paper,
-        Objective::Time => Weights {
-            euler: EFFORT_OF_TIME * paper.euler,
-            cable: EFFORT_OF_TIME * paper.cable,
-            euler_rate: EFFORT_OF_TIME * paper.euler_rate,
-            cable_rate: EFFORT_OF_TIME * paper.cable_rate,
-            thrust: EFFORT_OF_TIME * paper.thrust,
-            time: 1.0,
-        },
-    }
-}
-
 /// The start in the planner's coordinates.
 fn rest(scenario: &Scenario) -> Rest {
     let vehicle = &scenario.vehicles[0];
@@ -186,6 +172,10 @@ fn first_mode(scenario: &Scenario) -> Mode {
 fn cable(scenario: &Scenario, settings: &Collocation) -> Vec<Cable> {
     let taut = || vec![Cable::Taut; scenario.world.gates.len() + 1];
     settings.cable.clone().filter(|phases| !phases.is_empty()).unwrap_or_else(taut)
+}
+
+fn is_complementary(settings: &Collocation) -> bool {
+    settings.formulation == Some(Formulation::Complementarity)
 }
 
 /// Phases after which one of the same kind follows.
@@ -228,6 +218,7 @@ fn stages(scenario: &Scenario, settings: &Collocation) -> Vec<Stage> {
     let mut stages = Vec::with_capacity(phases.len());
     for (index, phase) in phases.iter().enumerate() {
         let mode = match phase {
+            _ if is_complementary(settings) => Mode::COMPLEMENTARITY,
             Cable::Taut => Mode::Taut,
             Cable::Slack if phases[..index].iter().all(|phase| *phase == Cable::Slack) => first_mode(scenario),
             Cable::Slack => Mode::Slack,

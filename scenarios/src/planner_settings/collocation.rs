@@ -23,6 +23,9 @@ pub struct Collocation {
     /// keeps the first mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_tolerance: Option<f64>,
+    /// How slack and taut are told apart. Absent: phases.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub formulation: Option<Formulation>,
     /// What the cable does, phase after phase; the instants of the switches are free. Two phases in a row that are alike
     /// meet where a gate is passed. Absent: taut from start to goal.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,6 +46,17 @@ pub enum Objective {
     Effort,
     /// The duration.
     Time,
+}
+
+/// How an optimiser tells a slack cable from a taut one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formulation {
+    /// By phases, whose order is given and whose ends are free; a cable that becomes taut does so in an impact.
+    Phases,
+    /// By the paper's complementarity, node by node: the tension is a control, and its product with the slack length is
+    /// next to nothing. It knows of no impact.
+    Complementarity,
 }
 
 /// What an optimiser keeps clear of the obstacles.

@@ -2,7 +2,7 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Collocation, Convergence, Horizon, Objective, PlannerSettings, Problem, TrustRegion};
+use crate::{Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, TrustRegion};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
@@ -112,7 +112,13 @@ fn collocation(options: &Collocation) -> Vec<Problem> {
         )
         .remedy("add `flight_time_s`, or minimise `time`")
     });
-    out_of_range.into_iter().chain(quantities.into_iter().flatten()).chain(no_time).collect()
+    let is_complementary = options.formulation == Some(Formulation::Complementarity);
+    let idle_phases = (is_complementary && options.cable.is_some()).then(|| {
+        Problem::new("planner.collocation.cable", "phases", "none: the formulation `complementarity` has none")
+            .remedy("leave `cable` out, or set `formulation = \"phases\"`")
+    });
+    let quantities = quantities.into_iter().flatten();
+    out_of_range.into_iter().chain(quantities).chain(no_time).chain(idle_phases).collect()
 }
 
 fn horizon(options: &Horizon) -> Vec<Problem> {
