@@ -3,6 +3,7 @@
 mod behind;
 mod cable;
 mod clearance;
+mod closest;
 mod course;
 mod end;
 mod flown;
@@ -10,6 +11,8 @@ mod gates;
 mod limits;
 mod physics;
 mod planned;
+mod span;
+mod surroundings;
 
 use scenarios::slung_load::Trajectory;
 use scenarios::{Plan, Scenario};
@@ -19,11 +22,11 @@ pub use cable::TENSION_WINDOW_S;
 pub use flown::Flown;
 pub use planned::Planned;
 
-use self::clearance::Surroundings;
 use self::end::End;
 use self::gates::Gates;
 use self::limits::Limited;
 use self::physics::Physics;
+use self::surroundings::Surroundings;
 use crate::verdict::compare::is_larger;
 use crate::verdict::question::{Evidence, Group, Measured, Question};
 use crate::verdict::{Check, arrival, flown as shared, integrity, physics as shared_physics, separation, tracking};

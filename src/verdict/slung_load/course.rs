@@ -9,6 +9,9 @@ use crate::verdict::bernstein;
 /// A larger mean acceleration than this within a segment is an impact, m/s².
 const IMPACT_MPS2: f64 = 50.0;
 
+/// A segment shorter than this says nothing of derivatives, s: rounding would be all of them.
+const BRIEF_S: f64 = 1e-5;
+
 /// Quadrotor and load at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
@@ -67,10 +70,15 @@ impl Course {
     /// |p - cubic| <= 4/27 h |Δv|                                              of a velocity that jumps
     /// ```
     ///
-    /// with p'''' and ω' from the differences between neighbouring segments, doubled.
+    /// with p'''' and ω' from the differences between neighbouring segments, doubled. In a segment that is too brief for that
+    /// the motion is taken to be no farther from the curve than the curve is long.
     pub fn sampled(mut self) -> Self {
-        let lasting: Vec<usize> = self.segments().collect();
         let mut deviations = vec![Deviation::default(); self.instants.len().saturating_sub(1)];
+        let (lasting, brief): (Vec<usize>, Vec<usize>) =
+            self.segments().partition(|segment| self.duration_s(*segment) >= BRIEF_S);
+        for segment in brief {
+            deviations[segment] = self.extent(segment);
+        }
         for pair in lasting.windows(2) {
             let between = self.deviation_between(pair[0], pair[1]);
             for segment in pair {
@@ -111,6 +119,17 @@ impl Course {
         };
         let turn_rad = 2.0 / 8.0 * long_s * (rate(one, one_s) - rate(other, other_s)).norm();
         Deviation { quadrotor_m: deviation_m(0), load_m: deviation_m(1), turn_rad }
+    }
+
+    /// How far anything gets within a segment, from one end to the other.
+    fn extent(&self, segment: usize) -> Deviation {
+        let speeds = self.speeds(segment);
+        let duration_s = self.duration_s(segment);
+        Deviation {
+            quadrotor_m: speeds.quadrotor_mps * duration_s,
+            load_m: speeds.load_mps * duration_s,
+            turn_rad: speeds.turn_radps * duration_s,
+        }
     }
 
     /// The instants.
@@ -198,4 +217,35 @@ impl Course {
 fn cubic(points: &[Vector3<f64>; 4], u: f64) -> Vector3<f64> {
     let v = 1.0 - u;
     points[0] * (v * v * v) + points[1] * (3.0 * v * v * u) + points[2] * (3.0 * v * u * u) + points[3] * (u * u * u)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{UnitQuaternion, Vector3};
+    use sim::slung_load::Body;
+
+    use super::{Course, Instant};
+
+    /// Round a circle of 1 m at 1 m/s, and the same with every instant told twice, a nanosecond later the second time.
+    #[test]
+    fn instants_at_nearly_the_same_time_tell_no_other_motion() {
+        let at = |t_s: f64| {
+            let (sin, cos) = t_s.sin_cos();
+            let (position_m, velocity_mps) = (Vector3::new(cos, sin, 1.0), Vector3::new(-sin, cos, 0.0));
+            let load_position_m = position_m - Vector3::z();
+            let attitude = UnitQuaternion::from_euler_angles(0.0, 0.0, t_s);
+            let (body_rate_radps, load_velocity_mps) = (Vector3::z(), velocity_mps);
+            let body = Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps };
+            Instant { t_s, body }
+        };
+        let once: Vec<Instant> = (0..200).map(|k| at(0.005 * f64::from(k))).collect();
+        let twice = once.iter().flat_map(|instant| [*instant, at(instant.t_s + 1e-9)]).collect();
+        let largest_m = |instants: Vec<Instant>| {
+            let course = Course::new(instants).sampled();
+            let deviations = course.segments().map(|segment| course.deviation(segment).quadrotor_m);
+            deviations.fold(0.0, f64::max)
+        };
+        let [smooth_m, doubled_m] = [largest_m(once), largest_m(twice)];
+        assert!(smooth_m < 1e-9 && doubled_m < 1e-8, "{smooth_m} {doubled_m}");
+    }
 }

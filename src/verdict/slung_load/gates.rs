@@ -3,7 +3,6 @@
 //! How deep inside they are at the best instant, over continuous time, by branch and bound: within a span of time the
 //! depth grows by no more than the faster of the two moves.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use scenarios::slung_load::Trajectory;
@@ -11,6 +10,7 @@ use scenarios::{Gate, Scenario, Vehicle};
 use sim::slung_load::Body;
 
 use super::course::Course;
+use super::span::Span;
 use crate::verdict::Check;
 use crate::verdict::compare::{is_larger, is_smaller};
 use crate::verdict::question::{Evidence, Group, Measured, Question};
@@ -105,49 +105,20 @@ fn deepest(gate: &Gate, course: &Course) -> Option<Deepest> {
         let speeds = course.speeds(segment);
         let moved_m =
             speeds.quadrotor_mps.max(speeds.load_mps) * course.duration_s(segment) * (share[1] - share[0]) / 2.0;
-        let span = Span { upper_m: depth_m + moved_m, segment, share };
-        (best, Some(span).filter(|span| best.is_some_and(|best| span.upper_m > best.lower_m + RESOLUTION_M)))
+        let span = Span { bound: depth_m + moved_m, segment, share, of: () };
+        (best, Some(span).filter(|span| best.is_some_and(|best| span.bound > best.lower_m + RESOLUTION_M)))
     };
-    let mut spans: BinaryHeap<Span> = course.segments().filter_map(|segment| measured(segment, [0.0, 1.0]).1).collect();
+    let mut spans: BinaryHeap<Span<()>> =
+        course.segments().filter_map(|segment| measured(segment, [0.0, 1.0]).1).collect();
     let mut looked_at = spans.len();
     while let Some(span) = spans.pop() {
-        let [from, to] = span.share;
-        let middle = f64::midpoint(from, to);
-        let halves = [[from, middle], [middle, to]].map(|half| measured(span.segment, half));
+        let halves = span.halves().map(|half| measured(span.segment, half));
         let best = halves[1].0?;
         looked_at += 2;
-        if span.upper_m <= best.lower_m + RESOLUTION_M || looked_at >= MOST_SPANS {
-            return Some(Deepest { upper_m: span.upper_m.max(best.lower_m + RESOLUTION_M), ..best });
+        if span.bound <= best.lower_m + RESOLUTION_M || looked_at >= MOST_SPANS {
+            return Some(Deepest { upper_m: span.bound.max(best.lower_m + RESOLUTION_M), ..best });
         }
         spans.extend(halves.into_iter().filter_map(|(_, half)| half));
     }
     best.map(|best| Deepest { upper_m: best.lower_m + RESOLUTION_M, ..best })
 }
-
-/// A part of a segment in which they may be deeper; the one with the highest bound comes first.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    upper_m: f64,
-    segment: usize,
-    share: [f64; 2],
-}
-
-impl Ord for Span {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.upper_m.total_cmp(&other.upper_m)
-    }
-}
-
-impl PartialOrd for Span {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Span {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Span {}

@@ -1,0 +1,94 @@
+//! What is kept clear of what, and how far apart the two are at one instant.
+
+use scenarios::{Prism, Scenario, Vehicle};
+use sim::slung_load::{Body, Part, Parts, Plane};
+
+use super::course::{Deviation, Speeds};
+
+/// What is kept clear of what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A part, from an obstacle by its index.
+    Part(Part, usize),
+    /// The envelope circle, from an obstacle by its index.
+    Envelope(usize),
+    /// The body, from the ground.
+    AboveGround,
+}
+
+/// Vehicle and world, as far as distances are concerned.
+pub struct Surroundings<'a> {
+    pub(super) vehicle: &'a str,
+    pub(super) parts: Parts,
+    pub(super) obstacles: Vec<Prism>,
+    pub(super) ground_m: Option<f64>,
+}
+
+impl<'a> Surroundings<'a> {
+    /// Of a vehicle of the scenario.
+    pub fn of(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
+        Self {
+            vehicle: &vehicle.name,
+            parts: Parts::of(scenario.slung_load_model(vehicle)),
+            obstacles: scenario.world.flat_obstacles(),
+            ground_m: scenario.world.ground_m,
+        }
+    }
+
+    /// Body, cable and load with every obstacle, and the body with the ground.
+    pub(super) fn parts(&self) -> Vec<Shape> {
+        let parts = (0..self.obstacles.len()).flat_map(|i| Part::ALL.map(|part| Shape::Part(part, i)));
+        parts.chain(self.ground_m.map(|_| Shape::AboveGround)).collect()
+    }
+
+    /// The envelope with every obstacle.
+    pub(super) fn envelopes(&self) -> Vec<Shape> {
+        (0..self.obstacles.len()).map(Shape::Envelope).collect()
+    }
+
+    /// Less than the distance, and quick to tell, m.
+    pub(super) fn at_least_m(&self, shape: Shape, body: &Body) -> f64 {
+        match shape {
+            Shape::Part(part, obstacle) => self.parts.at_least_m(part, body, &self.obstacles[obstacle]),
+            Shape::Envelope(_) | Shape::AboveGround => self.distance_m(shape, body),
+        }
+    }
+
+    /// Signed distance, m, and a plane between the two, if one is known.
+    pub(super) fn distance_and_plane(&self, shape: Shape, body: &Body) -> (f64, Option<Plane>) {
+        match shape {
+            Shape::Part(part, obstacle) => self.parts.distance_and_plane(part, body, &self.obstacles[obstacle]),
+            Shape::Envelope(_) | Shape::AboveGround => (self.distance_m(shape, body), None),
+        }
+    }
+
+    /// Signed distance, m.
+    pub(super) fn distance_m(&self, shape: Shape, body: &Body) -> f64 {
+        match shape {
+            Shape::Part(part, obstacle) => self.parts.distance_m(part, body, &self.obstacles[obstacle]),
+            Shape::Envelope(obstacle) => self.parts.envelope_distance_m(body, &self.obstacles[obstacle]),
+            Shape::AboveGround => self.parts.height_m(body) - self.ground_m.unwrap_or(f64::NEG_INFINITY),
+        }
+    }
+
+    /// How far a point of the shape may be from where the curves have it, m.
+    pub(super) fn deviation_m(&self, shape: Shape, Deviation { quadrotor_m, load_m, turn_rad }: Deviation) -> f64 {
+        match shape {
+            Shape::Part(Part::Body, _) | Shape::AboveGround => quadrotor_m + turn_rad * self.parts.body_radius_m(),
+            Shape::Part(Part::Load, _) => load_m,
+            Shape::Part(Part::Cable, _) => quadrotor_m.max(load_m),
+            Shape::Envelope(_) => 2.0 * quadrotor_m + load_m,
+        }
+    }
+
+    /// What no point of the shape's surface exceeds, m/s.
+    pub(super) fn speed_mps(&self, shape: Shape, speeds: &Speeds) -> f64 {
+        let body_mps = speeds.quadrotor_mps + speeds.turn_radps * self.parts.body_radius_m();
+        match shape {
+            Shape::Part(Part::Body, _) | Shape::AboveGround => body_mps,
+            Shape::Part(Part::Load, _) => speeds.load_mps,
+            Shape::Part(Part::Cable, _) => speeds.quadrotor_mps.max(speeds.load_mps),
+            Shape::Envelope(_) => speeds.quadrotor_mps + speeds.relative_mps,
+        }
+    }
+}
