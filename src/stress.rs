@@ -20,6 +20,8 @@ const GRID: usize = 20;
 const BEYOND: f64 = 1.25;
 /// The bracket is closed to this share of its upper end.
 const RESOLUTION: f64 = 0.005;
+/// What rounding leaves of a bracket, as a share of it.
+const ROUNDING: f64 = 1e-9;
 /// Version of the form of the results.
 const SCHEMA: u32 = 1;
 
@@ -146,7 +148,8 @@ fn close_in(trials: &mut Vec<Trial>, finest: f64, fly: &impl Fn(f64) -> Trial, p
     loop {
         sort(trials);
         let Some(turn) = first_turn(trials) else { return };
-        if turn.fails - turn.passes <= (RESOLUTION * turn.fails).max(finest) {
+        let narrow = (RESOLUTION * turn.fails).max(finest) * (1.0 + ROUNDING);
+        if turn.fails - turn.passes <= narrow {
             return;
         }
         progress(1);

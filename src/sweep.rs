@@ -14,7 +14,6 @@ use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
 use serde::{Deserialize, Serialize};
 
 use crate::author::Author;
-use crate::in_loop;
 use crate::submitted::Answer;
 use crate::verdict::{self, Outcome, Verdict};
 
@@ -142,13 +141,8 @@ impl Question<'_> {
     /// Flies and judges one sample.
     pub fn verdict(&self, scenario: &Scenario) -> Verdict {
         let seed = scenario.simulation.seed;
-        match (self.author.crew(scenario, seed), self.answer) {
-            (Some((crew, _)), _) => {
-                let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
-                let planning = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
-                let plan = in_loop::as_plan(scenario, self.author.name(), seed, planning);
-                verdict::judge(scenario, &plan, Some(&flight))
-            }
+        match (self.author.fly_in_loop(scenario, seed), self.answer) {
+            (Some((plan, flight)), _) => verdict::judge(scenario, &plan, Some(&flight)),
             (None, Some(Answer { plan, given })) => {
                 let is_flyable = verdict::is_flyable(scenario, plan).is_ok();
                 let flight = is_flyable.then(|| sim::fly(scenario, plan, seed, &mut |_| {}));
