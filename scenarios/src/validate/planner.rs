@@ -2,7 +2,9 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, Scenario, TrustRegion};
+use crate::{
+    Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, Scenario, TrustRegion,
+};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
