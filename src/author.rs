@@ -79,7 +79,8 @@ impl Author {
         Some((plan, flight))
     }
 
-    /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a planner of ours as they end.
+    /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a
+    /// planner of ours as they end.
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> HandedOver {
         match self {
             Self::Registered(planner) => {

@@ -65,6 +65,16 @@ pub fn load(files: &[PathBuf], authors: &[Author], seed: Option<u64>, is_wanted:
     jobs
 }
 
+/// Loads one file for one planner.
+pub fn load_one(file: &Path, authors: &[Author], seed: Option<u64>) -> Result<Job, Error> {
+    let mut jobs = load(&[file.to_owned()], authors, seed, |_| true);
+    match (jobs.bad.pop(), jobs.good.pop()) {
+        (Some(refusal), _) => Err(refusal.error),
+        (None, Some(job)) if jobs.good.is_empty() => Ok(job),
+        (None, _) => Err(Error::OnePlanner),
+    }
+}
+
 /// Loads one file.
 ///
 /// - `seed`: replaces the scenario's own

@@ -8,6 +8,7 @@ pub mod author;
 pub mod bench;
 pub mod cli;
 pub mod compare;
+mod contender;
 #[cfg(all(test, unix))]
 #[path = "../scenarios/tests/damage/mod.rs"]
 mod damage;

@@ -87,6 +87,11 @@ pub fn plan(job: &Job, progress: &mut Progress) -> HandedOver {
     job.author.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
 }
 
+/// The plan alone, where the author makes one before the flight.
+pub fn answer(job: &Job, progress: &mut Progress) -> Option<Answer> {
+    (!job.author.plans_in_the_loop()).then(|| plan(job, progress).answer)
+}
+
 /// No flight if there is nothing that could be flown; the judge says why.
 fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
     verdict::is_flyable(&job.scenario, plan).ok()?;

@@ -1,17 +1,17 @@
 //! How much of a disturbance does a plan bear? The disturbance at which the verdict turns, as a number.
 //!
-//! The plan stays (who plans in the loop plans anew); only what disturbs the flight grows. First in doubling steps until a flight fails, then on a grid up to
-//! beyond that, because a response need not be monotone (a gust may push a vehicle away from what it would have hit), then
-//! by bisection at the first failure.
+//! The plan stays (who plans in the loop plans anew); only what disturbs the flight grows. First in doubling steps until a
+//! flight fails, then on a grid up to beyond that, because a response need not be monotone (a gust may push a vehicle away
+//! from what it would have hit), then by bisection at the first failure.
 
 mod axis;
 
 use rayon::prelude::*;
-use scenarios::{Plan, Scenario};
+use scenarios::Scenario;
 use serde::Serialize;
 
-use crate::author::Author;
-use crate::verdict::{self, Outcome, Verdict};
+use crate::contender::Contender;
+use crate::verdict::Outcome;
 
 pub use axis::Axis;
 
@@ -20,6 +20,8 @@ const GRID: usize = 20;
 const BEYOND: f64 = 1.25;
 /// The bracket is closed to this share of its upper end.
 const RESOLUTION: f64 = 0.005;
+/// What rounding leaves of a bracket, as a share of it.
+const ROUNDING: f64 = 1e-9;
 /// Version of the form of the results.
 const SCHEMA: u32 = 1;
 
@@ -68,38 +70,6 @@ pub struct Turn {
     pub red: Vec<String>,
 }
 
-/// Whose flights are disturbed.
-#[derive(Clone, Copy)]
-pub enum Contender<'a> {
-    /// A plan: it stays as it is.
-    Plan(&'a Plan),
-    /// Somebody who plans in the loop: he plans anew at every level.
-    InLoop(&'a Author),
-}
-
-impl Contender<'_> {
-    fn planner(&self) -> &str {
-        match self {
-            Self::Plan(plan) => &plan.planner,
-            Self::InLoop(author) => author.name(),
-        }
-    }
-
-    fn judged_in(&self, scenario: &Scenario, seed: u64) -> Verdict {
-        match self {
-            Self::Plan(plan) => {
-                let is_flyable = verdict::is_flyable(scenario, plan).is_ok();
-                let flight = is_flyable.then(|| sim::fly(scenario, plan, seed, &mut |_| {}));
-                verdict::judge(scenario, plan, flight.as_ref())
-            }
-            Self::InLoop(author) => {
-                let (plan, flight) = author.fly_in_loop(scenario, seed).expect("one who plans in the loop");
-                verdict::judge(scenario, &plan, Some(&flight))
-            }
-        }
-    }
-}
-
 /// Searches for the level of a disturbance at which a plan, or one who plans in the loop, fails.
 ///
 /// - `seed`: of gusts and noise, the same at every level
@@ -146,7 +116,8 @@ fn close_in(trials: &mut Vec<Trial>, finest: f64, fly: &impl Fn(f64) -> Trial, p
     loop {
         sort(trials);
         let Some(turn) = first_turn(trials) else { return };
-        if turn.fails - turn.passes <= (RESOLUTION * turn.fails).max(finest) {
+        let narrow = (RESOLUTION * turn.fails).max(finest) * (1.0 + ROUNDING);
+        if turn.fails - turn.passes <= narrow {
             return;
         }
         progress(1);

@@ -13,9 +13,7 @@ use rayon::prelude::*;
 use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
 use serde::{Deserialize, Serialize};
 
-use crate::author::Author;
-use crate::in_loop;
-use crate::submitted::Answer;
+use crate::contender::Contender;
 use crate::verdict::{self, Outcome, Verdict};
 
 pub use draw::{Draw, Spread};
@@ -85,14 +83,14 @@ const SCHEMA: u32 = 1;
 impl Sweep {
     /// So many samples about the question's scenario.
     pub fn new(question: &Question<'_>, samples: usize, spread: Spread) -> Self {
-        let Question { scenario, author, .. } = question;
+        let Question { scenario, contender } = question;
         let verdict = verdict::judge(scenario, &unanswered(scenario), None);
         let of_flight = verdict.checks.into_iter().filter(|check| check.name.starts_with("flight."));
         Self {
             schema: SCHEMA,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scenario: scenario.name.clone(),
-            planner: author.name().to_owned(),
+            planner: contender.planner().to_owned(),
             seed: scenario.simulation.seed,
             samples,
             spread,
@@ -118,14 +116,12 @@ fn unanswered(scenario: &Scenario) -> Plan {
     }
 }
 
-/// Who plans, and what he has planned before the flights, if he does.
+/// Who is flown, and where.
 pub struct Question<'a> {
     /// The scenario around which is drawn.
     pub scenario: &'a Scenario,
-    /// Who plans.
-    pub author: &'a Author,
-    /// The plan that every sample flies; `None` of those who plan in the loop.
-    pub answer: Option<&'a Answer>,
+    /// Who is flown in every sample.
+    pub contender: Contender<'a>,
 }
 
 impl Question<'_> {
@@ -138,25 +134,6 @@ impl Question<'_> {
         draw.apply(&mut scenario);
         (scenario, draw)
     }
-
-    /// Flies and judges one sample.
-    pub fn verdict(&self, scenario: &Scenario) -> Verdict {
-        let seed = scenario.simulation.seed;
-        match (self.author.crew(scenario, seed), self.answer) {
-            (Some((crew, _)), _) => {
-                let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
-                let planning = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
-                let plan = in_loop::as_plan(scenario, self.author.name(), seed, planning);
-                verdict::judge(scenario, &plan, Some(&flight))
-            }
-            (None, Some(Answer { plan, given })) => {
-                let is_flyable = verdict::is_flyable(scenario, plan).is_ok();
-                let flight = is_flyable.then(|| sim::fly(scenario, plan, seed, &mut |_| {}));
-                verdict::judge_given(scenario, plan, given, flight.as_ref())
-            }
-            (None, None) => verdict::judge(scenario, &unanswered(scenario), None),
-        }
-    }
 }
 
 /// Flies a partition of the samples, on all threads, and returns them in the order of their numbers.
@@ -166,7 +143,7 @@ pub fn run(question: &Question<'_>, sweep: &Sweep, partition: Partition, flown: 
     let numbers: Vec<usize> = partition.numbers(sweep.samples).collect();
     let sample = |number: usize| {
         let (scenario, draw) = question.scenario_of(&sweep.spread, number);
-        let verdict = question.verdict(&scenario);
+        let verdict = question.contender.judged_in(&scenario, scenario.simulation.seed);
         flown();
         Sample::of(number, draw, &verdict, &sweep.checks)
     };

@@ -28,6 +28,7 @@ pub fn validate(scenario: &Scenario) -> Vec<Problem> {
     problems.extend(fleet::problems(scenario));
     problems.extend(sensing::problems(scenario));
     problems.extend(planner::problems(&scenario.planner));
+    problems.extend(planner::flight_time(scenario));
     problems.extend(simulation::problems(&scenario.simulation));
     problems.extend(verdict::problems(&scenario.verdict));
     problems

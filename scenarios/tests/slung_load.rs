@@ -171,3 +171,11 @@ fn disturbances_and_options_have_their_ranges() {
     assert_fault("flight_time_s = 4, ", "", "planner.collocation.flight_time_s", "nothing", "a duration");
     assert_fault("points = 4", "points = 1", "planner.collocation.points", "1", "from 2 to 20");
 }
+
+#[test]
+fn a_flight_that_is_planned_for_may_be_flown() {
+    for time in ["1e6", "601", "1e-6"] {
+        let options = format!("flight_time_s = {time}, ");
+        assert_fault("flight_time_s = 4, ", &options, "planner.collocation.flight_time_s", " s", "max_duration_s");
+    }
+}

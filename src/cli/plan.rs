@@ -6,6 +6,7 @@ use scenarios::{Plan, PlanStatus};
 use super::run::AuthorArgs;
 use crate::error::{Error, Exit};
 use crate::progress::Progress;
+use crate::submitted::Answer;
 use crate::{jobs, output, pipeline};
 
 /// Plan a scenario without flying it.
@@ -35,32 +36,34 @@ Examples:
 
 `harness check SCENARIO --plan FILE` flies and judges the plan.";
 
+/// Says so if an answer holds no plan, and why.
+pub fn tell_no_plan(answer: &Answer) -> bool {
+    let is_none = answer.plan.status == PlanStatus::NoPlan;
+    if is_none {
+        output::tell(&format!("no plan: {}", answer.plan.reason.as_deref().unwrap_or("the planner gives no reason")));
+    }
+    is_none
+}
+
 impl PlanCommand {
     /// Plans, and writes the plan. Without a plan the exit code is 1.
     pub fn execute(&self) -> Result<Exit, Error> {
         self.refuse_unknown_form()?;
         let authors = self.author.authors()?;
-        let jobs = jobs::load(std::slice::from_ref(&self.scenario), &authors, self.seed, |_| true);
-        if let Some(refusal) = jobs.bad.into_iter().next() {
-            return Err(refusal.error);
-        }
-        let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
+        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
         if job.author.plans_in_the_loop() {
             return Err(Error::PlansInTheLoop { planner: job.author.name().to_owned() });
         }
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let handed_over = pipeline::plan(job, &mut progress);
         progress.finish();
-        let plan = handed_over.answer.plan;
-        if plan.status == PlanStatus::NoPlan {
-            let reason = plan.reason.as_deref().unwrap_or("the planner gives no reason");
-            output::tell(&format!("no plan: {reason}"));
+        if tell_no_plan(&handed_over.answer) {
             if let Some(log) = handed_over.log.filter(|log| !log.is_empty()) {
                 output::tell(log.trim_end());
             }
             return Ok(Exit::Failed);
         }
-        self.write(&plan)?;
+        self.write(&handed_over.answer.plan)?;
         Ok(Exit::Passed)
     }
 

@@ -1,21 +1,21 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenarios::{Plan, PlanStatus};
 
+use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
+use crate::contender::Contender;
 use crate::error::{Error, Exit};
-use crate::jobs::Job;
 use crate::notation::{number, quantity};
 use crate::progress::Progress;
-use crate::stress::{self, Axis, Contender, Stress};
+use crate::stress::{self, Axis, Stress};
 use crate::{jobs, output, pipeline};
 
 /// Find the disturbance at which the verdict turns.
 ///
-/// The scenario is planned once (in the loop: for every flight); then it is flown with a disturbance that grows until a flight fails. Levels up to
-/// beyond the first failure are tried, so that a response which is not monotone is noticed and said. The exit code is 1 if
-/// the plan fails without any disturbance of the kind.
+/// The scenario is planned once (in the loop: for every flight); then it is flown with a disturbance that grows until a
+/// flight fails. Levels up to beyond the first failure are tried, so that a response which is not monotone is noticed and
+/// said. The exit code is 1 if the plan fails without any disturbance of the kind.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct StressCommand {
@@ -50,17 +50,14 @@ impl StressCommand {
     /// Plans, searches, prints and writes.
     pub fn execute(&self) -> Result<Exit, Error> {
         let authors = self.author.authors()?;
-        let jobs = jobs::load(std::slice::from_ref(&self.scenario), &authors, self.seed, |_| true);
-        if let Some(refusal) = jobs.bad.into_iter().next() {
-            return Err(refusal.error);
-        }
-        let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
-        let plan = (!job.author.plans_in_the_loop()).then(|| self.planned(job));
-        if let Some(plan) = plan.as_ref().filter(|plan| plan.status == PlanStatus::NoPlan) {
-            output::tell(&format!("no plan: {}", plan.reason.as_deref().unwrap_or("the planner gives no reason")));
+        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
+        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let answer = pipeline::answer(job, &mut progress);
+        progress.finish();
+        if answer.as_ref().is_some_and(tell_no_plan) {
             return Ok(Exit::Failed);
         }
-        let contender = plan.as_ref().map_or(Contender::InLoop(&job.author), Contender::Plan);
+        let contender = Contender::of(&job.author, answer.as_ref());
         let folder = self.out.join(&job.scenario.name).join(job.author.name());
         output::create_folder(&folder)?;
         let mut exit = Exit::Passed;
@@ -76,13 +73,6 @@ impl StressCommand {
             }
         }
         Ok(exit)
-    }
-
-    fn planned(&self, job: &Job) -> Plan {
-        let mut progress = Progress::new(job, 1, 1, self.quiet);
-        let plan = pipeline::plan(job, &mut progress).answer.plan;
-        progress.finish();
-        plan
     }
 }
 

@@ -2,11 +2,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Args;
-use scenarios::PlanStatus;
 use serde::Serialize;
 
+use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
 use super::session::start_threads;
+use crate::contender::Contender;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
 use crate::progress::Progress;
@@ -97,20 +98,15 @@ impl SweepCommand {
     pub fn execute(&self) -> Result<Exit, Error> {
         start_threads(self.jobs)?;
         let authors = self.author.authors()?;
-        let jobs = jobs::load(std::slice::from_ref(&self.scenario), &authors, self.seed, |_| true);
-        if let Some(refusal) = jobs.bad.into_iter().next() {
-            return Err(refusal.error);
-        }
-        let [job] = jobs.good.as_slice() else { return Err(Error::OnePlanner) };
+        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
         let mut progress = Progress::new(job, 1, 1, self.shown.quiet);
-        let answer = (!job.author.plans_in_the_loop()).then(|| pipeline::plan(job, &mut progress).answer);
-        if let Some(answer) = answer.as_ref().filter(|answer| answer.plan.status == PlanStatus::NoPlan) {
+        let answer = pipeline::answer(job, &mut progress);
+        if answer.as_ref().is_some_and(tell_no_plan) {
             progress.finish();
-            let reason = answer.plan.reason.as_deref().unwrap_or("the planner gives no reason");
-            output::tell(&format!("no plan: {reason}"));
             return Ok(Exit::Failed);
         }
-        let question = Question { scenario: &job.scenario, author: &job.author, answer: answer.as_ref() };
+        let contender = Contender::of(&job.author, answer.as_ref());
+        let question = Question { scenario: &job.scenario, contender };
         let sweep = Sweep::new(&question, self.samples as usize, self.spread.about(job));
         let samples = self.fly(&question, &sweep, progress);
         let folder = self.out.join(&job.scenario.name).join(job.author.name());

@@ -1,8 +1,10 @@
 //! The whole flight log as a Parquet file, every number to its last bit: for `harness diverge`, pandas, and the like.
 //!
-//! One row per vehicle and step, one group of rows per vehicle. Only this file knows the library.
+//! One row per vehicle and step, in groups of rows of one vehicle: however long a flight, one group at a time is in memory
+//! beside it. Only this file knows the library.
 
 use std::fs::File;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -43,6 +45,8 @@ pub struct VehicleTable {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// Most rows of a group: some megabytes.
+const ROWS: usize = 1 << 14;
 /// Key of the scenario's name in the file's metadata.
 const SCENARIO: &str = "scenario";
 /// The column with the vehicle's name.
@@ -76,15 +80,22 @@ pub fn write(scenario: &str, flight: &Flight, path: &Path) -> Result<(), Box<dyn
     let schema = Arc::new(parse_message_type(&schema)?);
     let mut writer = SerializedFileWriter::new(File::create(path)?, schema, Arc::new(properties))?;
     for log in &flight.vehicles {
-        write_vehicle(&mut writer, log, names.len())?;
+        for first in (0..log.samples.len()).step_by(ROWS) {
+            write_group(&mut writer, log, first..(first + ROWS).min(log.samples.len()), names.len())?;
+        }
     }
     writer.close()?;
     Ok(())
 }
 
-/// One group of rows. In memory is one vehicle at a time.
-fn write_vehicle(writer: &mut SerializedFileWriter<File>, log: &VehicleLog, width: usize) -> Result<(), ParquetError> {
-    let rows: Vec<Vec<f64>> = (0..log.samples.len()).map(|step| values(log, step, width)).collect();
+/// One group of rows of a vehicle.
+fn write_group(
+    writer: &mut SerializedFileWriter<File>,
+    log: &VehicleLog,
+    steps: Range<usize>,
+    width: usize,
+) -> Result<(), ParquetError> {
+    let rows: Vec<Vec<f64>> = steps.map(|step| values(log, step, width)).collect();
     let mut group = writer.next_row_group()?;
     let mut index = 0;
     while let Some(mut column) = group.next_column()? {

@@ -3,6 +3,7 @@
 mod benchmarks;
 mod checking;
 mod comparing;
+mod edge_cases;
 mod in_ci;
 mod listing;
 mod machine_faults;

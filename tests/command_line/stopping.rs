@@ -108,7 +108,8 @@ fn a_command_that_plans_ends_with_us() {
 #[test]
 fn selftest_stress_and_benchmarks_stop_too() {
     let (name, text) = long_one();
-    let workplace = Workplace::new(&[(name, &text)]);
+    let rendezvous = include_str!("../../scenarios/fixed-wing/rendezvous-7.toml");
+    let workplace = Workplace::new(&[(name, &text), ("scenarios/fixed-wing/rendezvous-7.toml", rendezvous)]);
     for (arguments, when) in [
         (&["selftest"][..], "faults"),
         (&["stress", name, "--over", "wind"][..], "planning"),

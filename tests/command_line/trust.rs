@@ -87,10 +87,14 @@ fn the_second_integrator_is_told_in_either_form() {
 #[test]
 fn stress_tells_where_the_verdict_turns() {
     let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
-    let output = workplace.harness(&["stress", "pair.toml", "--over", "wind,mass"]);
+    let output = workplace.harness(&["stress", "pair.toml", "--over", "wind,mass,delay"]);
     let said = stdout(&output);
     assert_eq!(code(&output), 0, "{said}{}", stderr(&output));
     assert!(said.contains("wind ") && said.contains(" m/s: passes at") && said.contains("mass +"), "{said}");
+    // The delay is in steps of 10 ms: at 35 m/s, 5 m of tracking error are 0.14 s.
+    let delay = &workplace.json("out/pair/parallel-scp/stress-delay.json")["turns"];
+    let [passes, fails] = ["passes", "fails"].map(|end| delay[end].as_f64().unwrap());
+    assert!((0.05..0.5).contains(&passes) && fails - passes < 0.0101, "{delay}");
     for what in ["wind", "mass"] {
         let result = workplace.json(&format!("out/pair/parallel-scp/stress-{what}.json"));
         let [passes, fails] = ["passes", "fails"].map(|end| result["turns"][end].as_f64().unwrap());

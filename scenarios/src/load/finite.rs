@@ -1,4 +1,5 @@
-//! Are all numbers of the document finite? TOML knows `nan` and `inf`; no quantity of a scenario may be either.
+//! Are all numbers of the document quantities? TOML knows `nan` and `inf`; no quantity of a scenario may be either, nor so
+//! large or so small that arithmetic with it loses everything else.
 
 use std::ops::Range;
 
@@ -7,7 +8,11 @@ use toml::de::{DeTable, DeValue};
 
 use crate::Problem;
 
-/// Every number that is not finite, with the bytes of the text where it stands.
+/// No quantity is larger than this, or smaller without being zero, in the unit that it is given in.
+const LARGEST: f64 = 1e12;
+const SMALLEST: f64 = 1e-12;
+
+/// Every number that is none or beyond all measure, with the bytes of the text where it stands.
 pub(super) fn faults(root: &DeTable<'_>) -> Vec<(Problem, Range<usize>)> {
     let mut faults = Vec::new();
     for (key, value) in root {
@@ -18,12 +23,16 @@ pub(super) fn faults(root: &DeTable<'_>) -> Vec<(Problem, Range<usize>)> {
 
 fn walk(field: &str, value: &Spanned<DeValue<'_>>, faults: &mut Vec<(Problem, Range<usize>)>) {
     match value.get_ref() {
-        DeValue::Float(float) if !float.as_str().parse::<f64>().is_ok_and(f64::is_finite) => {
+        DeValue::Float(float) if !float.as_str().replace('_', "").parse::<f64>().is_ok_and(f64::is_finite) => {
             let problem = Problem::new(field, float.as_str(), "a finite number");
             faults.push((
                 problem.remedy("to say \"no limit\", leave the key out where it may be left out"),
                 value.span(),
             ));
+        }
+        DeValue::Float(float) if float.as_str().replace('_', "").parse().is_ok_and(is_beyond_measure) => {
+            let expected = format!("0, or a number between {SMALLEST:e} and {LARGEST:e} in magnitude");
+            faults.push((Problem::new(field, float.as_str(), expected), value.span()));
         }
         DeValue::Table(table) => {
             table.iter().for_each(|(key, inner)| walk(&format!("{field}.{}", key.get_ref()), inner, faults));
@@ -33,4 +42,8 @@ fn walk(field: &str, value: &Spanned<DeValue<'_>>, faults: &mut Vec<(Problem, Ra
         }
         _ => {}
     }
+}
+
+fn is_beyond_measure(value: f64) -> bool {
+    value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs())
 }

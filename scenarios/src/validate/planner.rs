@@ -2,7 +2,9 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, TrustRegion};
+use crate::{
+    Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, Scenario, TrustRegion,
+};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
@@ -16,6 +18,16 @@ const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
 const STEPS: std::ops::RangeInclusive<usize> = 1..=100;
 const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
 const SEARCH: std::ops::RangeInclusive<usize> = 1..=10_000;
+
+/// A flight that the planner is to plan for, and that may not be flown.
+pub(super) fn flight_time(scenario: &Scenario) -> Option<Problem> {
+    let flight_time_s = scenario.planner.collocation.as_ref()?.flight_time_s.filter(|time_s| *time_s > 0.0)?;
+    let (step_s, most_s) = (scenario.simulation.step_s, scenario.simulation.max_duration_s);
+    (!(step_s..=most_s).contains(&flight_time_s)).then(|| {
+        let expected = format!("from {step_s} s, a step, to {most_s} s: simulation.max_duration_s");
+        Problem::new("planner.collocation.flight_time_s", format!("{flight_time_s} s"), expected)
+    })
+}
 
 pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
     let mut problems = outside_problems(settings);
