@@ -186,3 +186,20 @@ fn plans_repeat_on_any_number_of_threads() {
     };
     assert_eq!(with(1), with(2));
 }
+
+/// Under complementarity there are no phases between which a gate could be passed, and no ground that carries a load.
+#[test]
+fn complementarity_is_refused_where_it_cannot_tell() {
+    let planner = planners::find("slung-lgr").expect("registered");
+    let refusal = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/slung/{name}.toml"));
+        let mut scenario = scenarios::load(&path).expect("a shipped scenario");
+        let mut settings = scenario.planner.collocation.take().unwrap_or_default();
+        (settings.formulation, settings.cable) = (Some(scenarios::Formulation::Complementarity), None);
+        scenario.planner.collocation = Some(settings);
+        (planner.refuses)(&scenario)
+    };
+    assert!(refusal("gate").is_some_and(|reason| reason.contains("gate")));
+    assert!(refusal("lift-off").is_some_and(|reason| reason.contains("ground")));
+    assert_eq!((refusal("rectangle"), refusal("drop-and-catch")), (None, None));
+}

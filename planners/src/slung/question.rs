@@ -44,6 +44,8 @@ pub fn refuses(scenario: &Scenario) -> Option<String> {
         "at the goal the load hangs straight down"
     } else if is_complementary(&settings) && !scenario.world.gates.is_empty() {
         "a gate is passed between two phases, and under complementarity there is but one"
+    } else if is_complementary(&settings) && rests_on_ground(scenario) {
+        "the load begins on the ground, which complementarity knows nothing of"
     } else if alike(&phases).count() != scenario.world.gates.len() {
         "a gate is passed where two phases of the cable in a row are alike, and there are not as many such as gates"
     } else if gates(scenario).any(|gate| gate.quadrotor_m.iter().chain(&gate.load_m).any(|[low, high]| low >= high)) {
