@@ -103,7 +103,7 @@ fn name_of(verdict: Outcome) -> &'static str {
     VERDICTS.iter().find(|(_, outcome)| *outcome == verdict).map_or("fail", |(name, _)| name)
 }
 
-/// Reads a table that [`write`] wrote.
+/// Reads a table that [`write()`] wrote.
 pub fn read(path: &Path) -> Result<(Sweep, Vec<Sample>), Error> {
     read_table(path).map_err(|reason| Error::Samples { path: path.to_owned(), reason: reason.to_string() })
 }
