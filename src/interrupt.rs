@@ -16,6 +16,9 @@ const STOPPED: i32 = 130;
 /// The last word is given this long: nobody may be listening.
 const LAST_WORD: Duration = Duration::from_millis(500);
 
+/// Most jobs that are named one by one.
+const MOST_NAMES: usize = 5;
+
 /// What is being done at the moment.
 static UNDER_WAY: Mutex<UnderWay> =
     Mutex::new(UnderWay { partial: BTreeSet::new(), groups: Vec::new(), complete: Vec::new(), open: Vec::new() });
@@ -113,13 +116,20 @@ fn last_word(complete: &[String], open: &[String]) -> String {
     let Some((current, rest)) = open.split_first() else {
         return "\nstopped: nothing is half written".to_owned();
     };
-    let done = if complete.is_empty() { String::new() } else { format!(": {}", complete.join(", ")) };
-    let not_begun = if rest.is_empty() { String::new() } else { format!("; not begun: {}", rest.join(", ")) };
+    let done = if complete.is_empty() { String::new() } else { format!(": {}", some(complete)) };
+    let not_begun = if rest.is_empty() { String::new() } else { format!("; not begun: {}", some(rest)) };
     format!(
-        "\nstopped: {} of {all} are complete{done}\nnot complete: {current}, whose files are whole, but may be of two runs{not_begun}; \
+        "\nstopped: {} of {all} are complete{done}\nnot complete: {current}, whose files are whole, but may be of two runs{not_begun}\n\
          the summaries are those of the run before",
         complete.len()
     )
+}
+
+/// The first few of many names, and how many more there are.
+fn some(names: &[String]) -> String {
+    let (named, others) = names.split_at(names.len().min(MOST_NAMES));
+    let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+    format!("{}{more}", named.join(", "))
 }
 
 fn lock() -> MutexGuard<'static, UnderWay> {
@@ -135,7 +145,9 @@ mod tests {
         let jobs = ["a", "b", "c"].map(str::to_owned);
         let word = last_word(&jobs[..1], &jobs[1..]);
         assert!(word.contains("1 of 3 are complete: a\n"), "{word}");
-        assert!(word.contains("not complete: b, ") && word.contains("; not begun: c;"), "{word}");
+        assert!(word.contains("not complete: b, ") && word.contains("; not begun: c\n"), "{word}");
+        let many: Vec<String> = (0..9).map(|number| number.to_string()).collect();
+        assert!(last_word(&[], &many).contains("not begun: 1, 2, 3, 4, 5 and 3 more\n"));
         assert!(last_word(&[], &jobs[..1]).contains("0 of 1 are complete\nnot complete: a,"));
         assert!(last_word(&[], &[]).contains("nothing is half written"));
     }

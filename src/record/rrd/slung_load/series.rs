@@ -1,6 +1,7 @@
 //! Thrusts, tension, swing, tracking, clearance over time, each with what it is held against; slack and taut as states.
 
 use rerun::{Color, RecordingStream, Scalars, SeriesLines, StateChange};
+use scenarios::Prism;
 use scenarios::slung_load::{Cable, Model, Trajectory};
 use sim::slung_load::{Body, Part, Parts};
 use sim::{Actuation, EventKind, Flight, LoadSample, Sample, VehicleLog};
@@ -13,6 +14,8 @@ use crate::verdict::slung_load::{Flown, Planned, TENSION_WINDOW_S};
 
 /// Most points of one series.
 const MOST_POINTS: usize = 2000;
+/// A viewer keeps one value per instant: what ends at a switch ends so long before it, s.
+const EDGE_S: f64 = 1e-6;
 /// Time between two points of a distance, s.
 const DISTANCE_STEP_S: f64 = 0.01;
 
@@ -85,21 +88,25 @@ fn log_tracking(stream: &RecordingStream, log: &VehicleLog, plan_end_s: f64) -> 
     curve_of(stream, "tracking", "load", palette::FLEET, load)
 }
 
-/// Of every part and of the envelope, the distance to the obstacle that is nearest.
+/// Of every part and of the envelope, the distance to the obstacle that is nearest; of the body, to the ground too.
 fn log_distances(stream: &RecordingStream, run: &Run<'_>, model: &Model, flight: &Flight) -> Logged {
-    let obstacles = run.scenario.world.flat_obstacles();
-    let Some(flown) = Flown::new(flight).ok().filter(|_| !obstacles.is_empty()) else { return Ok(()) };
-    let parts = Parts::of(model);
+    let Ok(flown) = Flown::new(flight) else { return Ok(()) };
+    let (obstacles, parts) = (run.scenario.world.flat_obstacles(), Parts::of(model));
+    let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
     let stride = (DISTANCE_STEP_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
-    let curve = |distance_m: &dyn Fn(&Body, usize) -> f64| -> Curve {
-        let nearest = |body: &Body| (0..obstacles.len()).map(|i| distance_m(body, i)).fold(f64::INFINITY, f64::min);
-        flown.course.instants().iter().step_by(stride).map(|at| (at.t_s, nearest(&at.body))).collect()
+    // What nothing is near to has no curve: infinite points are left out.
+    let curve = |distance_m: &dyn Fn(&Body) -> f64| -> Curve {
+        flown.course.instants().iter().step_by(stride).map(|at| (at.t_s, distance_m(&at.body))).collect()
     };
+    let nearest = |distance_m: &dyn Fn(&Prism) -> f64| obstacles.iter().map(distance_m).fold(f64::INFINITY, f64::min);
     for (index, part) in Part::ALL.into_iter().enumerate() {
-        let distances = curve(&|body, obstacle| parts.distance_m(part, body, &obstacles[obstacle]));
+        let distances = curve(&|body| {
+            let height_m = if part == Part::Body { parts.height_m(body) - ground_m } else { f64::INFINITY };
+            nearest(&|obstacle| parts.distance_m(part, body, obstacle)).min(height_m)
+        });
         curve_of(stream, "clearance", part.name(), palette::vehicle(index, 3), distances)?;
     }
-    let envelope = curve(&|body, obstacle| parts.envelope_distance_m(body, &obstacles[obstacle]));
+    let envelope = curve(&|body| nearest(&|obstacle| parts.envelope_distance_m(body, obstacle)));
     curve_of(stream, "clearance", "envelope", palette::FLEET, envelope)
 }
 
@@ -119,7 +126,7 @@ fn log_states(stream: &RecordingStream, run: &Run<'_>, flight: &Flight) -> Logge
         let ends = states.iter().skip(1).map(|(t_s, _)| *t_s).chain([end_s]);
         let steps = states.iter().zip(ends).flat_map(|((from_s, cable), to_s)| {
             let value = f64::from(u8::from(*cable == Cable::Taut));
-            [(*from_s, value), (to_s, value)]
+            [(*from_s, value), (to_s - EDGE_S, value)]
         });
         let colour = if name == "planned" { palette::FLEET } else { palette::vehicle(0, 1) };
         curve_of(stream, "cable", name, colour, steps.collect())?;
