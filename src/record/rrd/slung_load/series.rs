@@ -1,5 +1,6 @@
 //! Thrusts, tension, swing, tracking, clearance over time, each with what it is held against; slack and taut as states.
 
+use rerun::components::InterpolationMode;
 use rerun::{Color, RecordingStream, Scalars, SeriesLines, StateChange};
 use scenarios::Prism;
 use scenarios::slung_load::{Cable, Model, Trajectory};
@@ -14,8 +15,6 @@ use crate::verdict::slung_load::{Flown, Planned, TENSION_WINDOW_S};
 
 /// Most points of one series.
 const MOST_POINTS: usize = 2000;
-/// A viewer keeps one value per instant: what ends at a switch ends so long before it, s.
-const EDGE_S: f64 = 1e-6;
 /// Time between two points of a distance, s.
 const DISTANCE_STEP_S: f64 = 0.01;
 
@@ -122,14 +121,11 @@ fn log_states(stream: &RecordingStream, run: &Run<'_>, flight: &Flight) -> Logge
     let flown: Vec<(f64, Cable)> = [(0.0, *first)].into_iter().chain(flown).collect();
     let changes = [("planned", planned_states(trajectory)), ("flown", flown)];
     for (name, states) in changes {
-        let end_s = end_s(flight);
-        let ends = states.iter().skip(1).map(|(t_s, _)| *t_s).chain([end_s]);
-        let steps = states.iter().zip(ends).flat_map(|((from_s, cable), to_s)| {
-            let value = f64::from(u8::from(*cable == Cable::Taut));
-            [(*from_s, value), (to_s - EDGE_S, value)]
-        });
+        let last = states.last().map(|(_, cable)| (end_s(flight), *cable));
+        let steps = states.iter().copied().chain(last);
+        let steps = steps.map(|(t_s, cable)| (t_s, f64::from(u8::from(cable == Cable::Taut))));
         let colour = if name == "planned" { palette::FLEET } else { palette::vehicle(0, 1) };
-        curve_of(stream, "cable", name, colour, steps.collect())?;
+        curve_between(stream, "cable", name, colour, (steps.collect(), InterpolationMode::StepAfter))?;
         for (t_s, cable) in states {
             stream.set_duration_secs(SIM_TIME, t_s);
             let state = match cable {
@@ -154,9 +150,21 @@ fn planned_states(trajectory: &Trajectory) -> Vec<(f64, Cable)> {
 }
 
 fn curve_of(stream: &RecordingStream, group: &str, name: &str, colour: [u8; 3], curve: Curve) -> Logged {
+    curve_between(stream, group, name, colour, (curve, InterpolationMode::Linear))
+}
+
+/// A curve, and what is drawn between its points.
+fn curve_between(
+    stream: &RecordingStream,
+    group: &str,
+    name: &str,
+    colour: [u8; 3],
+    (curve, between): (Curve, InterpolationMode),
+) -> Logged {
     let path = entity(&format!("plots/{group}"), name);
     let colour: Color = palette::opaque(colour);
     let style = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([1.3]);
+    let style = style.with_interpolation_mode(between);
     stream.log_static(path.clone(), &style)?;
     let curve = curve.thinned(MOST_POINTS);
     let values = Scalars::new(curve.values).columns_of_unit_batches()?;
