@@ -1,7 +1,7 @@
 //! The whole flight log as a Parquet file, every number to its last bit: for `harness diverge`, pandas, and the like.
 //!
 //! One row per vehicle and step, in groups of rows of one vehicle: however long a flight, one group at a time is in memory
-//! beside it. Only this file knows the library.
+//! beside it.
 
 use std::fs::File;
 use std::ops::Range;
