@@ -126,7 +126,7 @@ fn close_in(trials: &mut Vec<Trial>, finest: f64, fly: &impl Fn(f64) -> Trial, p
 }
 
 fn trial(scenario: &Scenario, contender: Contender<'_>, over: Axis, seed: u64, level: f64) -> Trial {
-    let mut disturbed = scenario.clone();
+    let (mut disturbed, level) = (scenario.clone(), over.nearest(scenario, level));
     over.set(&mut disturbed, level);
     let verdict = contender.judged_in(&disturbed, seed);
     let decisive = verdict.checks.into_iter().filter(|check| check.is_bad() && !check.advisory);

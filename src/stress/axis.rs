@@ -67,6 +67,12 @@ impl Axis {
         }
     }
 
+    /// The level nearest to this one that can be flown: delays are whole steps of the simulator.
+    pub fn nearest(self, scenario: &Scenario, level: f64) -> f64 {
+        let finest = self.finest(scenario);
+        if finest > 0.0 { (level / finest).round() * finest } else { level }
+    }
+
     /// Gives the scenario this level.
     pub fn set(self, scenario: &mut Scenario, level: f64) {
         let simulation = &mut scenario.simulation;

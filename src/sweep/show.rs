@@ -16,7 +16,7 @@ pub fn text(sweep: &Sweep, statistics: &Statistics) -> String {
         table.add_row(row(check));
     }
     let Statistics { samples, passed, pass_share_95: [least, most], .. } = statistics;
-    let share = 100.0 * *passed as f64 / *samples as f64;
+    let share = 100.0 * *passed as f64 / (*samples).max(1) as f64;
     format!(
         "{}\n{} · {}: {}\npassed {passed} of {samples}, {share:.1} % (of endlessly many {:.1} % to {:.1} %, with 95 % confidence)",
         table.trim_fmt(),

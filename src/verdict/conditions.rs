@@ -98,9 +98,13 @@ fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
     ];
     series.iter().find_map(|(what, sigma, pairs)| {
         let errors = errors(pairs, late);
-        // Of noise, what is said again and again in the beginning says nothing new.
-        let told = if *sigma == 0.0 { &errors } else { errors.get(late..).unwrap_or_default() };
-        noise_defect(what, *sigma, told)
+        // Until news can arrive the first measurement is all that there is, again and again: of noise that is one.
+        let early = late.min(errors.len().saturating_sub(1));
+        let is_news = pairs[..early].iter().any(|[measured, _]| *measured != pairs[0][0]);
+        let news = || format!("the measured {what} changes before anything can be known of it");
+        is_news
+            .then(news)
+            .or_else(|| noise_defect(what, *sigma, if *sigma == 0.0 { &errors } else { &errors[early..] }))
     })
 }
 

@@ -160,6 +160,25 @@ fn a_reference_that_is_not_the_plan_s_is_seen() {
     }
 }
 
+/// What is measured late says nothing new in the beginning, and what never comes is still held against the noise.
+#[test]
+fn late_measurements_are_looked_at_from_the_first_on() {
+    for (delay_s, tampered) in [(0.05, 2), (0.05, 50), (100.0, 0), (100.0, 300)] {
+        let mut case = Case::good();
+        let sensors = &mut case.scenario.simulation.sensors;
+        (sensors.position_noise_m, sensors.delay_s) = (0.01, delay_s);
+        case.flight = Some(sim::fly(&case.scenario, &case.plan, 0, &mut |_| {}));
+        assert_eq!(case.status("flight.conditions"), Status::Pass, "{:#?}", case.check("flight.conditions"));
+        // All that is told again and again, or one of it; later on only a whole that is off can be told from noise.
+        let off_m = if tampered == 50 { 10.0 } else { 1.0 };
+        let end = if tampered == 0 { usize::MAX } else { tampered + 1 };
+        for sample in case.samples(0).iter_mut().take(end).skip(tampered) {
+            sample.measured_position_m[1] += off_m;
+        }
+        assert_eq!(case.status("flight.conditions"), Status::Fail, "{delay_s} s, sample {tampered}");
+    }
+}
+
 /// The more a velocity changes from sample to sample, the less is known of what lies between them.
 #[test]
 fn what_lies_between_samples_widens_the_clearance() {

@@ -51,7 +51,7 @@ impl<'a> Fleet<'a> {
             }
             let trajectory = trajectory.fixed_wing();
             let first = &trajectory.states[0];
-            let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
+            let offset_m = start::offset_m(scenario, vehicle, setup, seed);
             squadrons.last_mut().expect("one was added").add(
                 Aircraft::new(scenario, vehicle, trajectory, setup.pilot, seed, steps),
                 scenario.simulation.mismatch.mass_ratio,

@@ -114,7 +114,7 @@ impl Fleet {
             .iter()
             .enumerate()
             .map(|(index, vehicle)| {
-                let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
+                let offset_m = start::offset_m(scenario, vehicle, setup, seed);
                 let position_m = Vector3::from(vehicle.start.position_m()) + offset_m;
                 let velocity_mps =
                     Vector3::from(vehicle.start.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps);

@@ -79,7 +79,7 @@ impl Sortie {
         };
         let reference = Reference::new(trajectory, &nominal);
         let first = reference.at(0.0);
-        let offset_m = Vector3::from(setup.start_offset_m) + start::offset_m(scenario, vehicle, seed);
+        let offset_m = start::offset_m(scenario, vehicle, setup, seed);
         let offset_mps = Vector3::from(setup.start_velocity_offset_mps);
         let start = Body {
             position_m: first.body.position_m + offset_m,

@@ -25,6 +25,28 @@ fn in_steady_wind_the_flight_relative_to_the_air_is_the_windless_one() {
     }
 }
 
+/// Where the vehicles of a flight start, relative to their plans, m.
+fn starts_m(radius_m: f64, seed: u64) -> Vec<Vector3<f64>> {
+    let mut scenario = arena::scenario(2);
+    scenario.simulation.mismatch.start_radius_m = radius_m;
+    let starts = [arena::level(0.0, 0.0, 35.0, 0.0), arena::level(0.0, 500.0, 35.0, 0.0)];
+    let plan = arena::plan(starts.iter().map(|start| arena::straight(*start, 1.0)).collect());
+    let flight = fly(&scenario, &plan, seed, &mut arena::silent);
+    let first = flight.vehicles.iter().map(|log| arena::position(&log.samples[0]));
+    first.zip(&starts).map(|(position_m, start)| position_m - Vector3::from(start.position_m())).collect()
+}
+
+#[test]
+fn starts_are_drawn_inside_their_disc_each_on_its_own() {
+    let drawn_m: Vec<Vec<Vector3<f64>>> = (0..200).map(|seed| starts_m(20.0, seed)).collect();
+    assert!(drawn_m.iter().flatten().all(|offset_m| offset_m.norm() <= 20.0 && offset_m.z == 0.0));
+    assert!(drawn_m.iter().flatten().any(|offset_m| offset_m.norm() > 19.0));
+    assert!((0..2).all(|axis| drawn_m.iter().any(|both| both[0][axis] < -10.0)));
+    assert!(drawn_m.iter().all(|both| both[0] != both[1]));
+    assert_eq!(starts_m(20.0, 3), drawn_m[3]);
+    assert_eq!(starts_m(0.0, 3), [Vector3::zeros(); 2]);
+}
+
 /// With a mass of r times the nominal one, n_z = r carries the weight, and n_y turns on a circle of radius
 /// r V² / (g n_y).
 #[test]

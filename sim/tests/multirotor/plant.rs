@@ -36,6 +36,15 @@ fn flown(plant: &str) -> Flight {
     fly(&scenario, &plan(&scenario, &nodes()), 0, &mut |_| {})
 }
 
+#[test]
+fn the_start_is_drawn_where_the_scenario_asks_for_it() {
+    let mut scenario = scenario("quadrotor");
+    scenario.simulation.mismatch.start_radius_m = 0.3;
+    let flight = fly(&scenario, &plan(&scenario, &nodes()), 7, &mut |_| {});
+    let offset_m = Vector3::from(flight.vehicles[0].samples[0].position_m) - Vector3::from(nodes()[0].position_m);
+    assert!(0.0 < offset_m.norm() && offset_m.norm() <= 0.3 && offset_m.z == 0.0, "{offset_m}");
+}
+
 fn error_m(sample: &Sample, position_m: Vector3<f64>) -> f64 {
     (Vector3::from(sample.position_m) - position_m).norm()
 }

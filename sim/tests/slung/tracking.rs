@@ -79,6 +79,19 @@ fn undisturbed_it_stays_on_the_plan() {
     assert!(flight.events.is_empty(), "{:?}", flight.events);
 }
 
+/// Quadrotor and load together, so that the cable is as long as before.
+#[test]
+fn the_start_is_drawn_where_the_scenario_asks_for_it() {
+    let [nominal, drawn] = [0.0, 0.04].map(|radius_m| {
+        let flight = flown(|s| s.simulation.mismatch.start_radius_m = radius_m);
+        let log = &flight.vehicles[0];
+        [log.samples[0].position_m, log.loads[0].position_m].map(Vector3::from)
+    });
+    let offset_m = drawn[0] - nominal[0];
+    assert!(0.0 < offset_m.norm() && offset_m.norm() <= 0.04 && offset_m.z == 0.0, "{offset_m}");
+    assert!((drawn[1] - nominal[1] - offset_m).norm() < 1e-12);
+}
+
 #[test]
 fn disturbed_it_stays_near() {
     let mass =

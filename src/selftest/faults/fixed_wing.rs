@@ -4,6 +4,7 @@ use scenarios::Cylinder;
 
 use super::super::specimen::load_factors;
 use super::super::{Fault, Specimen};
+use super::log::{delay, swap};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -139,29 +140,6 @@ fn obstacles() -> Vec<Fault> {
             place(it, middle, 0.5, 0.01 + 0.9 * wing_m, 0.01);
         }),
     ]
-}
-
-/// What two logs hold from some sample on, swapped, apart from what the plans ask for.
-fn swap(it: &mut Specimen, from: usize) {
-    let (one, other) = (it.samples(0).clone(), it.samples(1).clone());
-    for (vehicle, source) in [(0, &other), (1, &one)] {
-        for (sample, source) in it.samples(vehicle).iter_mut().zip(source).skip(from) {
-            let kept = *sample;
-            *sample = *source;
-            sample.reference_position_m = kept.reference_position_m;
-            sample.reference_velocity_mps = kept.reference_velocity_mps;
-        }
-    }
-}
-
-/// The first vehicle is where it should have been some time ago.
-fn delay(it: &mut Specimen, late_s: f64) {
-    let late = (late_s / it.scenario.simulation.step_s).round() as usize;
-    let samples = it.samples(0).clone();
-    for (step, sample) in it.samples(0).iter_mut().enumerate() {
-        sample.position_m = samples[step.saturating_sub(late)].position_m;
-        sample.velocity_mps = samples[step.saturating_sub(late)].velocity_mps;
-    }
 }
 
 /// A pole near the first vehicle's path: at the share `between` of a step, its axis so far to the left.

@@ -3,6 +3,7 @@
 use scenarios::Range;
 use sim::EventKind;
 
+use super::super::log::{delay, swap};
 use super::plans::add;
 use crate::selftest::specimen::acceleration;
 use crate::selftest::{Fault, Specimen};
@@ -130,27 +131,4 @@ fn between_samples(it: &mut Specimen) -> [f64; 3] {
     let middle = it.planned_steps() / 2;
     let [from, to] = [it.samples(0)[middle].position_m, it.samples(0)[middle + 1].position_m];
     std::array::from_fn(|axis| f64::midpoint(from[axis], to[axis]))
-}
-
-/// What two logs hold from some sample on, swapped, apart from what the plans ask for.
-fn swap(it: &mut Specimen, from: usize) {
-    let (one, other) = (it.samples(0).clone(), it.samples(1).clone());
-    for (vehicle, source) in [(0, &other), (1, &one)] {
-        for (sample, source) in it.samples(vehicle).iter_mut().zip(source).skip(from) {
-            let kept = *sample;
-            *sample = *source;
-            sample.reference_position_m = kept.reference_position_m;
-            sample.reference_velocity_mps = kept.reference_velocity_mps;
-        }
-    }
-}
-
-/// The first vehicle is where it should have been some time ago.
-fn delay(it: &mut Specimen, late_s: f64) {
-    let late = (late_s / it.scenario.simulation.step_s).round() as usize;
-    let samples = it.samples(0).clone();
-    for (step, sample) in it.samples(0).iter_mut().enumerate() {
-        sample.position_m = samples[step.saturating_sub(late)].position_m;
-        sample.velocity_mps = samples[step.saturating_sub(late)].velocity_mps;
-    }
 }
