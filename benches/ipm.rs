@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use divan::Bencher;
-use harness::bench::ipm::TOLERANCE;
-use harness::bench::subproblems::{self, Subproblem};
+use harness::campaign::bench::ipm::TOLERANCE;
+use harness::campaign::bench::subproblems::{self, Subproblem};
 use planners::convex::{self, Backend, InteriorPoint, Settings, Solvers};
 
 fn main() {

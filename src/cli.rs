@@ -57,14 +57,14 @@ enum Command {
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
     #[cfg(feature = "parquet")]
-    Diverge(diverge::Diverge),
+    Diverge(first_difference::Diverge),
     #[cfg(feature = "parquet")]
     #[command(name = "sweep")]
     Sweep(sweep::SweepCommand),
     #[cfg(feature = "parquet")]
     Merge(merge::Merge),
     #[command(name = "stress")]
-    Stress(stress::StressCommand),
+    Stress(failure_threshold::StressCommand),
     #[command(name = "selftest")]
     Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),

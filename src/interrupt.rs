@@ -20,10 +20,10 @@ const LAST_WORD: Duration = Duration::from_millis(500);
 const MOST_NAMES: usize = 5;
 
 /// What is being done at the moment.
-static UNDER_WAY: Mutex<UnderWay> =
-    Mutex::new(UnderWay { partial: BTreeSet::new(), groups: Vec::new(), complete: Vec::new(), open: Vec::new() });
+static UNDER_WAY: Mutex<RunState> =
+    Mutex::new(RunState { partial: BTreeSet::new(), groups: Vec::new(), complete: Vec::new(), open: Vec::new() });
 
-struct UnderWay {
+struct RunState {
     /// Files and folders that are worth nothing before they are complete.
     partial: BTreeSet<PathBuf>,
     /// Process groups that do not see the signal themselves.
@@ -132,7 +132,7 @@ fn some(names: &[String]) -> String {
     format!("{}{more}", named.join(", "))
 }
 
-fn lock() -> MutexGuard<'static, UnderWay> {
+fn lock() -> MutexGuard<'static, RunState> {
     UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

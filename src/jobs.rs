@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use planners::Planner;
 use scenarios::{Problem, Scenario, Source, nearest};
 
-use crate::author::Author;
 use crate::error::Error;
-use crate::outside::OutsidePlanner;
+use crate::plan_source::PlanSource;
+use crate::plan_source::external::ExternalPlanner;
 
 /// One scenario for one planner.
 #[derive(Clone)]
@@ -17,7 +17,7 @@ pub struct Job {
     /// The file that it stands in.
     pub source: Source,
     /// Who answers.
-    pub author: Author,
+    pub plan_source: PlanSource,
     /// Seed of everything random in planning and flight.
     pub seed: u64,
 }
@@ -26,14 +26,14 @@ pub struct Job {
 #[derive(Default)]
 pub struct Jobs {
     /// What can be run, in the order of the files and of the planners.
-    pub good: Vec<Job>,
+    pub runnable: Vec<Job>,
     /// What cannot, and why.
-    pub bad: Vec<Refusal>,
+    pub rejected: Vec<RejectedJob>,
 }
 
 /// A file that cannot be run.
 #[derive(Debug)]
-pub struct Refusal {
+pub struct RejectedJob {
     /// The file.
     pub file: PathBuf,
     /// Why.
@@ -41,36 +41,43 @@ pub struct Refusal {
 }
 
 /// The planners of these names. An unknown name is an error, since nothing that was asked for can be done then.
-pub fn planners_named(names: &[String]) -> Result<Vec<Author>, Error> {
-    let named = |name: &String| planners::find(name).map(Author::Registered).ok_or_else(|| unknown_planner(name));
+pub fn planners_named(names: &[String]) -> Result<Vec<PlanSource>, Error> {
+    let named = |name: &String| planners::find(name).map(PlanSource::Registered).ok_or_else(|| unknown_planner(name));
     names.iter().map(named).collect()
 }
 
-/// Loads every file and pairs its scenario with `authors`, or with the planner that it names if there are none.
+/// Loads every file and pairs its scenario with `plan_sources`, or with the planner that it names if there are none.
 ///
 /// - `seed`: replaces the scenarios' own
 /// - `is_wanted`: scenarios for which it is false are left out; a bad file always shows
-pub fn load(files: &[PathBuf], authors: &[Author], seed: Option<u64>, is_wanted: impl Fn(&Scenario) -> bool) -> Jobs {
+pub fn load(
+    files: &[PathBuf],
+    plan_sources: &[PlanSource],
+    seed: Option<u64>,
+    is_wanted: impl Fn(&Scenario) -> bool,
+) -> Jobs {
     let mut jobs = Jobs::default();
     for file in files {
         match load_file(file, seed) {
             Ok((_, scenario)) if !is_wanted(&scenario) => {}
-            Ok((source, scenario)) => pair(file, &source, &scenario, authors).into_iter().for_each(|pair| match pair {
-                Ok(job) => jobs.good.push(job),
-                Err(error) => jobs.bad.push(Refusal { file: file.clone(), error }),
-            }),
-            Err(error) => jobs.bad.push(Refusal { file: file.clone(), error }),
+            Ok((source, scenario)) => {
+                pair(file, &source, &scenario, plan_sources).into_iter().for_each(|pair| match pair {
+                    Ok(job) => jobs.runnable.push(job),
+                    Err(error) => jobs.rejected.push(RejectedJob { file: file.clone(), error }),
+                })
+            }
+            Err(error) => jobs.rejected.push(RejectedJob { file: file.clone(), error }),
         }
     }
     jobs
 }
 
 /// Loads one file for one planner.
-pub fn load_one(file: &Path, authors: &[Author], seed: Option<u64>) -> Result<Job, Error> {
-    let mut jobs = load(&[file.to_owned()], authors, seed, |_| true);
-    match (jobs.bad.pop(), jobs.good.pop()) {
+pub fn load_one(file: &Path, plan_sources: &[PlanSource], seed: Option<u64>) -> Result<Job, Error> {
+    let mut jobs = load(&[file.to_owned()], plan_sources, seed, |_| true);
+    match (jobs.rejected.pop(), jobs.runnable.pop()) {
         (Some(refusal), _) => Err(refusal.error),
-        (None, Some(job)) if jobs.good.is_empty() => Ok(job),
+        (None, Some(job)) if jobs.runnable.is_empty() => Ok(job),
         (None, _) => Err(Error::OnePlanner),
     }
 }
@@ -85,29 +92,29 @@ pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(Source, Scenario), E
     Ok((source, scenario))
 }
 
-/// One job per author, or that of the planner which the scenario names.
-fn pair(file: &Path, source: &Source, scenario: &Scenario, authors: &[Author]) -> Vec<Result<Job, Error>> {
-    let job = |author: Author| Job {
+/// One job per plan_source, or that of the planner which the scenario names.
+fn pair(file: &Path, source: &Source, scenario: &Scenario, plan_sources: &[PlanSource]) -> Vec<Result<Job, Error>> {
+    let job = |plan_source: PlanSource| Job {
         seed: scenario.simulation.seed,
         scenario: scenario.clone(),
         source: source.clone(),
-        author,
+        plan_source,
     };
-    if authors.is_empty() {
+    if plan_sources.is_empty() {
         return vec![named_by_scenario(file, source, scenario).map(job)];
     }
-    let fitting = |author: &Author| match author {
-        Author::Registered(planner) => match (planner.refuses)(scenario) {
+    let fitting = |plan_source: &PlanSource| match plan_source {
+        PlanSource::Registered(planner) => match (planner.refuses)(scenario) {
             Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
-            None => Ok(job(author.clone())),
+            None => Ok(job(plan_source.clone())),
         },
-        _ => Ok(job(author.clone())),
+        _ => Ok(job(plan_source.clone())),
     };
-    authors.iter().map(fitting).collect()
+    plan_sources.iter().map(fitting).collect()
 }
 
 /// The planner that the scenario names; if that cannot be, an error that points to the line.
-fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Result<Author, Error> {
+fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Result<PlanSource, Error> {
     let name = &scenario.planner.name;
     let problem = |expected: String, remedy: String| {
         source.error(vec![Problem::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])
@@ -119,7 +126,7 @@ fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Resul
         }
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let (name, command, folder) = (name.clone(), command.clone(), folder.to_owned());
-        return Ok(Author::Outside(OutsidePlanner {
+        return Ok(PlanSource::External(ExternalPlanner {
             name,
             command,
             folder,
@@ -130,7 +137,7 @@ fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Resul
     let Some(planner) = planners::find(name) else {
         return Err(problem(format!("the name of a planner: {}", known_planners()), remedy_for(name)).into());
     };
-    refuse_unfit(planner, scenario, problem).map(|()| Author::Registered(planner))
+    refuse_unfit(planner, scenario, problem).map(|()| PlanSource::Registered(planner))
 }
 
 fn refuse_unfit(

@@ -3,34 +3,22 @@
 //! ```text
 //! scenario file -> Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
 //! ```
+//!
+//! [`plan_source`] is where a plan comes from, [`verdict`] judges it and its flight, [`metrics`] measures what decides
+//! nothing, [`output`] writes recordings and reports, [`campaign`] runs many flights to answer one question.
 
-pub mod author;
-pub mod bench;
+pub mod campaign;
 pub mod cli;
-pub mod compare;
-mod contender;
 #[cfg(all(test, unix))]
 #[path = "../scenarios/tests/damage/mod.rs"]
 mod damage;
-#[cfg(feature = "parquet")]
-pub mod diverge;
 pub mod error;
-mod export;
-pub mod in_loop;
 pub mod interrupt;
 mod jobs;
 pub mod metrics;
-pub mod notation;
-mod output;
-pub mod outside;
+pub mod number_format;
+pub mod output;
 mod pipeline;
+pub mod plan_source;
 mod progress;
-pub mod record;
-pub mod report;
-pub mod selftest;
-pub mod stress;
-pub mod submitted;
-#[cfg(feature = "parquet")]
-pub mod sweep;
 pub mod verdict;
-pub mod waterfall;

@@ -10,17 +10,21 @@ use std::time::Instant;
 use scenarios::{Plan, Scenario};
 use sim::{Flight, Setup};
 
-use crate::author::{Author, Crew, HandedOver, Log};
+use crate::campaign::margin_budget;
+use crate::campaign::margin_budget::MarginBudget;
 use crate::error::Error;
-use crate::export::tum;
 use crate::jobs::Job;
+use crate::metrics;
+use crate::output;
+use crate::output::recording::{self, Recorder, Run};
+use crate::output::report::{ReplanTimes, Report, Timings};
+use crate::output::tum;
+use crate::plan_source::in_loop;
+use crate::plan_source::plan_import::CompletedPlan;
+use crate::plan_source::{InLoopPlanners, Log, PlanSource, PlannerOutput};
 use crate::progress::Progress;
-use crate::record::{self, Recorder, Run};
-use crate::report::{ReplanTimes, Report, Timings};
-use crate::submitted::Answer;
+use crate::verdict;
 use crate::verdict::{Integration, Verdict};
-use crate::waterfall::Waterfall;
-use crate::{in_loop, metrics, output, verdict, waterfall};
 
 /// What an outside planner wrote to its standard error.
 const PLANNER_LOG: &str = "planner.log";
@@ -34,13 +38,13 @@ pub struct Outputs {
     /// Planned and flown paths as TUM files?
     pub tum: bool,
     /// Is every flight repeated with finer steps?
-    pub fly_again: bool,
+    pub refine_step: bool,
     /// Is it told where the margins went?
     pub waterfall: bool,
 }
 
 /// What a job brought.
-pub struct Done {
+pub struct JobResult {
     /// Everything that was measured.
     pub report: Report,
     /// What an outside planner wrote to its standard error.
@@ -48,23 +52,23 @@ pub struct Done {
 }
 
 /// Plans, flies (or both at once), judges, records and reports one job into `folder`, which is made if it is not there.
-pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<Done, Error> {
+pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress) -> Result<JobResult, Error> {
     let mut timings = Timings::default();
-    let (HandedOver { answer, log }, flight) = match job.author.crew(&job.scenario, job.seed) {
+    let (PlannerOutput { answer, log }, flight) = match job.plan_source.crew(&job.scenario, job.seed) {
         Some((crew, log)) => fly_in_loop(job, crew, log, &mut timings, progress),
         None => {
-            let handed_over = timed(&mut timings.planning_s, || plan(job, progress));
-            let flight = timed(&mut timings.flying_s, || fly(job, &handed_over.answer.plan, progress));
-            (handed_over, flight)
+            let output = timed(&mut timings.planning_s, || plan(job, progress));
+            let flight = timed(&mut timings.flying_s, || fly(job, &output.answer.plan, progress));
+            (output, flight)
         }
     };
     let plan = &answer.plan;
-    let again = flight.as_ref().filter(|flight| outputs.fly_again && flight.planning.is_none());
-    let integration = timed(&mut timings.flying_s, || again.map(|flight| fly_again(job, plan, flight)));
+    let again = flight.as_ref().filter(|flight| outputs.refine_step && flight.planning.is_none());
+    let integration = timed(&mut timings.flying_s, || again.map(|flight| refine_step(job, plan, flight)));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
-            || verdict::judge_with(&job.scenario, plan, &answer.given, flight.as_ref(), integration),
+            || verdict::judge_with(&job.scenario, plan, &answer.provenance, flight.as_ref(), integration),
             || metrics::measure(&job.scenario, plan, flight.as_ref()),
         )
     });
@@ -76,20 +80,20 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let report = Report { waterfall, ..Report::new(&answer, flight.as_ref(), verdict, metrics, timings) };
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
-    Ok(Done { report, log })
+    Ok(JobResult { report, log })
 }
 
 /// The plan alone, without flying it.
-pub fn plan(job: &Job, progress: &mut Progress) -> HandedOver {
-    if !matches!(job.author, Author::Submitted(_)) {
+pub fn plan(job: &Job, progress: &mut Progress) -> PlannerOutput {
+    if !matches!(job.plan_source, PlanSource::Imported(_)) {
         progress.planning();
     }
-    job.author.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
+    job.plan_source.plan(&job.scenario, job.seed, &mut |iteration| progress.planned(iteration))
 }
 
-/// The plan alone, where the author makes one before the flight.
-pub fn answer(job: &Job, progress: &mut Progress) -> Option<Answer> {
-    (!job.author.plans_in_the_loop()).then(|| plan(job, progress).answer)
+/// The plan alone, where the plan_source makes one before the flight.
+pub fn answer(job: &Job, progress: &mut Progress) -> Option<CompletedPlan> {
+    (!job.plan_source.plans_in_the_loop()).then(|| plan(job, progress).answer)
 }
 
 /// No flight if there is nothing that could be flown; the judge says why.
@@ -100,7 +104,7 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
 }
 
 /// The same flight with half and with a quarter of the plant's step, and how far they are apart.
-fn fly_again(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
+fn refine_step(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
     let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &Setup::finer(halvings), &mut |_| {});
     let (half, quarter) = rayon::join(|| finer(1), || finer(2));
     Integration::by_finer_steps(flight, [&half, &quarter])
@@ -109,27 +113,27 @@ fn fly_again(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
 /// The flight of a planner in the loop, and what was planned during it as a plan. Planning is timed apart from flying.
 fn fly_in_loop(
     job: &Job,
-    crew: Crew,
+    crew: InLoopPlanners,
     log: Option<Log>,
     timings: &mut Timings,
     progress: &mut Progress,
-) -> (HandedOver, Option<Flight>) {
+) -> (PlannerOutput, Option<Flight>) {
     progress.flying(job.scenario.simulation.max_duration_s);
     let mut both_s = 0.0;
     let flight = timed(&mut both_s, || sim::fly_in_loop(&job.scenario, crew, job.seed, &mut |t_s| progress.flown(t_s)));
     let planning = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
-    let plan = in_loop::as_plan(&job.scenario, job.author.name(), job.seed, planning);
+    let plan = in_loop::as_plan(&job.scenario, job.plan_source.name(), job.seed, planning);
     timings.planning_s = plan.timings.wall_s;
     timings.flying_s = (both_s - plan.timings.wall_s).max(0.0);
     timings.replans = ReplanTimes::of(planning);
-    (HandedOver { answer: Answer::whole(plan), log: log.map(|log| log()) }, Some(flight))
+    (PlannerOutput { answer: CompletedPlan::whole(plan), log: log.map(|log| log()) }, Some(flight))
 }
 
 /// Where the margins went, rung by rung.
-fn waterfall(job: &Job, answer: &Answer, verdict: &Verdict) -> Vec<Waterfall> {
-    match job.author.plans_in_the_loop() {
-        true => waterfall::in_the_loop(&job.scenario, &job.author, job.seed, verdict),
-        false => waterfall::of(&job.scenario, &answer.plan, &answer.given, job.seed, verdict),
+fn waterfall(job: &Job, answer: &CompletedPlan, verdict: &Verdict) -> Vec<MarginBudget> {
+    match job.plan_source.plans_in_the_loop() {
+        true => margin_budget::in_the_loop(&job.scenario, &job.plan_source, job.seed, verdict),
+        false => margin_budget::of(&job.scenario, &answer.plan, &answer.provenance, job.seed, verdict),
     }
 }
 
@@ -143,7 +147,7 @@ fn record(run: &Run<'_>, recorders: &[Box<dyn Recorder>], folder: &Path, progres
     RECORDINGS.iter().copied().filter(is_stale).try_for_each(|name| output::remove_stale(&folder.join(name)))?;
     for recorder in recorders {
         progress.recording(recorder.file_name());
-        record::record(recorder.as_ref(), run, folder)?;
+        recording::record(recorder.as_ref(), run, folder)?;
     }
     Ok(())
 }

@@ -25,7 +25,7 @@ enum Display {
 impl Progress {
     /// Progress of job `number` (from 1) of `total`.
     pub fn new(job: &Job, number: usize, total: usize, is_quiet: bool) -> Self {
-        let prefix = format!("[{number}/{total}] {} · {}", job.scenario.name, job.author.name());
+        let prefix = format!("[{number}/{total}] {} · {}", job.scenario.name, job.plan_source.name());
         let display = if is_quiet {
             Display::Nothing
         } else if std::io::stderr().is_terminal() {

@@ -13,7 +13,6 @@ mod dynamics;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
-mod given;
 mod integration;
 mod integrity;
 mod judge;
@@ -23,6 +22,7 @@ pub mod multirotor;
 mod on_the_map;
 mod physics;
 mod planned;
+mod provenance;
 mod question;
 #[cfg(test)]
 mod random;
@@ -42,12 +42,12 @@ pub use arrival::duration_s as flown_duration_s;
 pub use clearance::at_nodes as clearance_at_nodes;
 pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
 pub use flown::{Flown, FlownVehicle};
-pub use given::{Given, Reconstruction};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
-pub use judge::{judge, judge_given, judge_with};
+pub use judge::{judge, judge_imported, judge_with};
 pub use motion::{Knot, Motion};
 pub use planned::Planned;
+pub use provenance::{Provenance, Reconstruction};
 pub use separation::at_nodes as separation_at_nodes;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,

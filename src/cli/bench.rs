@@ -5,7 +5,7 @@ use planners::Planner;
 use scenarios::Scenario;
 use serde::Serialize;
 
-use crate::bench::{cooperative, fleets, horizon, ipm, slung};
+use crate::campaign::bench::{cooperative, fleets, horizon, ipm, slung};
 use crate::error::{Error, Exit};
 use crate::output;
 

@@ -5,10 +5,10 @@ use scenarios::plan_input;
 
 use super::run::plain_name;
 use super::session::Session;
-use crate::author::Author;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job, Jobs};
-use crate::submitted;
+use crate::plan_source::PlanSource;
+use crate::plan_source::plan_import;
 
 /// Judge a plan that was made elsewhere.
 ///
@@ -59,8 +59,8 @@ impl Check {
         let stem = self.plan.file_stem().unwrap_or_default().to_string_lossy();
         let name = plain_name(self.name.as_deref().unwrap_or(&stem));
         let seed = scenario.simulation.seed;
-        let answer = submitted::complete(&scenario, header, tracks, &name, seed);
-        let author = Author::Submitted(Box::new(answer));
-        self.session.run(Jobs { good: vec![Job { scenario, source, author, seed }], bad: Vec::new() })
+        let answer = plan_import::complete(&scenario, header, tracks, &name, seed);
+        let plan_source = PlanSource::Imported(Box::new(answer));
+        self.session.run(Jobs { good: vec![Job { scenario, source, plan_source, seed }], bad: Vec::new() })
     }
 }

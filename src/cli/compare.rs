@@ -3,11 +3,11 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::session::Format;
-use crate::compare::{self, Baseline, Scope, Snapshot};
+use crate::campaign::comparison::{self, Baseline, Scope, Snapshot};
 use crate::error::{Error, Exit};
 use crate::output;
-use crate::report::comparison;
-use crate::report::json_lines::{self, Event};
+use crate::output::report::comparison;
+use crate::output::report::json_lines::{self, Event};
 
 /// Show what got worse from one run to another.
 ///
@@ -31,7 +31,7 @@ impl Compare {
     /// Compares and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
         let (old, new) = (Snapshot::read(&self.old)?, Snapshot::read(&self.new)?);
-        let compared = compare::compare(&old, &new, Scope::Everything);
+        let compared = comparison::compare(&old, &new, Scope::Everything);
         match self.format {
             Format::Text => output::print(&comparison::text(&compared))?,
             Format::JsonLines => json_lines::print(&Event::Comparison { comparison: &compared })?,
@@ -83,7 +83,7 @@ impl Accept {
         let results = Snapshot::read(&self.results)?;
         let earlier = if self.file.exists() { Some(Baseline::read(&self.file)?) } else { None };
         if let Some(earlier) = &earlier {
-            let compared = compare::compare(&earlier.results, &results, Scope::WhatWasRun);
+            let compared = comparison::compare(&earlier.results, &results, Scope::WhatWasRun);
             output::print(&comparison::text(&compared))?;
         }
         let count = results.entries.len();

@@ -2,11 +2,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::diverge::{Difference, Parting, first_difference};
+use crate::campaign::first_difference::{Difference, Parting, first_difference};
 use crate::error::{Error, Exit};
-use crate::record::log;
-use crate::report::{Report, StateHashes};
-use crate::{notation, output};
+use crate::number_format;
+use crate::output;
+use crate::output::recording::log;
+use crate::output::report::{Report, StateHashes};
 
 /// Show where two flights of one scenario first part.
 ///
@@ -63,8 +64,8 @@ impl Diverge {
         let from_s = index as f64 * one.every_s;
         let text = format!(
             "the flights part between {} and {}, by their running hashes; `--record parquet` tells when and where exactly",
-            notation::given_quantity(from_s, "s"),
-            notation::given_quantity(from_s + one.every_s, "s")
+            number_format::given_quantity(from_s, "s"),
+            number_format::given_quantity(from_s + one.every_s, "s")
         );
         output::print(&text).map(|()| Exit::Failed)
     }
@@ -82,7 +83,7 @@ fn same() -> Result<Exit, Error> {
 }
 
 fn in_words(Parting { t_s, vehicle, difference, largest_m }: &Parting) -> String {
-    let apart = format!("later they are up to {} apart", notation::quantity(*largest_m, "m"));
+    let apart = format!("later they are up to {} apart", number_format::quantity(*largest_m, "m"));
     match difference {
         Difference::Number { field, values: [one, other], ulps } => {
             let by = format!("{field} is {one:?} and {other:?}, {ulps} units in the last place apart");

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::selection::Selection;
 use crate::error::{Error, Exit};
 use crate::output;
-use crate::report::table;
+use crate::output::report::table;
 
 /// Show the scenarios and the planners, and what each planner claims to handle.
 #[derive(Args, Debug)]

@@ -3,8 +3,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::sweep::Shown;
+use crate::campaign::monte_carlo;
 use crate::error::{Error, Exit};
-use crate::{output, sweep};
+use crate::output;
 
 /// Put the parts of a sweep together that several machines have flown.
 ///
@@ -33,7 +34,7 @@ Results:
 impl Merge {
     /// Reads, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let (sweep, samples) = sweep::merge(&self.tables)?;
+        let (sweep, samples) = monte_carlo::merge(&self.tables)?;
         output::create_folder(&self.out)?;
         self.shown.finish(&sweep, &samples, &self.out)
     }

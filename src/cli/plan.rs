@@ -5,9 +5,11 @@ use scenarios::{Plan, PlanStatus};
 
 use super::run::AuthorArgs;
 use crate::error::{Error, Exit};
+use crate::jobs;
+use crate::output;
+use crate::pipeline;
+use crate::plan_source::plan_import::CompletedPlan;
 use crate::progress::Progress;
-use crate::submitted::Answer;
-use crate::{jobs, output, pipeline};
 
 /// Plan a scenario without flying it.
 #[derive(Args, Debug)]
@@ -17,7 +19,7 @@ pub struct PlanCommand {
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
     #[command(flatten)]
-    author: AuthorArgs,
+    plan_source: AuthorArgs,
     /// File for the plan, .json or .csv; `-` prints JSON
     #[arg(short, long, value_name = "FILE", default_value = "plan.json")]
     output: PathBuf,
@@ -37,7 +39,7 @@ Examples:
 `harness check SCENARIO --plan FILE` flies and judges the plan.";
 
 /// Says so if an answer holds no plan, and why.
-pub fn tell_no_plan(answer: &Answer) -> bool {
+pub fn tell_no_plan(answer: &CompletedPlan) -> bool {
     let is_none = answer.plan.status == PlanStatus::NoPlan;
     if is_none {
         output::tell(&format!("no plan: {}", answer.plan.reason.as_deref().unwrap_or("the planner gives no reason")));
@@ -49,21 +51,21 @@ impl PlanCommand {
     /// Plans, and writes the plan. Without a plan the exit code is 1.
     pub fn execute(&self) -> Result<Exit, Error> {
         self.refuse_unknown_form()?;
-        let authors = self.author.authors()?;
-        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
-        if job.author.plans_in_the_loop() {
-            return Err(Error::PlansInTheLoop { planner: job.author.name().to_owned() });
+        let plan_sources = self.plan_source.plan_sources()?;
+        let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
+        if job.plan_source.plans_in_the_loop() {
+            return Err(Error::PlansInTheLoop { planner: job.plan_source.name().to_owned() });
         }
         let mut progress = Progress::new(job, 1, 1, self.quiet);
-        let handed_over = pipeline::plan(job, &mut progress);
+        let output = pipeline::plan(job, &mut progress);
         progress.finish();
-        if tell_no_plan(&handed_over.answer) {
-            if let Some(log) = handed_over.log.filter(|log| !log.is_empty()) {
+        if tell_no_plan(&output.answer) {
+            if let Some(log) = output.log.filter(|log| !log.is_empty()) {
                 output::tell(log.trim_end());
             }
             return Ok(Exit::Failed);
         }
-        self.write(&handed_over.answer.plan)?;
+        self.write(&output.answer.plan)?;
         Ok(Exit::Passed)
     }
 

@@ -4,10 +4,10 @@ use clap::Args;
 
 use super::selection::Selection;
 use super::session::Session;
-use crate::author::Author;
 use crate::error::{Error, Exit};
 use crate::jobs;
-use crate::outside::OutsidePlanner;
+use crate::plan_source::PlanSource;
+use crate::plan_source::external::ExternalPlanner;
 
 /// Plan, fly, judge and record scenarios.
 ///
@@ -20,7 +20,7 @@ pub struct Run {
     #[command(flatten)]
     selection: Selection,
     #[command(flatten)]
-    author: AuthorArgs,
+    plan_source: AuthorArgs,
     /// Seed of everything random, instead of the scenario's own
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -64,10 +64,10 @@ docs/outside-planners.md tells what a planner of your own reads and writes, docs
 impl Run {
     /// Runs everything that can be run, and names what cannot.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let authors = self.author.authors()?;
+        let plan_sources = self.plan_source.plan_sources()?;
         let files = self.selection.files()?;
-        let jobs = jobs::load(&files, &authors, self.seed, |scenario| self.selection.is_wanted(scenario));
-        if jobs.good.is_empty() && jobs.bad.is_empty() {
+        let jobs = jobs::load(&files, &plan_sources, self.seed, |scenario| self.selection.is_wanted(scenario));
+        if jobs.runnable.is_empty() && jobs.rejected.is_empty() {
             return Err(self.selection.nothing());
         }
         self.session.run(jobs)
@@ -76,12 +76,12 @@ impl Run {
 
 impl AuthorArgs {
     /// The planners that were named; none if the scenario is to name it.
-    pub fn authors(&self) -> Result<Vec<Author>, Error> {
+    pub fn plan_sources(&self) -> Result<Vec<PlanSource>, Error> {
         let Some(text) = &self.planner_command else { return jobs::planners_named(&self.planners) };
         let command = shlex::split(text).filter(|words| !words.is_empty());
         let command = command.ok_or_else(|| Error::PlannerCommand { command: text.clone() })?;
         let (name, folder) = (name_of(&command), PathBuf::from("."));
-        Ok(vec![Author::Outside(OutsidePlanner {
+        Ok(vec![PlanSource::External(ExternalPlanner {
             name,
             command,
             folder,

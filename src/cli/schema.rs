@@ -3,7 +3,7 @@ use serde_json::{Map, Value};
 
 use crate::error::{Error, Exit};
 use crate::output;
-use crate::report::Report;
+use crate::output::report::Report;
 
 /// Print the JSON Schema of scenario files or of report.json.
 #[derive(Args, Debug)]

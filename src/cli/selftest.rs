@@ -2,8 +2,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::campaign::selftest;
 use crate::error::{Error, Exit};
-use crate::{output, selftest};
+use crate::output;
 
 /// Show that the judge notices: known faults are injected into good flights, and every one has to fail.
 ///

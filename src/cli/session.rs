@@ -2,15 +2,17 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::compare::{self, Comparison, Scope, Snapshot};
+use crate::campaign::comparison::{self, Comparison, Scope, Snapshot};
 use crate::error::{Error, Exit};
+use crate::interrupt;
 use crate::jobs::{Job, Jobs};
+use crate::output;
+use crate::output::recording::Recorder;
+use crate::output::report::json_lines::Event;
+use crate::output::report::{Report, Summary, comparison, github, json_lines, junit, terminal};
+use crate::pipeline;
 use crate::pipeline::Outputs;
 use crate::progress::Progress;
-use crate::record::Recorder;
-use crate::report::json_lines::Event;
-use crate::report::{Report, Summary, comparison, github, json_lines, junit, terminal};
-use crate::{interrupt, output, pipeline};
 
 /// What is written, where, and what is printed.
 #[derive(Args, Debug)]
@@ -93,20 +95,20 @@ impl Session {
             waterfall: self.waterfall,
             recorders: recorders(&self.record)?,
             tum: self.tum,
-            fly_again: self.second_integrator == SecondIntegrator::Full,
+            refine_step: self.second_integrator == SecondIntegrator::Full,
         };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
         start_threads(self.jobs)?;
         let mut done = Done::default();
-        for refusal in jobs.bad {
+        for refusal in jobs.rejected {
             let refused = done.summary.refuse(&refusal);
             self.event(&Event::Refused { file: refused })?;
             done.annotations.extend(github::annotations_of(&refusal.error));
             refusal.error.print();
         }
-        let total = jobs.good.len();
-        interrupt::begin(jobs.good.iter().map(|job| format!("{} ({})", job.scenario.name, job.author.name())));
-        for (index, job) in jobs.good.into_iter().enumerate() {
+        let total = jobs.runnable.len();
+        interrupt::begin(jobs.runnable.iter().map(|job| format!("{} ({})", job.scenario.name, job.plan_source.name())));
+        for (index, job) in jobs.runnable.into_iter().enumerate() {
             let report = self.run_job(&job, &outputs, index + 1, total)?;
             done.summary.add(&report);
             done.reports.push(report);
@@ -117,7 +119,7 @@ impl Session {
 
     fn run_job(&self, job: &Job, outputs: &Outputs, number: usize, total: usize) -> Result<Report, Error> {
         let mut progress = Progress::new(job, number, total, self.quiet);
-        let folder = self.out.join(&job.scenario.name).join(job.author.name());
+        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         let done = pipeline::run(job, outputs, &folder, &mut progress)?;
         interrupt::complete_one();
         progress.finish();
@@ -128,7 +130,7 @@ impl Session {
 
     fn finish(&self, done: &Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
         let Done { summary, reports, .. } = done;
-        let compared = baseline.map(|old| compare::compare(old, &Snapshot::of(reports), Scope::WhatWasRun));
+        let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(reports), Scope::WhatWasRun));
         let compared_page = compared.as_ref().map_or_else(String::new, comparison::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
@@ -207,7 +209,7 @@ fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
 
 #[cfg(feature = "rrd")]
 fn rrd() -> Result<Box<dyn Recorder>, Error> {
-    Ok(Box::new(crate::record::rrd::Rrd))
+    Ok(Box::new(crate::output::recording::rrd::Rrd))
 }
 
 #[cfg(not(feature = "rrd"))]
@@ -217,7 +219,7 @@ fn rrd() -> Result<Box<dyn Recorder>, Error> {
 
 #[cfg(feature = "mcap")]
 fn mcap() -> Result<Box<dyn Recorder>, Error> {
-    Ok(Box::new(crate::record::mcap::Mcap))
+    Ok(Box::new(crate::output::recording::mcap::Mcap))
 }
 
 #[cfg(not(feature = "mcap"))]
@@ -227,7 +229,7 @@ fn mcap() -> Result<Box<dyn Recorder>, Error> {
 
 #[cfg(feature = "parquet")]
 fn parquet() -> Result<Box<dyn Recorder>, Error> {
-    Ok(Box::new(crate::record::log::Log))
+    Ok(Box::new(crate::output::recording::log::Log))
 }
 
 #[cfg(not(feature = "parquet"))]

@@ -4,12 +4,14 @@ use clap::Args;
 
 use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
-use crate::contender::Contender;
+use crate::campaign::failure_threshold::{self, Axis, Stress};
+use crate::campaign::system_under_test::SystemUnderTest;
 use crate::error::{Error, Exit};
-use crate::notation::{number, quantity};
+use crate::jobs;
+use crate::number_format::{number, quantity};
+use crate::output;
+use crate::pipeline;
 use crate::progress::Progress;
-use crate::stress::{self, Axis, Stress};
-use crate::{jobs, output, pipeline};
 
 /// Find the disturbance at which the verdict turns.
 ///
@@ -26,7 +28,7 @@ pub struct StressCommand {
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', required = true)]
     over: Vec<Axis>,
     #[command(flatten)]
-    author: AuthorArgs,
+    plan_source: AuthorArgs,
     /// Seed of everything random, instead of the scenario's own
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -49,21 +51,21 @@ Results:
 impl StressCommand {
     /// Plans, searches, prints and writes.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let authors = self.author.authors()?;
-        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
+        let plan_sources = self.plan_source.plan_sources()?;
+        let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let answer = pipeline::answer(job, &mut progress);
         progress.finish();
         if answer.as_ref().is_some_and(tell_no_plan) {
             return Ok(Exit::Failed);
         }
-        let contender = Contender::of(&job.author, answer.as_ref());
-        let folder = self.out.join(&job.scenario.name).join(job.author.name());
+        let contender = SystemUnderTest::of(&job.plan_source, answer.as_ref());
+        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
         let mut exit = Exit::Passed;
         for &over in &self.over {
             let mut flown = 0;
-            let stress = stress::run(&job.scenario, contender, over, job.seed, &mut |count| flown += count);
+            let stress = failure_threshold::run(&job.scenario, contender, over, job.seed, &mut |count| flown += count);
             output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
             if !self.quiet {
                 output::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;

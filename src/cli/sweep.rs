@@ -7,12 +7,13 @@ use serde::Serialize;
 use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
 use super::session::start_threads;
-use crate::contender::Contender;
+use crate::campaign::monte_carlo::{self, Partition, Question, Sample, Spread, Statistics, Sweep, table};
+use crate::campaign::system_under_test::SystemUnderTest;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
+use crate::output;
+use crate::pipeline;
 use crate::progress::Progress;
-use crate::sweep::{self, Partition, Question, Sample, Spread, Statistics, Sweep, table};
-use crate::{output, pipeline};
 
 /// Fly one plan in many worlds that are drawn: wind, mass, noise, start.
 ///
@@ -35,7 +36,7 @@ pub struct SweepCommand {
     #[arg(long, value_name = "K/N", value_parser = partition)]
     partition: Option<Partition>,
     #[command(flatten)]
-    author: AuthorArgs,
+    plan_source: AuthorArgs,
     /// Seed of the first sample, instead of the scenario's own; of each next one it is one more
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -97,19 +98,19 @@ impl SweepCommand {
     /// Plans, flies, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
         start_threads(self.jobs)?;
-        let authors = self.author.authors()?;
-        let job = &jobs::load_one(&self.scenario, &authors, self.seed)?;
+        let plan_sources = self.plan_source.plan_sources()?;
+        let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
         let mut progress = Progress::new(job, 1, 1, self.shown.quiet);
         let answer = pipeline::answer(job, &mut progress);
         if answer.as_ref().is_some_and(tell_no_plan) {
             progress.finish();
             return Ok(Exit::Failed);
         }
-        let contender = Contender::of(&job.author, answer.as_ref());
+        let contender = SystemUnderTest::of(&job.plan_source, answer.as_ref());
         let question = Question { scenario: &job.scenario, contender };
         let sweep = Sweep::new(&question, self.samples as usize, self.spread.about(job));
         let samples = self.fly(&question, &sweep, progress);
-        let folder = self.out.join(&job.scenario.name).join(job.author.name());
+        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
         if let Some(answer) = &answer {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
@@ -126,7 +127,7 @@ impl SweepCommand {
         let partition = self.partition.unwrap_or(Partition::WHOLE);
         let total = partition.numbers(sweep.samples).count();
         let progress = Mutex::new((progress, 0));
-        let samples = sweep::run(question, sweep, partition, &|| {
+        let samples = monte_carlo::run(question, sweep, partition, &|| {
             if let Ok(mut progress) = progress.lock() {
                 progress.1 += 1;
                 let done = progress.1;
@@ -168,7 +169,7 @@ impl Shown {
         table::write(sweep, samples, &folder.join("sweep.parquet"))?;
         output::write_json(&folder.join("sweep.json"), &Whole { sweep, statistics: &statistics })?;
         if !self.quiet {
-            output::print(&sweep::text(sweep, &statistics))?;
+            output::print(&monte_carlo::text(sweep, &statistics))?;
             output::print(&format!("results in {}", folder.display()))?;
         }
         // Written so that a sweep of nothing has not passed.
@@ -186,7 +187,7 @@ fn write_worst(
 ) -> Result<Option<usize>, Error> {
     let folder = folder.join("worst");
     let path = folder.join(format!("{}.toml", question.scenario.name));
-    let Some(number) = sweep::worst(samples) else { return output::remove_stale(&path).map(|()| None) };
+    let Some(number) = monte_carlo::worst(samples) else { return output::remove_stale(&path).map(|()| None) };
     output::create_folder(&folder)?;
     let (scenario, _) = question.scenario_of(&sweep.spread, number);
     output::replace_file(&path, |partial| {

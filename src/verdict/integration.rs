@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{Flight, VehicleLog};
 
-use crate::notation::quantity;
+use crate::number_format::quantity;
 use crate::verdict::compare::{exceeds, is_larger};
 use crate::verdict::{Check, Status};
 

@@ -6,8 +6,8 @@ use crate::verdict::flown::Flown;
 use crate::verdict::planned::Planned;
 use crate::verdict::question::{Evidence, Group, Question};
 use crate::verdict::{
-    Check, Given, Integration, Outcome, Status, Verdict, arrival, clearance, conditions, dynamics, flight_integrity,
-    integrity, limits, multirotor, physics, separation, slung_load, tracking,
+    Check, Integration, Outcome, Provenance, Status, Verdict, arrival, clearance, conditions, dynamics,
+    flight_integrity, integrity, limits, multirotor, physics, separation, slung_load, tracking,
 };
 
 /// Judges a plan and its flight.
@@ -18,19 +18,19 @@ use crate::verdict::{
 /// with the reason; what applies and cannot be measured, because something is missing, empty or not a number, fails
 /// with the reason. Nothing that a plan or a flight may hold makes it panic.
 pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdict {
-    judge_given(scenario, plan, &Given::whole(), flight)
+    judge_imported(scenario, plan, &Provenance::whole(), flight)
 }
 
 /// [`judge`], of a plan that was not whole: what was reconstructed decides nothing that it cannot tell.
-pub fn judge_given(scenario: &Scenario, plan: &Plan, given: &Given, flight: Option<&Flight>) -> Verdict {
-    judge_with(scenario, plan, given, flight, None)
+pub fn judge_imported(scenario: &Scenario, plan: &Plan, provenance: &Provenance, flight: Option<&Flight>) -> Verdict {
+    judge_with(scenario, plan, provenance, flight, None)
 }
 
-/// [`judge_given`], with what a second integrator made of the flight; without it the disagreement is estimated.
+/// [`judge_imported`], with what a second integrator made of the flight; without it the disagreement is estimated.
 pub fn judge_with(
     scenario: &Scenario,
     plan: &Plan,
-    given: &Given,
+    provenance: &Provenance,
     flight: Option<&Flight>,
     integration: Option<Integration>,
 ) -> Verdict {
@@ -43,7 +43,7 @@ pub fn judge_with(
         Family::Multirotor => of_multirotors(scenario, plan, &flyable, logged),
     };
 
-    given.qualify(&mut checks);
+    provenance.qualify(&mut checks);
     let integration = integration.or_else(|| Integration::by_replay(&checks));
     if let Some(integration) = &integration {
         integration.doubt(&mut checks);

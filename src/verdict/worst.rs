@@ -2,7 +2,7 @@
 
 use scenarios::Range;
 
-use crate::notation::given_range;
+use crate::number_format::given_range;
 use crate::verdict::Check;
 use crate::verdict::question::{Group, Measured, Question};
 

@@ -1,7 +1,7 @@
 //! Flights that are planned while they last: by one who flies straight to the goal and stops, and by such as answer
 //! nonsense.
 
-use harness::in_loop::as_plan;
+use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{Check, Outcome, Status, Verdict, judge};
 use scenarios::in_loop::{Answer, InLoopPlanner, Node, Observation};
 use scenarios::{Plan, PlanStatus, Scenario};

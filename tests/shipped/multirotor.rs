@@ -1,6 +1,6 @@
 //! Every shipped scenario of multirotors passes with its planner, and flies the same on any number of threads.
 
-use harness::in_loop::as_plan;
+use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{self, Outcome};
 use scenarios::Scenario;
 use sim::Flight;

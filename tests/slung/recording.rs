@@ -1,7 +1,7 @@
 //! A flight with a load is recorded whole, and a broken one is recorded too.
 
-use harness::record::rrd::Rrd;
-use harness::record::{Run, record};
+use harness::output::recording::rrd::Rrd;
+use harness::output::recording::{Run, record};
 
 use crate::case::Case;
 

@@ -10,7 +10,7 @@ use scenarios::{Plan, Planning, PlanningClock, Scenario};
 use sim::multirotor::Reference;
 use sim::{EventKind, Flight, PlanningLog, Replan};
 
-use crate::in_loop::is_flown;
+use crate::plan_source::in_loop::is_flown;
 use crate::verdict::compare::exceeds;
 
 /// What rounding leaves of two instants that should be the same, s.

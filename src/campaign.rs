@@ -1,0 +1,12 @@
+//! Many flights that answer one question: how good is a planner, where does it fail, what changed?
+
+pub mod bench;
+pub mod comparison;
+pub mod failure_threshold;
+#[cfg(feature = "parquet")]
+pub mod first_difference;
+pub mod margin_budget;
+#[cfg(feature = "parquet")]
+pub mod monte_carlo;
+pub mod selftest;
+mod system_under_test;

@@ -1,0 +1,108 @@
+//! One entry of a table: a planner on a scenario, in a process of its own, so that a time limit can end it.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use scenarios::Scenario;
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::interrupt::Partial;
+use crate::output;
+use crate::output::report::Report;
+use crate::plan_source::external::group::{self, Guard};
+
+/// Time between two looks at the process.
+const POLL: Duration = Duration::from_millis(5);
+
+/// How an entry ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ending {
+    /// Every check passed.
+    Pass,
+    /// Some check failed.
+    Fail,
+    /// The planner found no plan.
+    NoPlan,
+    /// The time limit came first.
+    TimedOut,
+}
+
+impl Ending {
+    /// In a table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "FAIL",
+            Self::NoPlan => "no plan",
+            Self::TimedOut => "timed out",
+        }
+    }
+}
+
+/// What came out of it.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// How it ended.
+    pub ending: Ending,
+    /// The report; nothing if the time limit came first.
+    pub report: Option<Report>,
+}
+
+/// Plans, flies and judges `scenario` with `planner`; all of it within `limit_s`.
+pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Error> {
+    let folder = tempfile::tempdir().map_err(|error| environment("make a temporary folder", &error))?;
+    let _with_us = Partial::new(folder.path());
+    let file = folder.path().join(format!("{}.toml", scenario.name));
+    output::write_file(&file, |writer| writer.write_all(scenario.to_toml().as_bytes()))?;
+    let out = folder.path().join("out");
+    let mut child = start(&file, planner, &out)?;
+    let guard = Guard::of(&child);
+    let is_over = ends_within(&guard, &mut child, limit_s);
+    guard.end(&mut child);
+    let _ = child.wait();
+    if !is_over {
+        return Ok(Entry { ending: Ending::TimedOut, report: None });
+    }
+    let path = out.join(&scenario.name).join(planner).join("report.json");
+    let text = fs::read_to_string(&path).map_err(|error| environment("read the report of a benchmark", &error))?;
+    let report: Report =
+        serde_json::from_str(&text).map_err(|error| environment("read the report of a benchmark", &error))?;
+    Ok(Entry { ending: ending(&report), report: Some(report) })
+}
+
+fn start(file: &Path, planner: &str, out: &Path) -> Result<Child, Error> {
+    let program = std::env::current_exe().map_err(|error| environment("find this program", &error))?;
+    let mut command = Command::new(program);
+    command.arg("run").arg(file).args(["--planner", planner, "--record", "none", "--quiet", "--out"]).arg(out);
+    group::apart(&mut command);
+    let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    child.map_err(|error| environment("start this program once more", &error))
+}
+
+/// Waits for the end, or for the end of the time.
+fn ends_within(guard: &Guard, child: &mut Child, limit_s: f64) -> bool {
+    let started = Instant::now();
+    while !guard.has_exited(child) {
+        if started.elapsed().as_secs_f64() >= limit_s {
+            return false;
+        }
+        std::thread::sleep(POLL);
+    }
+    true
+}
+
+fn ending(report: &Report) -> Ending {
+    match report.verdict {
+        crate::verdict::Outcome::Pass => Ending::Pass,
+        crate::verdict::Outcome::Fail => Ending::Fail,
+        crate::verdict::Outcome::NoPlan => Ending::NoPlan,
+    }
+}
+
+fn environment(what: &str, error: &dyn std::fmt::Display) -> Error {
+    Error::Bench { what: what.to_owned(), reason: error.to_string() }
+}

@@ -1,0 +1,218 @@
+//! `harness bench horizon`: the five experiments of the paper on RHC-FPSO in the simulator, and the samplers at equal budget.
+
+mod cases;
+mod show;
+
+use planners::free_space::FreeSpace;
+use scenarios::Scenario;
+use serde::Serialize;
+use sim::{Flight, Replan};
+
+pub use cases::{Case, Experiment};
+pub use show::{markdown, text};
+
+use crate::metrics;
+use crate::plan_source::in_loop;
+use crate::verdict;
+
+/// What is measured.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The paper's map, known from the start.
+    pub paper_map: Scenario,
+    /// A map with a concave obstacle.
+    pub trap: Scenario,
+    /// A map on which obstacles appear.
+    pub pop_up: Scenario,
+    /// Flights of every case, each with a seed of its own.
+    pub seeds: u64,
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Results {
+    /// Version of this form.
+    pub schema: u32,
+    /// Flights of every row.
+    pub seeds: u64,
+    /// Threads that were at hand.
+    pub threads: usize,
+    /// One row per case.
+    pub rows: Vec<Row>,
+}
+
+/// One case over all seeds: means, unless said otherwise. What could not be measured is absent.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Which experiment.
+    pub experiment: Experiment,
+    /// Scenario.
+    pub scenario: String,
+    /// What is special about it.
+    pub case: &'static str,
+    /// Flights that passed every check.
+    pub passed: u64,
+    /// Flights in which speed and acceleration kept their limits, as the judge says.
+    pub within_limits: u64,
+    /// Flight time of those that passed, s.
+    pub flight_time_s: Option<f64>,
+    /// Length of the flown path of those that passed, m.
+    pub path_m: Option<f64>,
+    /// Smallest distance between body and obstacles or frame, over all flights, m.
+    pub clearance_m: Option<f64>,
+    /// The same distance, mean over time, m.
+    pub mean_clearance_m: Option<f64>,
+    /// Figures of planning in the loop.
+    pub in_loop: Option<InLoop>,
+}
+
+/// How planning in the loop went.
+#[derive(Clone, Debug, Serialize)]
+pub struct InLoop {
+    /// Time per replan: mean over all flights, smallest and largest mean of a flight, s.
+    pub replan_s: [f64; 3],
+    /// Iterations per replan.
+    pub iterations: f64,
+    /// First iteration with a feasible particle, from 0.
+    pub first_feasible: Option<f64>,
+    /// Share of the particles that were feasible, -.
+    pub feasible: Option<f64>,
+    /// Share of replans in which no particle was feasible, -.
+    pub empty: f64,
+    /// Stab of eq. 22, m/s².
+    pub stability_mps2: f64,
+}
+
+/// Measures everything in `plan`; `progress` is told what comes next.
+///
+/// All cases fly once, then all once more, and so on: a machine that becomes slower does so for all of them.
+pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
+    let cases = cases::all(plan);
+    let mut flown: Vec<Vec<Flown>> = cases.iter().map(|_| Vec::new()).collect();
+    for seed in 0..plan.seeds {
+        for (case, flown) in cases.iter().zip(&mut flown) {
+            progress(&format!("{}: {} on {}, seed {seed}", case.experiment.name(), case.name, case.scenario.name));
+            flown.push(Flown::by(case, seed));
+        }
+    }
+    let rows = cases.iter().zip(&flown).map(|(case, flown)| row(case, flown)).collect();
+    Results { schema: 1, seeds: plan.seeds, threads: rayon::current_num_threads(), rows }
+}
+
+fn row(case: &Case, flown: &[Flown]) -> Row {
+    let passed = || flown.iter().filter(|flown| flown.has_passed);
+    let count = |is_such: fn(&Flown) -> bool| flown.iter().filter(|flown| is_such(flown)).count() as u64;
+    Row {
+        experiment: case.experiment,
+        scenario: case.scenario.name.clone(),
+        case: case.name,
+        passed: count(|flown| flown.has_passed),
+        within_limits: count(|flown| flown.is_within_limits),
+        flight_time_s: mean(passed().filter_map(|flown| flown.flight_time_s)),
+        path_m: mean(passed().filter_map(|flown| flown.path_m)),
+        clearance_m: flown.iter().filter_map(|flown| flown.clearance_m).reduce(f64::min),
+        mean_clearance_m: mean(flown.iter().filter_map(|flown| flown.mean_clearance_m)),
+        in_loop: in_loop_figures(flown),
+    }
+}
+
+/// One flight.
+struct Flown {
+    has_passed: bool,
+    is_within_limits: bool,
+    flight_time_s: Option<f64>,
+    path_m: Option<f64>,
+    clearance_m: Option<f64>,
+    mean_clearance_m: Option<f64>,
+    replans: Vec<Replan>,
+}
+
+impl Flown {
+    fn by(case: &Case, seed: u64) -> Self {
+        let (scenario, planner) = (&case.scenario, case.planner);
+        let briefing = scenario.briefing();
+        let (plan, flight) = if planner.plans_in_the_loop() {
+            let crew = (0..scenario.vehicles.len()).map(|index| planner.in_loop(&briefing, index, seed)).collect();
+            let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
+            let log = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
+            (in_loop::as_plan(scenario, planner.name, seed, log), Some(flight))
+        } else {
+            let plan = planner.plan(&briefing, seed, &mut |_| {});
+            let flight =
+                verdict::is_flyable(scenario, &plan).ok().map(|()| sim::fly(scenario, &plan, seed, &mut |_| {}));
+            (plan, flight)
+        };
+        let verdict = verdict::judge(scenario, &plan, flight.as_ref());
+        let measured = metrics::measure(scenario, &plan, flight.as_ref()).flight;
+        let is_limit =
+            |check: &&verdict::Check| check.name.ends_with("state_limits") || check.name.ends_with("control_limits");
+        Self {
+            has_passed: verdict.outcome == verdict::Outcome::Pass,
+            is_within_limits: flight.is_some() && !verdict.checks.iter().filter(is_limit).any(verdict::Check::is_bad),
+            flight_time_s: measured.as_ref().and_then(|measured| measured.flight_time_s),
+            path_m: flight.as_ref().map(path_m),
+            clearance_m: measured.as_ref().and_then(|measured| measured.distances.clearance_m),
+            mean_clearance_m: flight.as_ref().and_then(|flight| mean_clearance_m(scenario, flight)),
+            replans: flight.and_then(|flight| flight.planning).map_or_else(Vec::new, |planning| planning.replans),
+        }
+    }
+}
+
+fn path_m(flight: &Flight) -> f64 {
+    let steps = flight.vehicles.iter().flat_map(|vehicle| vehicle.samples.windows(2));
+    steps.map(|ends| planners::free_space::vector::distance(ends[0].position_m, ends[1].position_m)).sum()
+}
+
+/// Distance of the bodies from what stands still, mean over the samples.
+fn mean_clearance_m(scenario: &Scenario, flight: &Flight) -> Option<f64> {
+    let space = FreeSpace::of(&scenario.world, scenario.is_planar());
+    let distances = flight.vehicles.iter().zip(&scenario.vehicles).flat_map(|(log, vehicle)| {
+        let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
+        let space = &space;
+        log.samples.iter().map(move |sample| space.distance_m(sample.position_m) - radius_m)
+    });
+    mean(distances)
+}
+
+fn in_loop_figures(flown: &[Flown]) -> Option<InLoop> {
+    let replans = || flown.iter().flat_map(|flown| &flown.replans);
+    let of_flights = || flown.iter().filter_map(|flown| mean(flown.replans.iter().map(|replan| replan.wall_s)));
+    let is_empty = |replan: &Replan| f64::from(u8::from(replan.account.cost.is_none()));
+    Some(InLoop {
+        replan_s: [
+            mean(replans().map(|replan| replan.wall_s))?,
+            of_flights().fold(f64::INFINITY, f64::min),
+            of_flights().fold(0.0, f64::max),
+        ],
+        iterations: mean(replans().map(|replan| replan.account.iterations as f64))?,
+        first_feasible: mean(
+            replans().filter_map(|replan| replan.account.first_feasible).map(|iteration| iteration as f64),
+        ),
+        feasible: mean(replans().filter_map(|replan| replan.account.feasible_share)),
+        empty: mean(replans().map(is_empty))?,
+        stability_mps2: mean(flown.iter().flat_map(|flown| changes_mps2(&flown.replans)))?,
+    })
+}
+
+/// |u(.|k) - u(.|k+1)| of eq. 22: how much the planned controls differ from one replan to the next, step by step.
+fn changes_mps2(replans: &[Replan]) -> Vec<f64> {
+    let planned: Vec<Vec<[f64; 3]>> = replans.iter().map(accelerations_mps2).filter(|all| !all.is_empty()).collect();
+    let difference = |ends: &[Vec<[f64; 3]>]| {
+        let pairs = ends[0].iter().zip(&ends[1]);
+        pairs.map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>()).sum::<f64>().sqrt()
+    };
+    planned.windows(2).map(difference).collect()
+}
+
+fn accelerations_mps2(replan: &Replan) -> Vec<[f64; 3]> {
+    let between = |ends: &[scenarios::in_loop::Node]| {
+        let time_s = ends[1].t_s - ends[0].t_s;
+        std::array::from_fn(|axis| (ends[1].velocity_mps[axis] - ends[0].velocity_mps[axis]) / time_s)
+    };
+    replan.nodes.windows(2).map(between).collect()
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), value| (count + 1.0, sum + value));
+    (count > 0.0).then(|| sum / count)
+}

@@ -1,0 +1,197 @@
+//! Two runs side by side: what got worse, by more than it may.
+//!
+//! A [`Snapshot`] is what of a run is compared: verdicts, checks, margins, figures. It is taken from a result folder, or
+//! read from a baseline file that was accepted earlier.
+
+mod baseline;
+mod rules;
+mod snapshot;
+
+use serde::Serialize;
+
+pub use baseline::{Acceptance, Baseline};
+pub use snapshot::{CheckEntry, Entry, Snapshot};
+
+use crate::number_format::{quantity, signed_quantity};
+use crate::verdict::Status;
+
+/// What differs between two runs, the worst first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Results that were in both runs.
+    pub compared: usize,
+    /// Every difference beyond tolerance.
+    pub differences: Vec<Difference>,
+}
+
+/// One thing that differs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// Is it a loss?
+    pub rating: Rating,
+    /// Scenario.
+    pub scenario: String,
+    /// Planner.
+    pub planner: String,
+    /// What differs: a check, a margin, a figure.
+    pub what: String,
+    /// How it was.
+    pub old: String,
+    /// How it is.
+    pub new: String,
+    /// By how much, and how much would have been tolerated; empty for what is no number.
+    pub change: String,
+}
+
+/// What a difference means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rating {
+    /// A loss beyond tolerance: the comparison fails.
+    Worse,
+    /// A gain beyond tolerance.
+    Better,
+    /// Worth knowing, and neither.
+    Note,
+}
+
+/// Which results have to be there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// All of the old run: one that is gone is a loss.
+    Everything,
+    /// Those of the new run: it may be a part.
+    WhatWasRun,
+}
+
+impl Comparison {
+    /// Differences of this rating.
+    pub fn count(&self, rating: Rating) -> usize {
+        self.differences.iter().filter(|difference| difference.rating == rating).count()
+    }
+
+    /// Did nothing get worse?
+    pub fn is_good(&self) -> bool {
+        self.count(Rating::Worse) == 0
+    }
+
+    /// `12 results compared: 1 worse, 3 better`.
+    pub fn counts_line(&self) -> String {
+        let Self { compared, .. } = self;
+        let (worse, better) = (self.count(Rating::Worse), self.count(Rating::Better));
+        let results = if *compared == 1 { "result" } else { "results" };
+        format!("{compared} {results} compared: {worse} worse, {better} better")
+    }
+}
+
+/// Holds `new` against `old`.
+pub fn compare(old: &Snapshot, new: &Snapshot, scope: Scope) -> Comparison {
+    let mut comparison = Comparison::default();
+    for before in &old.entries {
+        match new.find(&before.scenario, &before.planner) {
+            Some(after) => {
+                comparison.compared += 1;
+                comparison.differences.extend(differences(before, after));
+            }
+            None if scope == Scope::Everything => {
+                comparison.differences.push(before.differs(Rating::Worse, "result", "there", "gone"));
+            }
+            None => {}
+        }
+    }
+    let is_new = |after: &&Entry| old.find(&after.scenario, &after.planner).is_none();
+    let fresh =
+        new.entries.iter().filter(is_new).map(|after| after.differs(Rating::Note, "result", "not there", "new"));
+    comparison.differences.extend(fresh);
+    comparison.differences.sort_by_key(|difference| difference.rating);
+    comparison
+}
+
+fn differences(old: &Entry, new: &Entry) -> Vec<Difference> {
+    let mut differences = Vec::new();
+    if old.seed != new.seed {
+        differences.push(new.differs(Rating::Note, "seed", &old.seed.to_string(), &new.seed.to_string()));
+    }
+    if old.verdict != new.verdict {
+        let rating = if new.verdict > old.verdict { Rating::Worse } else { Rating::Better };
+        differences.push(new.differs(rating, "verdict", &old.verdict.to_string(), &new.verdict.to_string()));
+    }
+    for (name, before) in &old.checks {
+        match new.checks.get(name) {
+            Some(after) if before.status != after.status => {
+                let rating = status_rating(before, after);
+                differences.push(new.differs(rating, name, word(before.status), word(after.status)));
+            }
+            Some(_) => {}
+            None => differences.push(new.differs(Rating::Worse, name, word(before.status), "not made")),
+        }
+    }
+    let figures = old.figures.iter().filter_map(|(name, before)| Some((name, *before, *new.figures.get(name)?)));
+    differences.extend(figures.filter_map(|(name, before, after)| figure(old, new, name, before, after)));
+    differences
+}
+
+/// A figure that changed by more than its rule tolerates.
+fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Option<Difference> {
+    let unit = old.unit_of(name);
+    let rule = rules::rule(name, unit);
+    let tolerance = rule.tolerance(before);
+    let change = after - before;
+    // a change that is no number is a change
+    if change.abs() <= tolerance {
+        return None;
+    }
+    let is_advisory =
+        name.strip_prefix("margin of ").and_then(|check| new.checks.get(check)).is_some_and(|it| it.advisory);
+    let rating = match rule.decides && !is_advisory {
+        false => Rating::Note,
+        true if rule.is_gain(change) => Rating::Better,
+        true => Rating::Worse,
+    };
+    let by = format!("{} (tolerance {})", signed_quantity(change, unit), quantity(tolerance, unit));
+    let (before, after) = (quantity(before, unit), quantity(after, unit));
+    Some(Difference { change: by, ..new.differs(rating, name, &before, &after) })
+}
+
+fn status_rating(old: &CheckEntry, new: &CheckEntry) -> Rating {
+    // a check that is not made any more says less than one that passes
+    let rank = |status: Status| match status {
+        Status::Pass => 0,
+        Status::Skip => 1,
+        Status::Undecided => 2,
+        Status::Fail => 3,
+    };
+    if new.advisory {
+        Rating::Note
+    } else if rank(new.status) > rank(old.status) {
+        Rating::Worse
+    } else {
+        Rating::Better
+    }
+}
+
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Pass => "pass",
+        Status::Fail => "fail",
+        Status::Undecided => "undecided",
+        Status::Skip => "skip",
+    }
+}
+
+impl Entry {
+    fn differs(&self, rating: Rating, what: &str, old: &str, new: &str) -> Difference {
+        Difference {
+            rating,
+            scenario: self.scenario.clone(),
+            planner: self.planner.clone(),
+            what: what.to_owned(),
+            old: old.to_owned(),
+            new: new.to_owned(),
+            change: String::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,143 @@
+//! The samples of several machines become one sweep.
+
+use std::path::{Path, PathBuf};
+
+use super::{Sample, Sweep, table};
+use crate::error::Error;
+
+/// Reads the tables in `paths`, which must hold every sample of one sweep, once each. Returns them in the order of their
+/// numbers.
+pub fn merge(paths: &[PathBuf]) -> Result<(Sweep, Vec<Sample>), Error> {
+    let mut merged: Option<(Sweep, Vec<(Sample, &Path)>)> = None;
+    for path in paths {
+        let (sweep, samples) = table::read(path)?;
+        let refuse = |reason: String| Error::Samples { path: path.clone(), reason };
+        let (first, all) = merged.get_or_insert_with(|| (sweep.clone(), Vec::new()));
+        if let Some(what) = difference(first, &sweep) {
+            return Err(refuse(format!("another {what} than in {}", paths[0].display())));
+        }
+        if let Some(sample) = samples.iter().find(|sample| sample.margins.len() != sweep.checks.len()) {
+            return Err(refuse(format!("sample {} has not as many margins as there are checks", sample.number)));
+        }
+        all.extend(samples.into_iter().map(|sample| (sample, path.as_path())));
+    }
+    let (sweep, mut all) = merged
+        .ok_or_else(|| Error::Samples { path: PathBuf::new(), reason: "there is nothing to merge".to_owned() })?;
+    all.sort_by_key(|(sample, _)| sample.number);
+    if let Some(twice) = all.windows(2).find(|pair| pair[0].0.number == pair[1].0.number) {
+        let reason = format!("sample {} stands in {} too", twice[0].0.number, twice[0].1.display());
+        return Err(Error::Samples { path: twice[1].1.to_path_buf(), reason });
+    }
+    let samples: Vec<Sample> = all.into_iter().map(|(sample, _)| sample).collect();
+    complete(&sweep, &samples).map_err(|reason| Error::Samples { path: paths[0].clone(), reason })?;
+    Ok((sweep, samples))
+}
+
+/// What two sweeps differ in, if they do.
+fn difference(one: &Sweep, other: &Sweep) -> Option<&'static str> {
+    [
+        ("form of results", one.schema != other.schema),
+        ("version of the harness", one.version != other.version),
+        ("scenario", one.scenario != other.scenario),
+        ("planner", one.planner != other.planner),
+        ("seed", one.seed != other.seed),
+        ("number of samples", one.samples != other.samples),
+        ("spread", one.spread != other.spread),
+        ("list of checks", one.checks != other.checks),
+    ]
+    .into_iter()
+    .find_map(|(what, differs)| differs.then_some(what))
+}
+
+fn complete(sweep: &Sweep, samples: &[Sample]) -> Result<(), String> {
+    if let Some(odd) = samples.iter().find(|sample| sample.number >= sweep.samples) {
+        return Err(format!("there is a sample {} in a sweep of {}", odd.number, sweep.samples));
+    }
+    let missing = sweep.samples - samples.len();
+    let first = (0..).zip(samples).find(|(number, sample)| *number != sample.number);
+    let number = first.map_or(samples.len(), |(number, _)| number);
+    if missing == 0 {
+        Ok(())
+    } else {
+        Err(format!("{missing} of {} samples are missing, {number} first", sweep.samples))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::monte_carlo::{Draw, Spread};
+    use crate::verdict::Outcome;
+
+    fn sweep() -> Sweep {
+        Sweep {
+            schema: 1,
+            version: "0".to_owned(),
+            scenario: "pair".to_owned(),
+            planner: "by-hand".to_owned(),
+            seed: 3,
+            samples: 5,
+            spread: Spread { wind_mps: 1.0, mass: 0.0, noise_m: 0.0, start_m: 0.0 },
+            checks: vec![
+                ("flight.separation".to_owned(), "m".to_owned()),
+                ("flight.rest".to_owned(), "m/s".to_owned()),
+            ],
+        }
+    }
+
+    fn sample(number: usize) -> Sample {
+        Sample {
+            number,
+            draw: Draw {
+                seed: u64::MAX - number as u64,
+                wind_mps: [0.1, -0.2],
+                mass_ratios: [1.0, 1.0],
+                noise_m: 0.0,
+                start_m: 0.0,
+            },
+            verdict: if number == 2 { Outcome::Fail } else { Outcome::Pass },
+            red: if number == 2 { vec!["flight.rest".into(), "flight.separation".into()] } else { Vec::new() },
+            margins: vec![number as f64, -0.5],
+        }
+    }
+
+    /// Writes one table per list of numbers, and merges them.
+    fn merged(tables: &[(&Sweep, &[usize])]) -> Result<(Sweep, Vec<Sample>), String> {
+        let folder = tempfile::tempdir().unwrap();
+        let paths: Vec<PathBuf> =
+            (0..tables.len()).map(|index| folder.path().join(format!("{index}.parquet"))).collect();
+        for ((sweep, numbers), path) in tables.iter().zip(&paths) {
+            let samples: Vec<Sample> = numbers.iter().map(|number| sample(*number)).collect();
+            table::write(sweep, &samples, path).unwrap();
+        }
+        merge(&paths).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_was_divided_is_whole_again() {
+        let whole = merged(&[(&sweep(), &[1, 3]), (&sweep(), &[0, 2, 4])]).unwrap();
+        assert_eq!(whole, (sweep(), (0..5).map(sample).collect()));
+    }
+
+    #[test]
+    fn what_is_missing_twice_or_of_another_sweep_is_refused() {
+        let says = |tables: &[(&Sweep, &[usize])], text: &str| {
+            let error = merged(tables).unwrap_err();
+            assert!(error.contains(text), "{error}");
+        };
+        says(&[(&sweep(), &[0, 1, 3, 4])], "1 of 5 samples are missing, 2 first");
+        says(&[(&sweep(), &[])], "5 of 5 samples are missing, 0 first");
+        says(&[(&sweep(), &[0, 1, 2]), (&sweep(), &[2, 3, 4])], "sample 2 stands in");
+        says(&[(&sweep(), &[0, 1, 2, 3, 4, 5])], "sample 5 in a sweep of 5");
+        let other = Sweep { seed: 4, ..sweep() };
+        says(&[(&sweep(), &[0, 1, 2]), (&other, &[3, 4])], "another seed than in");
+    }
+
+    #[test]
+    fn what_is_no_table_of_samples_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("no.parquet");
+        std::fs::write(&path, "no table").unwrap();
+        assert!(merge(&[path]).is_err());
+    }
+}

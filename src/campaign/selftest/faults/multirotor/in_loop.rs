@@ -1,0 +1,97 @@
+//! Flights that were planned while they lasted: what their log says of the planning.
+
+use scenarios::in_loop::LastAnswer;
+use sim::{EventKind, PlanningLog};
+
+use crate::campaign::selftest::{Fault, Specimen};
+
+/// The faults.
+pub fn faults() -> Vec<Fault> {
+    [times(), answers()].into_iter().flatten().collect()
+}
+
+fn times() -> Vec<Fault> {
+    vec![
+        Fault::new("flight.conditions", "an answer was flown before it was there", |it| {
+            planning(it).replans[9].ready_s += 0.1;
+        }),
+        Fault::new("flight.conditions", "an answer was flown before its deadline", |it| {
+            planning(it).replans[9].takes_effect_s -= 0.02;
+        }),
+        Fault::new("flight.conditions", "answers took no time", |it| {
+            planning(it).replans.iter_mut().for_each(|replan| replan.ready_s = replan.asked_s);
+        }),
+        Fault::new("flight.conditions", "a planner was asked out of turn", |it| {
+            let replans = &mut planning(it).replans;
+            let mut again = replans[9].clone();
+            again.asked_s += 0.1;
+            again.ready_s += 0.1;
+            again.takes_effect_s += 0.1;
+            replans.insert(10, again);
+        }),
+        Fault::new("flight.conditions", "planners were asked twice as often as the scenario says", |it| {
+            it.scenario.simulation.planning.period_s *= 2.0;
+        }),
+        Fault::new("flight.conditions", "a turn was left out", |it| {
+            planning(it).replans.remove(9);
+        }),
+        Fault::new("flight.conditions", "an answer was late, and the log calls it in time", |it| {
+            let late = &mut planning(it).replans[9];
+            late.takes_effect_s += 0.05;
+        }),
+        Fault::new("flight.conditions", "an answer was late, and there is no event of it", |it| {
+            let mut slow = it.scenario.clone();
+            slow.simulation.planning.median_s = slow.simulation.planning.deadline_s + 0.05;
+            it.fly_in(&slow);
+            it.scenario = slow;
+            it.flight().events.retain(|event| !matches!(event.kind, EventKind::AnswerLate { .. }));
+        }),
+    ]
+}
+
+fn answers() -> Vec<Fault> {
+    vec![
+        Fault::new("flight.finite", "an answer holds something that is no number", |it| {
+            planning(it).replans.iter_mut().find(|it| !it.nodes.is_empty()).expect("an answer").nodes[1].position_m
+                [0] = f64::NAN;
+        }),
+        Fault::new("flight.conditions", "an answer is that of a vehicle that is not there", |it| {
+            planning(it).replans[9].vehicle = 99;
+        }),
+        Fault::new("flight.conditions", "an answer was flown that had been rejected", |it| {
+            let reason = "it is no motion".to_owned();
+            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == LastAnswer::InTime);
+            flown.expect("an answer").outcome = LastAnswer::Rejected { reason };
+        }),
+        Fault::new("flight.conditions", "what was flown is not what was answered", |it| {
+            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == LastAnswer::InTime);
+            let nodes = &mut flown.expect("an answer").nodes;
+            nodes.iter_mut().for_each(|node| node.position_m[2] += 0.01);
+        }),
+        Fault::new("flight.conditions", "the plan that is reported is not the one that was followed", |it| {
+            it.multirotor(0).states.iter_mut().for_each(|state| state.position_m[2] += 5e-3);
+        }),
+        Fault::new("flight.conditions", "the plan that is reported ends before the flight did", |it| {
+            let trajectory = it.multirotor(0);
+            let kept = trajectory.times_s.len() * 3 / 4;
+            trajectory.times_s.truncate(kept);
+            trajectory.states.truncate(kept);
+        }),
+        Fault::new("flight.separation", "one vehicle flies beside another", |it| {
+            let beside_m = 0.9 * it.scenario.fleet.separation_m.unwrap_or(0.0);
+            let beside = it.samples(0).clone();
+            for (sample, beside) in it.samples(1).iter_mut().zip(beside) {
+                sample.position_m = [beside.position_m[0], beside.position_m[1] + beside_m, beside.position_m[2]];
+                sample.velocity_mps = beside.velocity_mps;
+            }
+        }),
+        Fault::new("flight.goal", "a goal was moved after the flight", |it| {
+            let most_m = it.scenario.limits().goal_m;
+            it.scenario.vehicles[0].goal.z_m += 1.5 * most_m;
+        }),
+    ]
+}
+
+fn planning(it: &mut Specimen) -> &mut PlanningLog {
+    it.flight().planning.as_mut().expect("it was planned in the loop")
+}

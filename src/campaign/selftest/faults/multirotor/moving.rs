@@ -1,0 +1,63 @@
+//! Flights among obstacles that move.
+
+use scenarios::Moving;
+use sim::multirotor::Surroundings;
+
+use crate::campaign::selftest::{Fault, Specimen};
+
+/// Steps in which a cart is delayed until it is in the way, s.
+const DELAY_S: f64 = 0.1;
+
+/// The faults.
+pub fn faults() -> Vec<Fault> {
+    vec![
+        Fault::new("flight.clearance", "a cart that crosses comes later than it was seen", |it| delay(it, 0)),
+        Fault::new("flight.clearance", "a cart that crosses at the end comes later than it was seen", |it| {
+            delay(it, 2);
+        }),
+        Fault::new("flight.crash", "a cart drove into a vehicle, and the log tells of no crash", |it| delay(it, 1)),
+        Fault::new(
+            "flight.clearance",
+            "a plate of 2 mm crosses the path between two samples, faster than either",
+            |it| {
+                let middle = it.steps() / 2;
+                let [from, to] = [it.samples(0)[middle], it.samples(0)[middle + 1]];
+                let [x_m, y_m] = [0, 1].map(|axis| f64::midpoint(from.position_m[axis], to.position_m[axis]));
+                let (speed_mps, t_s) = (400.0, f64::midpoint(from.t_s, to.t_s));
+                // Far away but for an instant: its way there and back takes longer than the flight.
+                let (before_m, beyond_m) = (speed_mps * t_s, speed_mps * 200.0);
+                it.scenario.world.moving.push(Moving {
+                    name: "planted".to_owned(),
+                    radius_m: 1e-3,
+                    z_m: None,
+                    path_m: vec![[x_m, y_m - before_m], [x_m, y_m + beyond_m]],
+                    speed_mps,
+                    offset_m: 0.0,
+                });
+            },
+        ),
+        Fault::new("flight.clearance", "a cart is wider than it was seen", |it| {
+            let clearance_m = it.value("flight.clearance");
+            it.scenario.world.moving.iter_mut().for_each(|cart| cart.radius_m += clearance_m + 1e-3);
+            it.scenario.world.boxes.clear();
+        }),
+    ]
+}
+
+/// Delays a moving obstacle until the first vehicle flies into it.
+///
+/// Panics if it is never in the way: the specimen has changed.
+fn delay(it: &mut Specimen, cart: usize) {
+    let reach_m = it.multirotor_model().body_radius_m;
+    let samples = it.samples(0).clone();
+    for _ in 0..1000 {
+        let late = &mut it.scenario.world.moving[cart];
+        late.offset_m -= late.speed_mps * DELAY_S;
+        let world = scenarios::World { moving: vec![late.clone()], boxes: Vec::new(), ..it.scenario.world.clone() };
+        let alone = Surroundings::of(&world);
+        if samples.iter().any(|sample| alone.distance_m(0, sample.t_s, sample.position_m) < 0.5 * reach_m) {
+            return;
+        }
+    }
+    panic!("the cart is never in the way");
+}

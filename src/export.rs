@@ -1,3 +1,0 @@
-//! Files for other people's tools.
-
-pub mod tum;

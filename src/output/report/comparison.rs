@@ -1,0 +1,64 @@
+//! A comparison of two runs, on the terminal and as part of a page.
+
+use anstyle::{AnsiColor, Style};
+use comfy_table::{Cell, Color};
+
+use super::table;
+use crate::campaign::comparison::{Comparison, Difference, Rating};
+
+/// Rows that are shown; the others are counted.
+const MOST_ROWS: usize = 200;
+
+/// As a table, with a line that counts.
+pub fn text(comparison: &Comparison) -> String {
+    let color = if comparison.is_good() { AnsiColor::Green } else { AnsiColor::Red };
+    let style = Style::new().bold().fg_color(Some(color.into()));
+    let counts = format!("{style}{}{style:#}", comparison.counts_line());
+    if comparison.differences.is_empty() {
+        return counts;
+    }
+    let mut table = table::with_header(&["", "result", "what", "old", "new", "change"], &[3, 4]);
+    table.enforce_styling();
+    for difference in comparison.differences.iter().take(MOST_ROWS) {
+        let Difference { rating, what, old, new, change, .. } = difference;
+        let (word, color) = rated(*rating);
+        table.add_row([
+            Cell::new(word).fg(color),
+            Cell::new(result(difference)),
+            Cell::new(what),
+            Cell::new(old),
+            Cell::new(new),
+            Cell::new(change),
+        ]);
+    }
+    let more = comparison.differences.len().saturating_sub(MOST_ROWS);
+    let more = if more > 0 { format!("\n{more} more") } else { String::new() };
+    format!("{}{more}\n{counts}", table.trim_fmt())
+}
+
+/// As a section of a page.
+pub fn markdown(comparison: &Comparison) -> String {
+    let mut lines = vec![format!("## Against the baseline: {}", comparison.counts_line()), String::new()];
+    if !comparison.differences.is_empty() {
+        lines.push("| | result | what | old | new | change |".into());
+        lines.push("|---|---|---|---:|---:|---|".into());
+    }
+    let row = |difference: &Difference| {
+        let Difference { rating, what, old, new, change, .. } = difference;
+        format!("| {} | {} | {what} | {old} | {new} | {change} |", rated(*rating).0, result(difference))
+    };
+    lines.extend(comparison.differences.iter().take(MOST_ROWS).map(row));
+    lines.join("\n") + "\n"
+}
+
+fn rated(rating: Rating) -> (&'static str, Color) {
+    match rating {
+        Rating::Worse => ("worse", Color::Red),
+        Rating::Better => ("better", Color::Green),
+        Rating::Note => ("note", Color::Yellow),
+    }
+}
+
+fn result(difference: &Difference) -> String {
+    format!("{} · {}", difference.scenario, difference.planner)
+}

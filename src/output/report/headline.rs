@@ -1,0 +1,85 @@
+//! A verdict in one line.
+
+use scenarios::PlanStatus;
+
+use super::Report;
+use crate::number_format::{given_quantity, quantity, signed_quantity};
+use crate::verdict::{Check, Outcome, Status, TELLING};
+
+/// Failed checks that the line names; the others are counted.
+const FAILURES_NAMED: usize = 3;
+
+/// What stands behind the word: the smallest margins of a pass, the checks that failed, or why there is no plan.
+pub(super) fn reason(report: &Report) -> String {
+    match report.verdict {
+        Outcome::Pass => smallest_margins(report),
+        Outcome::Fail => failures(report),
+        Outcome::NoPlan => report.plan.reason.clone().unwrap_or_else(|| "the planner returned no trajectory".into()),
+    }
+}
+
+/// Said only if the planner calls a plan solved that is none.
+pub(super) fn overclaim(report: &Report) -> Option<String> {
+    let is_false = report.overclaimed && report.plan.status == PlanStatus::Solved;
+    is_false.then(|| "the planner calls this plan solved, but it fails checks of the group `plan`".to_owned())
+}
+
+/// The checks that decided against the plan.
+pub(super) fn failed(report: &Report) -> impl Iterator<Item = &Check> {
+    report.checks.iter().filter(|check| check.is_bad() && !check.advisory)
+}
+
+/// Advisory checks that failed: shown, not deciding.
+pub(super) fn warnings(report: &Report) -> impl Iterator<Item = &Check> {
+    report.checks.iter().filter(|check| check.is_bad() && check.advisory)
+}
+
+/// For each telling name the check with the smallest margin over all groups.
+fn smallest_margins(report: &Report) -> String {
+    let margins: Vec<String> = TELLING.iter().filter_map(|name| smallest_margin(&report.checks, name)).collect();
+    match margins.as_slice() {
+        [] => "every deciding check passed".into(),
+        margins => format!("smallest margins: {}", margins.join("; ")),
+    }
+}
+
+fn smallest_margin(checks: &[Check], name: &str) -> Option<String> {
+    let with_margin = checks.iter().filter(|check| check.question() == name && check.margin.is_some());
+    let check = with_margin.min_by(|a, b| a.margin.partial_cmp(&b.margin).unwrap_or(std::cmp::Ordering::Equal))?;
+    Some(line(check))
+}
+
+fn failures(report: &Report) -> String {
+    let failed: Vec<&Check> = failed(report).collect();
+    let asked = report.checks.iter().filter(|check| check.status != Status::Skip).count();
+    let first: Vec<String> = failed.iter().take(FAILURES_NAMED).map(|check| line(check)).collect();
+    let others = failed.len().saturating_sub(FAILURES_NAMED);
+    let rest = if others > 0 { format!("; and {others} more") } else { String::new() };
+    format!("{} of {asked} checks failed: {}{rest}", failed.len(), first.join("; "))
+}
+
+/// The end of a text, indented; nothing if it is blank.
+pub(super) fn last_lines(text: &str, count: usize) -> String {
+    let lines: Vec<&str> = text.trim_end().lines().collect();
+    let shown = &lines[lines.len().saturating_sub(count)..];
+    shown.iter().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
+}
+
+/// Value, limit, place and remark of a check, for a reader who has nothing else before them.
+pub(super) fn sentence(check: &Check) -> String {
+    let value = check.value.map(|value| format!("measured {}", quantity(value, &check.unit)));
+    let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));
+    let margin = check.margin.map(|margin| format!("margin {}", signed_quantity(margin, &check.unit)));
+    let at_s = check.at_s.map(|at_s| format!("at {at_s:.2} s"));
+    let who = (!check.between.is_empty()).then(|| check.between.join(" and "));
+    let parts = [value, limit, margin, at_s, who, check.reason.clone()];
+    format!("{}: {}", check.name, parts.into_iter().flatten().collect::<Vec<_>>().join(", "))
+}
+
+/// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`, `plan.clearance undecided +0.001 m`.
+pub(super) fn line(check: &Check) -> String {
+    let margin = check.margin.map(|margin| format!(" {}", signed_quantity(margin, &check.unit)));
+    let place = check.place().map(|place| format!(" ({place})"));
+    let undecided = if check.status == Status::Undecided { " undecided" } else { "" };
+    format!("{}{undecided}{}{}", check.name, margin.unwrap_or_default(), place.unwrap_or_default())
+}

@@ -1,0 +1,41 @@
+//! A run as a stream of JSON objects, one per line, for tools that read along.
+
+use serde::Serialize;
+
+use super::{RefusedFile, Report, Summary};
+use crate::error::Error;
+use crate::output;
+
+/// One line.
+#[derive(Serialize)]
+#[serde(tag = "event", rename_all = "kebab-case")]
+pub enum Event<'a> {
+    /// A file that could not be run.
+    Refused {
+        /// Which, and why.
+        #[serde(flatten)]
+        file: &'a RefusedFile,
+    },
+    /// A job is done: all of its `report.json`.
+    Report {
+        /// What was found.
+        report: &'a Report,
+    },
+    /// Everything is done.
+    Summary {
+        /// The contents of `summary.json`.
+        summary: &'a Summary,
+        /// With which the process will end, unless a comparison says otherwise.
+        exit_code: u8,
+    },
+    /// What a comparison with an earlier run found.
+    Comparison {
+        /// Every difference.
+        comparison: &'a crate::campaign::comparison::Comparison,
+    },
+}
+
+/// Prints one line.
+pub fn print(event: &Event<'_>) -> Result<(), Error> {
+    output::print(&serde_json::to_string(event).map_err(std::io::Error::from)?)
+}

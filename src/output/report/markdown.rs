@@ -1,0 +1,94 @@
+//! `summary.md`: the run as a page, for a pull request or a build log. What went wrong comes first.
+
+use super::{Report, Summary, SummaryRun, headline};
+use crate::number_format::{given_quantity, quantity, signed_quantity};
+use crate::verdict::{Check, Outcome};
+
+/// Failed jobs whose checks are listed one by one.
+const MOST_DETAILS: usize = 20;
+
+/// The whole page.
+///
+/// - `reports`: of the same jobs as in the summary
+/// - `has_links`: do scenarios lead to their reports, which lie beside the page?
+pub(super) fn page(summary: &Summary, reports: &[Report], has_links: bool) -> String {
+    let mut lines = vec![format!("# {}", summary.counts_line()), String::new()];
+    if !summary.refused.is_empty() {
+        lines.push("## Refused as bad input".into());
+        lines.push(String::new());
+        let faults = summary.refused.iter().flat_map(|refused| &refused.faults);
+        lines.extend(faults.map(|fault| format!("- `{}`", fault.replace('`', "'").replace('\n', " "))));
+        lines.push(String::new());
+    }
+    if !summary.runs.is_empty() {
+        lines.push("| verdict | scenario | planner | seed | flight time | why |".into());
+        lines.push("|---|---|---|---:|---:|---|".into());
+        let (good, bad): (Vec<_>, Vec<_>) = summary.runs.iter().partition(|run| run.verdict == Outcome::Pass);
+        lines.extend(bad.into_iter().chain(good).map(|run| row(run, has_links)));
+        lines.push(String::new());
+    }
+    let failed: Vec<&Report> = reports.iter().filter(|report| report.verdict == Outcome::Fail).collect();
+    lines.extend(failed.iter().take(MOST_DETAILS).flat_map(|report| details(report)));
+    if failed.len() > MOST_DETAILS {
+        lines.push(format!("{} more failed; their checks are in `report.json`.", failed.len() - MOST_DETAILS));
+    }
+    lines.join("\n")
+}
+
+/// The page up to `most` bytes, ended after a line, with a note if anything is missing.
+pub(super) fn cut(page: &str, most: usize) -> String {
+    if page.len() <= most {
+        return page.to_owned();
+    }
+    const NOTE: &str = "\n\nCut here, at the size that is allowed; all of it is in `summary.md`.\n";
+    let kept = &page[..page.floor_char_boundary(most.saturating_sub(NOTE.len()))];
+    let kept = kept.rfind('\n').map_or("", |end| &kept[..end]);
+    format!("{kept}{NOTE}")
+}
+
+fn row(run: &SummaryRun, has_links: bool) -> String {
+    let flight_time = run.flight_time_s.map_or_else(String::new, |time_s| quantity(time_s, "s"));
+    let claim = if run.overclaimed { " (the planner calls this plan solved)" } else { "" };
+    let SummaryRun { verdict, scenario, planner, seed, folder, .. } = run;
+    let why = cell(&format!("{}{claim}", run.reason));
+    let scenario = if has_links { format!("[{scenario}]({folder}/report.json)") } else { scenario.clone() };
+    format!("| {verdict} | {scenario} | {planner} | {seed} | {flight_time} | {why} |")
+}
+
+/// The failed checks of one job.
+fn details(report: &Report) -> Vec<String> {
+    let title = format!("## {} · {}", report.scenario, report.planner);
+    let header =
+        ["| check | measured | limit | margin | where, remarks |", "|---|---:|---:|---:|---|"].map(str::to_owned);
+    let rows = headline::failed(report).map(check_row);
+    [title, String::new()].into_iter().chain(header).chain(rows).chain([String::new()]).collect()
+}
+
+fn check_row(check: &Check) -> String {
+    let shown = |value: Option<f64>, form: fn(f64, &str) -> String| {
+        value.map_or_else(String::new, |value| form(value, &check.unit))
+    };
+    let (value, limit) = (shown(check.value, quantity), shown(check.limit, given_quantity));
+    let remarks: Vec<String> = check.place().into_iter().chain(check.reason.clone()).collect();
+    let margin = shown(check.margin, signed_quantity);
+    format!("| `{}` | {value} | {limit} | {margin} | {} |", check.name, cell(&remarks.join("; ")))
+}
+
+/// Text that stays in its cell.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|").replace('\n', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cut;
+
+    #[test]
+    fn a_page_that_is_too_long_ends_after_a_whole_line_and_says_so() {
+        let page = "äöü line\n".repeat(1000);
+        let short = cut(&page, 500);
+        assert!(short.len() <= 500, "{} bytes", short.len());
+        assert!(short.starts_with("äöü line\n") && short.contains("line\n\nCut here"), "{short}");
+        assert_eq!(cut(&page, page.len()), page);
+    }
+}

@@ -1,0 +1,186 @@
+//! The whole run in one file: `summary.json`, and `summary.md` from it.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Report, SCHEMA, headline, markdown};
+use crate::error::{Error, Exit};
+use crate::jobs::RejectedJob;
+use crate::verdict::Outcome;
+
+/// Every job of a run, and every file that could not be run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of this form: 1.
+    pub schema: u32,
+    /// One per job, in the order in which they were run.
+    pub runs: Vec<SummaryRun>,
+    /// Files that could not be run.
+    pub refused: Vec<RefusedFile>,
+}
+
+/// One job.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SummaryRun {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the planner.
+    pub planner: String,
+    /// Seed of planning and flight.
+    pub seed: u64,
+    /// The whole in one word.
+    pub verdict: Outcome,
+    /// The verdict's reason in one line: smallest margins, failed checks, or why there is no plan.
+    pub reason: String,
+    /// Names of the checks that decided against the plan.
+    pub failed: Vec<String>,
+    /// Names of advisory checks that failed.
+    pub warnings: Vec<String>,
+    /// Does the planner call its plan solved although a check of the group `plan` failed?
+    pub overclaimed: bool,
+    /// Time at which the last vehicle reaches the end of its trajectory, s.
+    pub flight_time_s: Option<f64>,
+    /// Folder of the results, relative to this file.
+    pub folder: String,
+    /// Time that the job took, s.
+    pub wall_s: f64,
+}
+
+/// A file that could not be run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RefusedFile {
+    /// The file.
+    pub file: String,
+    /// What is wrong, one line per fault, with line and column where there are any.
+    pub faults: Vec<String>,
+}
+
+impl Default for Summary {
+    fn default() -> Self {
+        Self { schema: SCHEMA, runs: Vec::new(), refused: Vec::new() }
+    }
+}
+
+impl Summary {
+    /// Adds a job.
+    pub fn add(&mut self, report: &Report) {
+        self.runs.push(SummaryRun {
+            scenario: report.scenario.clone(),
+            planner: report.planner.clone(),
+            seed: report.seed,
+            verdict: report.verdict,
+            reason: headline::reason(report),
+            failed: headline::failed(report).map(|check| check.name.clone()).collect(),
+            warnings: headline::warnings(report).map(|check| check.name.clone()).collect(),
+            overclaimed: report.overclaimed,
+            flight_time_s: report.plan.flight_time_s,
+            folder: format!("{}/{}", report.scenario, report.planner),
+            wall_s: report.timings.total_s(),
+        });
+    }
+
+    /// Adds a file that could not be run.
+    pub fn refuse(&mut self, refusal: &RejectedJob) -> &RefusedFile {
+        let faults = match &refusal.error {
+            Error::Load(error) => error.lines(),
+            Error::Plan(error) => error.lines(),
+            error => vec![error.to_string()],
+        };
+        self.refused.push(RefusedFile { file: refusal.file.display().to_string(), faults });
+        &self.refused[self.refused.len() - 1]
+    }
+
+    /// How many jobs ended in this way.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        self.runs.iter().filter(|run| run.verdict == outcome).count()
+    }
+
+    /// `3 passed, 1 failed, 0 without a plan, 1 file refused`, without what is zero (except for the first).
+    pub fn counts_line(&self) -> String {
+        let counts = [
+            (self.count(Outcome::Fail), "failed"),
+            (self.count(Outcome::NoPlan), "without a plan"),
+            (self.refused.len(), "refused as bad input"),
+        ];
+        let others = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
+        let passed = format!("{} passed", self.count(Outcome::Pass));
+        std::iter::once(passed).chain(others).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The exit code of the run. Bad input weighs more than a bad verdict.
+    pub fn exit(&self) -> Exit {
+        if !self.refused.is_empty() {
+            Exit::BadInput
+        } else if self.runs.iter().any(|run| run.verdict != Outcome::Pass) {
+            Exit::Failed
+        } else {
+            Exit::Passed
+        }
+    }
+
+    /// `summary.md`.
+    ///
+    /// - `reports`: of the same jobs
+    pub fn markdown(&self, reports: &[Report]) -> String {
+        markdown::page(self, reports, true)
+    }
+
+    /// [`markdown`](Self::markdown) for a place where the result folder is out of reach.
+    pub fn markdown_without_links(&self, reports: &[Report]) -> String {
+        markdown::page(self, reports, false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RefusedFile, Summary, SummaryRun};
+    use crate::error::Exit;
+    use crate::verdict::Outcome;
+
+    fn run(verdict: Outcome) -> SummaryRun {
+        SummaryRun {
+            scenario: "pair".into(),
+            planner: "by-hand".into(),
+            seed: 0,
+            verdict,
+            reason: "a | b".into(),
+            failed: Vec::new(),
+            warnings: Vec::new(),
+            overclaimed: false,
+            flight_time_s: Some(50.0),
+            folder: "pair/by-hand".into(),
+            wall_s: 0.1,
+        }
+    }
+
+    fn summary(verdicts: &[Outcome], refused: usize) -> Summary {
+        let file = RefusedFile { file: "bad.toml".into(), faults: vec!["bad.toml:1:1: no".into()] };
+        let runs = verdicts.iter().map(|verdict| run(*verdict)).collect();
+        Summary { runs, refused: vec![file; refused], ..Summary::default() }
+    }
+
+    #[test]
+    fn bad_input_outweighs_bad_verdicts_and_these_outweigh_good_ones() {
+        use Outcome::{Fail, NoPlan, Pass};
+        assert_eq!(summary(&[Pass, Pass], 0).exit(), Exit::Passed);
+        assert_eq!(summary(&[Pass, Fail], 0).exit(), Exit::Failed);
+        assert_eq!(summary(&[Pass, NoPlan], 0).exit(), Exit::Failed);
+        assert_eq!(summary(&[Pass, Fail], 1).exit(), Exit::BadInput);
+        assert_eq!(summary(&[], 1).exit(), Exit::BadInput);
+    }
+
+    #[test]
+    fn counts_name_what_there_is() {
+        assert_eq!(summary(&[Outcome::Pass], 0).counts_line(), "1 passed");
+        assert_eq!(summary(&[Outcome::Fail], 2).counts_line(), "0 passed, 1 failed, 2 refused as bad input");
+    }
+
+    #[test]
+    fn the_page_names_every_run_and_every_fault() {
+        let page = summary(&[Outcome::NoPlan], 1).markdown(&[]);
+        assert!(
+            page.contains("| NO PLAN | [pair](pair/by-hand/report.json) | by-hand | 0 | 50.000 s | a \\| b |"),
+            "{page}"
+        );
+        assert!(page.contains("- `bad.toml:1:1: no`"), "{page}");
+    }
+}

@@ -1,0 +1,169 @@
+//! Results on the terminal: a table of checks, the plan in one line, the verdict in one line.
+//!
+//! Text carries its colours; whoever prints it strips them where they are not wanted.
+
+use std::path::Path;
+
+use anstyle::{AnsiColor, Style};
+use comfy_table::{Cell, Color, Table};
+
+use super::{Report, Summary, SummaryRun, headline, table};
+use crate::campaign::margin_budget::MarginBudget;
+use crate::number_format::{number, quantity, signed, signed_quantity};
+use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, Status};
+
+/// Lines of an outside planner's log that are shown when it made no plan.
+const LOG_LINES: usize = 20;
+
+/// Everything about one job.
+///
+/// - `log`: what an outside planner wrote to its standard error; its end is shown if there is no plan
+pub fn report(report: &Report, log: Option<&str>) -> String {
+    if report.verdict == Outcome::NoPlan {
+        return no_plan(report, log);
+    }
+    let mut lines = vec![checks_table(report).trim_fmt()];
+    lines.extend(skipped(report));
+    lines.push(plan_line(report));
+    lines.extend(flight_line(report));
+    lines.extend(report.integration.as_ref().map(integration_line));
+    lines.extend(report.waterfall.iter().map(waterfall_line));
+    lines.push(format!(
+        "{}  {}",
+        verdict_line(report.verdict, &report.scenario, &report.planner),
+        headline::reason(report)
+    ));
+    let warnings: Vec<&str> = headline::warnings(report).map(|check| check.name.as_str()).collect();
+    if !warnings.is_empty() {
+        lines.push(format!("{} advisory checks failed: {}", painted("note", AnsiColor::Yellow), warnings.join(", ")));
+    }
+    lines.extend(headline::overclaim(report).map(|text| format!("{} {text}", painted("note", AnsiColor::Yellow))));
+    format!("{}\n", lines.join("\n"))
+}
+
+/// Every check has failed for the same reason: that one is told, with the planner's last words.
+fn no_plan(report: &Report, log: Option<&str>) -> String {
+    let verdict = verdict_line(report.verdict, &report.scenario, &report.planner);
+    let said = log.map(|log| headline::last_lines(log, LOG_LINES)).filter(|said| !said.is_empty());
+    let said = said.map_or_else(String::new, |said| format!("planner.log ends with:\n{said}\n"));
+    format!("{}\n{said}{verdict}  {}\n", plan_line(report), headline::reason(report))
+}
+
+/// The whole run: of several jobs those that did not pass once more, how many passed, and where the files are.
+pub fn summary(summary: &Summary, out: &Path) -> String {
+    let bad: Vec<&SummaryRun> = summary.runs.iter().filter(|run| run.verdict != Outcome::Pass).collect();
+    let repeated = if summary.runs.len() > 1 { bad.as_slice() } else { &[] };
+    let repeated: String =
+        repeated.iter().map(|run| verdict_line(run.verdict, &run.scenario, &run.planner) + "\n").collect();
+    let color = if bad.is_empty() && summary.refused.is_empty() { AnsiColor::Green } else { AnsiColor::Red };
+    format!("{repeated}{}; results in {}", painted(&summary.counts_line(), color), out.display())
+}
+
+fn checks_table(report: &Report) -> Table {
+    let header = ["check", "status", "value", "limit", "margin", "unit", "at s", "between, remarks"];
+    let mut table = table::with_header(&header, &[2, 3, 4, 6]);
+    table.enforce_styling();
+    for check in report.checks.iter().filter(|check| check.status != Status::Skip) {
+        table.add_row(row(check));
+    }
+    table
+}
+
+fn row(check: &Check) -> Vec<Cell> {
+    let shown = |value: Option<f64>, form: fn(f64, &str) -> String| {
+        Cell::new(value.map_or_else(String::new, |value| form(value, &check.unit)))
+    };
+    let remarks = [Some(check.between.join(", ")), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
+    let remarks: Vec<String> = remarks.into_iter().flatten().filter(|remark| !remark.is_empty()).collect();
+    let (status, color) = status(check);
+    vec![
+        Cell::new(&check.name),
+        Cell::new(status).fg(color),
+        shown(check.value, number),
+        shown(check.limit, number),
+        shown(check.margin, signed),
+        Cell::new(&check.unit),
+        shown(check.at_s, |at_s, _| format!("{at_s:.2}")),
+        Cell::new(remarks.join("; ")),
+    ]
+}
+
+fn status(check: &Check) -> (&'static str, Color) {
+    match check.status {
+        Status::Pass => ("pass", Color::Green),
+        Status::Fail if check.advisory => ("fail", Color::Yellow),
+        Status::Fail => ("fail", Color::Red),
+        Status::Undecided => ("undecided", Color::Yellow),
+        Status::Skip => ("skip", Color::Reset),
+    }
+}
+
+/// What was not asked, one line per reason.
+fn skipped(report: &Report) -> Vec<String> {
+    let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
+    for check in report.checks.iter().filter(|check| check.status == Status::Skip) {
+        let reason = check.reason.as_deref().unwrap_or("not applicable");
+        match by_reason.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, names)) => names.push(&check.name),
+            None => by_reason.push((reason, vec![&check.name])),
+        }
+    }
+    by_reason.into_iter().map(|(reason, names)| format!("skipped: {} ({reason})", names.join(", "))).collect()
+}
+
+fn plan_line(report: &Report) -> String {
+    let plan = &report.plan;
+    let iterations = if plan.iterations > 0 { format!(", {} iterations", plan.iterations) } else { String::new() };
+    let wall = if plan.wall_s > 0.0 { format!(" in {:.3} s", plan.wall_s) } else { String::new() };
+    let mut parts = vec![format!("plan: {}{iterations}{wall}", plan.status)];
+    if plan.distributed_s > 0.0 {
+        parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
+    }
+    parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
+    parts.extend(plan.reconstruction.as_ref().map(Reconstruction::describe));
+    parts.join("; ")
+}
+
+fn flight_line(report: &Report) -> Option<String> {
+    let flight = report.metrics.flight.as_ref()?;
+    let figures = [
+        ("mean speed", flight.mean_speed_mps, "m/s"),
+        ("standard deviation of speed", flight.speed_std_mps, "m/s"),
+        ("of altitude", flight.altitude_std_m, "m"),
+    ];
+    let known =
+        figures.into_iter().filter_map(|(name, value, unit)| Some(format!("{name} {}", quantity(value?, unit))));
+    let simulated = format!("simulated in {:.3} s", report.timings.flying_s);
+    Some(format!("flight: {}", std::iter::once(simulated).chain(known).collect::<Vec<_>>().join("; ")))
+}
+
+/// What two integrators disagree on.
+fn integration_line(Integration { method, disagreement_m, .. }: &Integration) -> String {
+    let how = match method {
+        Method::Replay => "in windows, by a replay of its log",
+        Method::FinerSteps => "when it is flown again with a quarter of the step",
+    };
+    let by = disagreement_m.map_or_else(|| "more than a crash".to_owned(), |it| quantity(it, "m"));
+    format!("integrators disagree on the flight by {by} {how}")
+}
+
+/// The ladder of a margin: `clearance: +12.000 m at the nodes; between the nodes -0.210; ...; +11.655 m flown`.
+fn waterfall_line(waterfall: &MarginBudget) -> String {
+    let MarginBudget { question, unit, rungs } = waterfall;
+    let (Some(first), Some(last)) = (rungs.first(), rungs.last()) else { return String::new() };
+    let terms: Vec<String> =
+        rungs[1..].iter().map(|rung| format!("{} {}", rung.name, signed(rung.change, unit))).collect();
+    let [first, last] = [first, last].map(|rung| signed_quantity(rung.margin, unit));
+    let where_first = if rungs[0].name == "nodes" { "at the nodes" } else { &rungs[0].name };
+    format!("margin of {question}: {first} {where_first}; {}; {last} flown", terms.join("; "))
+}
+
+fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {
+    let color = if outcome == Outcome::Pass { AnsiColor::Green } else { AnsiColor::Red };
+    format!("{}  {scenario} · {planner}", painted(&outcome.to_string(), color))
+}
+
+fn painted(text: &str, color: AnsiColor) -> String {
+    let style = Style::new().bold().fg_color(Some(color.into()));
+    format!("{style}{text}{style:#}")
+}

@@ -1,0 +1,90 @@
+//! Planners outside the harness: a command that reads a question from its standard input and writes its answer to its
+//! standard output.
+//!
+//! ```text
+//! Scenario -> request (JSON) -> | stdin  command  stdout | -> reply (JSON) -> Plan
+//!                                        stderr -> planner.log
+//! ```
+//!
+//! Whatever the command does, the result is a plan or a reason why there is none: a crash, a hang, a reply that makes no
+//! sense are findings about that planner, and other scenarios go on.
+
+pub(crate) mod group;
+mod in_loop;
+mod process;
+mod reply;
+mod request;
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
+
+use crate::plan_source::plan_import::CompletedPlan;
+
+pub use in_loop::ExternalSession;
+
+/// Version of request and reply.
+pub const PROTOCOL: u64 = 1;
+/// Time that a planner has if nobody says, s.
+const TIME_LIMIT_S: f64 = 60.0;
+
+/// A command that plans.
+#[derive(Clone, Debug)]
+pub struct ExternalPlanner {
+    /// Name under which its results go.
+    pub name: String,
+    /// Program and arguments.
+    pub command: Vec<String>,
+    /// Folder in which it is started.
+    pub folder: PathBuf,
+    /// Time that it has, s. [default: 60; in the loop 10, for each answer]
+    pub time_limit_s: Option<f64>,
+    /// Does it plan in the loop?
+    pub in_loop: bool,
+}
+
+/// What came of it, with what the command wrote to its standard error.
+#[derive(Clone, Debug)]
+pub struct OutsideAnswer {
+    /// A plan, or the reason why there is none.
+    pub answer: CompletedPlan,
+    /// Standard error.
+    pub log: String,
+}
+
+impl ExternalPlanner {
+    /// Asks the command for a plan, and waits for it as long as its time limit allows.
+    pub fn plan(&self, scenario: &Scenario, seed: u64) -> OutsideAnswer {
+        let time_limit_s = self.time_limit_s.unwrap_or(TIME_LIMIT_S);
+        let question = request::document(scenario, seed, time_limit_s);
+        let time_limit = Duration::try_from_secs_f64(time_limit_s).unwrap_or(Duration::MAX);
+        let ended = process::run(&self.command, &self.folder, question.to_string().into_bytes(), time_limit);
+        let wall_s = ended.wall.as_secs_f64();
+        let answer = ended.output.and_then(|text| reply::read(&text, scenario, &self.name, seed));
+        let mut answer = answer.unwrap_or_else(|reason| CompletedPlan::whole(self.no_plan(scenario, seed, reason)));
+        if answer.plan.timings == PlanTimings::default() {
+            answer.plan.timings.wall_s = wall_s;
+        }
+        OutsideAnswer { answer, log: ended.log }
+    }
+
+    fn no_plan(&self, scenario: &Scenario, seed: u64, reason: String) -> Plan {
+        Plan {
+            schema: 1,
+            scenario: scenario.name.clone(),
+            planner: self.name.clone(),
+            seed,
+            status: PlanStatus::NoPlan,
+            reason: Some(reason),
+            objective: None,
+            trajectories: Vec::new(),
+            history: Vec::new(),
+            account: Account::default(),
+            timings: PlanTimings::default(),
+        }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests;

@@ -1,0 +1,112 @@
+//! Plans that were made elsewhere, made whole: a plan that gives only positions, or only states, gets the velocities and
+//! controls that go with them.
+//!
+//! For the fixed-wing point mass the position is a flat output: velocity, speed, heading and flight-path angle follow
+//! from its first derivative, the load factors from its second. `velocities` differentiates once by a spline; `controls`
+//! takes the second derivative as a first guess and then fits load factors to the nodes through the simulator's own
+//! equations, so that what is left over is known. A quadrotor with a load has to be given whole.
+
+mod controls;
+mod velocities;
+
+use scenarios::fixed_wing::{State, Trajectory};
+use scenarios::plan_input::{FixedWingTrack, GivenTrack, PlanHeader, cartesian_states};
+use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Vehicle};
+
+use crate::verdict::{Provenance, Reconstruction};
+
+/// A plan, and what of it is its plan_source's.
+#[derive(Clone, Debug)]
+pub struct CompletedPlan {
+    /// The plan, whole.
+    pub plan: Plan,
+    /// What had to be reconstructed.
+    pub provenance: Provenance,
+}
+
+impl CompletedPlan {
+    /// A plan that was whole from the beginning.
+    pub fn whole(plan: Plan) -> Self {
+        Self { plan, provenance: Provenance::whole() }
+    }
+}
+
+/// Makes a plan from what was read.
+///
+/// - `tracks`: one per vehicle, in the order of the scenario; none at all is a plan that says it is none
+/// - `planner`: name under which the results go
+pub fn complete(
+    scenario: &Scenario,
+    header: PlanHeader,
+    tracks: Vec<GivenTrack>,
+    planner: &str,
+    seed: u64,
+) -> CompletedPlan {
+    let mut reconstruction: Option<Reconstruction> = None;
+    let mut trajectories = Vec::with_capacity(tracks.len());
+    for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
+        match track {
+            GivenTrack::SlungLoad(trajectory) => trajectories.push(trajectory.into()),
+            GivenTrack::Multirotor(trajectory) => trajectories.push(trajectory.into()),
+            GivenTrack::FixedWing(track) => {
+                let (trajectory, own) = whole_trajectory(vehicle, track);
+                reconstruction = worse(reconstruction, own);
+                trajectories.push(trajectory.into());
+            }
+        }
+    }
+    let plan = Plan {
+        schema: 1,
+        scenario: scenario.name.clone(),
+        planner: planner.to_owned(),
+        seed,
+        status: header.status.unwrap_or(PlanStatus::Unstated),
+        reason: header.reason,
+        objective: header.objective,
+        trajectories,
+        history: header.history,
+        account: header.account,
+        timings: header.timings.unwrap_or_default(),
+    };
+    CompletedPlan { plan, provenance: Provenance { reconstruction } }
+}
+
+fn whole_trajectory(vehicle: &Vehicle, track: FixedWingTrack) -> (Trajectory, Option<Reconstruction>) {
+    let FixedWingTrack { vehicle: name, times_s, positions_m, states, controls } = track;
+    let velocities_missing = states.is_none();
+    let states: Vec<State> = states.unwrap_or_else(|| {
+        let start_mps = vehicle.start.fixed_wing_state().velocity_mps();
+        cartesian_states(&positions_m, &velocities::of(&times_s, &positions_m, start_mps))
+    });
+    let (controls, reconstruction) = match controls {
+        Some(controls) if !velocities_missing => (controls, None),
+        Some(controls) => {
+            let left = controls::left_over(&times_s, &states, &controls);
+            (controls, Some(left))
+        }
+        None => {
+            let (controls, left) = controls::fit(&times_s, &states);
+            (controls, Some(left))
+        }
+    };
+    let reconstruction = reconstruction.map(|left| Reconstruction { velocities: velocities_missing, ..left });
+    let interpolation = Interpolation::FirstOrderHold;
+    (Trajectory { vehicle: name, interpolation, times_s, states, controls }, reconstruction)
+}
+
+/// The larger errors of two vehicles. NaN is worse than anything.
+fn worse(a: Option<Reconstruction>, b: Option<Reconstruction>) -> Option<Reconstruction> {
+    let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+    match (a, b) {
+        (Some(a), Some(b)) => Some(Reconstruction {
+            velocities: a.velocities || b.velocities,
+            position_m: larger(a.position_m, b.position_m),
+            velocity_mps: larger(a.velocity_mps, b.velocity_mps),
+            load_factor: larger(a.load_factor, b.load_factor),
+        }),
+        (a, b) => a.or(b),
+    }
+}
+
+#[cfg(test)]
+mod tests;
