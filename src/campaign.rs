@@ -9,4 +9,4 @@ pub mod margin_budget;
 #[cfg(feature = "parquet")]
 pub mod monte_carlo;
 pub mod selftest;
-mod system_under_test;
+pub mod system_under_test;

@@ -57,14 +57,14 @@ enum Command {
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
     #[cfg(feature = "parquet")]
-    Diverge(first_difference::Diverge),
+    Diverge(diverge::Diverge),
     #[cfg(feature = "parquet")]
     #[command(name = "sweep")]
     Sweep(sweep::SweepCommand),
     #[cfg(feature = "parquet")]
     Merge(merge::Merge),
     #[command(name = "stress")]
-    Stress(failure_threshold::StressCommand),
+    Stress(stress::StressCommand),
     #[command(name = "selftest")]
     Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),

@@ -64,7 +64,7 @@ pub fn load(
                 pair(file, &source, &scenario, plan_sources).into_iter().for_each(|pair| match pair {
                     Ok(job) => jobs.runnable.push(job),
                     Err(error) => jobs.rejected.push(RejectedJob { file: file.clone(), error }),
-                })
+                });
             }
             Err(error) => jobs.rejected.push(RejectedJob { file: file.clone(), error }),
         }

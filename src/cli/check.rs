@@ -61,6 +61,6 @@ impl Check {
         let seed = scenario.simulation.seed;
         let answer = plan_import::complete(&scenario, header, tracks, &name, seed);
         let plan_source = PlanSource::Imported(Box::new(answer));
-        self.session.run(Jobs { good: vec![Job { scenario, source, plan_source, seed }], bad: Vec::new() })
+        self.session.run(Jobs { runnable: vec![Job { scenario, source, plan_source, seed }], rejected: Vec::new() })
     }
 }

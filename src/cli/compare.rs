@@ -6,7 +6,7 @@ use super::session::Format;
 use crate::campaign::comparison::{self, Baseline, Scope, Snapshot};
 use crate::error::{Error, Exit};
 use crate::output;
-use crate::output::report::comparison;
+use crate::output::report::comparison_table;
 use crate::output::report::json_lines::{self, Event};
 
 /// Show what got worse from one run to another.
@@ -33,7 +33,7 @@ impl Compare {
         let (old, new) = (Snapshot::read(&self.old)?, Snapshot::read(&self.new)?);
         let compared = comparison::compare(&old, &new, Scope::Everything);
         match self.format {
-            Format::Text => output::print(&comparison::text(&compared))?,
+            Format::Text => output::print(&comparison_table::text(&compared))?,
             Format::JsonLines => json_lines::print(&Event::Comparison { comparison: &compared })?,
         }
         Ok(if compared.is_good() { Exit::Passed } else { Exit::Failed })
@@ -84,7 +84,7 @@ impl Accept {
         let earlier = if self.file.exists() { Some(Baseline::read(&self.file)?) } else { None };
         if let Some(earlier) = &earlier {
             let compared = comparison::compare(&earlier.results, &results, Scope::WhatWasRun);
-            output::print(&comparison::text(&compared))?;
+            output::print(&comparison_table::text(&compared))?;
         }
         let count = results.entries.len();
         Baseline::accept(earlier, results, &self.reason).write(&self.file)?;

@@ -9,7 +9,7 @@ use crate::jobs::{Job, Jobs};
 use crate::output;
 use crate::output::recording::Recorder;
 use crate::output::report::json_lines::Event;
-use crate::output::report::{Report, Summary, comparison, github, json_lines, junit, terminal};
+use crate::output::report::{Report, Summary, comparison_table, github, json_lines, junit, terminal};
 use crate::pipeline;
 use crate::pipeline::Outputs;
 use crate::progress::Progress;
@@ -131,7 +131,7 @@ impl Session {
     fn finish(&self, done: &Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
         let Done { summary, reports, .. } = done;
         let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(reports), Scope::WhatWasRun));
-        let compared_page = compared.as_ref().map_or_else(String::new, comparison::markdown);
+        let compared_page = compared.as_ref().map_or_else(String::new, comparison_table::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
         output::write_file(&self.out.join("summary.md"), |writer| {
@@ -145,7 +145,7 @@ impl Session {
         self.show(&terminal::summary(summary, &self.out))?;
         if let Some(compared) = &compared {
             self.event(&Event::Comparison { comparison: compared })?;
-            self.show(&comparison::text(compared))?;
+            self.show(&comparison_table::text(compared))?;
         }
         self.annotate(done)?;
         Ok(exit)

@@ -1,6 +1,6 @@
 //! What a run tells: `report.json` for one job, the summary of all of them, and both for people to read.
 
-pub mod comparison;
+pub mod comparison_table;
 pub mod github;
 mod headline;
 pub mod json_lines;

@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn what_lies_within_the_error_of_the_reconstruction_is_undecided_on_either_side() {
-        let status = |value_m| qualified(&provenance(false), separation(value_m)).status;
+        let status = |value_m| qualified(&given(false), separation(value_m)).status;
         assert_eq!(status(100.6), Status::Pass);
         assert_eq!(status(100.4), Status::Undecided);
         assert_eq!(status(99.6), Status::Undecided);
@@ -159,7 +159,7 @@ mod tests {
             (true, node_check("state_limits"), Status::Skip),
             (false, rollout, Status::Skip),
         ] {
-            let answer = qualified(&provenance(velocities), check);
+            let answer = qualified(&given(velocities), check);
             assert_eq!((answer.status, answer.reason.is_some()), (status, status == Status::Skip), "{}", answer.name);
         }
     }
@@ -167,6 +167,6 @@ mod tests {
     #[test]
     fn what_was_flown_is_not_doubted() {
         let flown = Question::new(Group::Flight, "separation", "m").at_least(Measured::value(100.1), 100.0);
-        assert_eq!(qualified(&provenance(true), flown).status, Status::Pass);
+        assert_eq!(qualified(&given(true), flown).status, Status::Pass);
     }
 }

@@ -26,7 +26,7 @@ fn verdict_of(text: &str, scenario: &Scenario) -> Option<(Plan, Outcome)> {
     let (header, tracks) = parse_csv("plan.csv", text, scenario).ok()?;
     let answer = complete(scenario, header, tracks, "theirs", 0);
     let flight = is_flyable(scenario, &answer.plan).is_ok().then(|| sim::fly(scenario, &answer.plan, 0, &mut |_| {}));
-    let verdict = judge_imported(scenario, &answer.plan, &answer.given, flight.as_ref());
+    let verdict = judge_imported(scenario, &answer.plan, &answer.provenance, flight.as_ref());
     Some((answer.plan, verdict.outcome))
 }
 

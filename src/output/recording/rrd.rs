@@ -70,7 +70,7 @@ impl Recorder for Rrd {
         layout::send(&stream, run, &distances)?;
         document::log(&stream, run)?;
         events::log(&stream, run)?;
-        margin_budget::log(&stream, run.waterfall)?;
+        waterfall::log(&stream, run.waterfall)?;
         world::log(&stream, run.scenario)?;
         convergence::log(&stream, run.plan)?;
         paths::log_planned(&stream, run)?;
