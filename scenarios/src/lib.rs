@@ -6,7 +6,7 @@
 //! Frames and units: the world frame is ENU (x east, y north, z up, REP 103); SI and radians everywhere, except that
 //! scenario files give angles in degrees, in fields whose names say so.
 
-mod check_names;
+mod checks;
 mod find;
 pub mod fixed_wing;
 mod fleet;
@@ -31,7 +31,7 @@ mod vehicle;
 mod verdict_limits;
 mod world;
 
-pub use check_names::{CHECK_NAMES, check_names};
+pub use checks::{CHECKS, CheckSpec, Group, LimitField, check_names, check_spec, checks_of};
 pub use find::{FindError, find};
 pub use fleet::FleetRules;
 pub use load::{Fault, Invalid, LoadError, Source, load, parse};

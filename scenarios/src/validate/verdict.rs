@@ -1,7 +1,7 @@
 //! The limits of the verdict, and the checks that it names.
 
 use super::quantity::{not_negative, positive_if_given};
-use crate::{CHECK_NAMES, Problem, VerdictLimits, nearest};
+use crate::{CHECKS, Problem, VerdictLimits, check_spec, nearest};
 
 pub(super) fn problems(limits: &VerdictLimits) -> Vec<Problem> {
     let positive_ones = [
@@ -28,14 +28,14 @@ fn share(field: &str, value: f64) -> Option<Problem> {
 }
 
 fn unknown_checks(field: &str, names: &[String]) -> Vec<Problem> {
-    let is_unknown = |(_, name): &(usize, &String)| !CHECK_NAMES.contains(&name.as_str());
+    let is_unknown = |(_, name): &(usize, &String)| check_spec(name).is_none();
     names.iter().enumerate().filter(is_unknown).map(|(index, name)| unknown_check(field, index, name)).collect()
 }
 
 fn unknown_check(field: &str, index: usize, name: &str) -> Problem {
-    let remedy = match nearest(name, CHECK_NAMES.iter().copied()) {
+    let remedy = match nearest(name, CHECKS.iter().map(|check| check.name)) {
         Some(known) => format!("did you mean \"{known}\"?"),
-        None => format!("the checks are {}", CHECK_NAMES.join(", ")),
+        None => format!("the checks are {}", CHECKS.iter().map(|check| check.name).collect::<Vec<_>>().join(", ")),
     };
     let expected = "the full name of a check, as \"flight.separation\"";
     Problem::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)
