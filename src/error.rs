@@ -171,9 +171,4 @@ impl Error {
     pub(crate) fn results(path: &Path, reason: String) -> Self {
         Self::Results { path: path.to_owned(), reason }
     }
-
-    /// Tells the user, on standard error.
-    pub fn print(self) {
-        crate::output::tell(&format!("{:?}", miette::Report::new(self)));
-    }
 }

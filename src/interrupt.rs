@@ -1,7 +1,7 @@
-//! Stopped by ctrl-C: at once, whatever is being done, and with a word on what is complete.
+//! Interruption by ctrl-C or a termination signal: the process ends at once and says which jobs are complete.
 //!
-//! A watcher of its own ends the process, so that no solver and no writer has to look up from its work. Results appear
-//! under their names when they are complete, and not before: what is there stays, what is half written is removed.
+//! A watcher thread ends the process, so that neither solvers nor writers have to poll for the signal. Results appear
+//! under their names only when they are complete: complete results stay, incomplete ones are removed.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -9,146 +9,151 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use crate::output;
+use crate::console;
 
-/// Exit code of a command that was stopped.
-const STOPPED: i32 = 130;
-/// The last word is given this long: nobody may be listening.
-const LAST_WORD: Duration = Duration::from_millis(500);
+/// Exit code of an interrupted command: 128 + SIGINT.
+const EXIT_CODE: i32 = 130;
+/// Longest time that printing the summary may take before the process exits: standard error may be blocked.
+const SUMMARY_TIMEOUT: Duration = Duration::from_millis(500);
+/// Largest number of jobs that are listed by name.
+const MAX_NAMES: usize = 5;
 
-/// Most jobs that are named one by one.
-const MOST_NAMES: usize = 5;
-
-/// What is being done at the moment.
-static UNDER_WAY: Mutex<RunState> =
-    Mutex::new(RunState { partial: BTreeSet::new(), groups: Vec::new(), complete: Vec::new(), open: Vec::new() });
+/// State of the running command.
+static RUN_STATE: Mutex<RunState> = Mutex::new(RunState {
+    incomplete: BTreeSet::new(),
+    process_groups: Vec::new(),
+    complete_jobs: Vec::new(),
+    open_jobs: Vec::new(),
+});
 
 struct RunState {
-    /// Files and folders that are worth nothing before they are complete.
-    partial: BTreeSet<PathBuf>,
-    /// Process groups that do not see the signal themselves.
-    groups: Vec<Group>,
-    /// Jobs that are done, and those that are not.
-    complete: Vec<String>,
-    open: Vec<String>,
+    /// Files and folders that are of no use until they are complete.
+    incomplete: BTreeSet<PathBuf>,
+    /// Process groups that do not receive the signal themselves.
+    process_groups: Vec<ProcessGroup>,
+    complete_jobs: Vec<String>,
+    /// The running job and those that have not been started.
+    open_jobs: Vec<String>,
 }
 
-/// Watches for ctrl-C from now on, and for being asked to end in another way.
+/// Installs the handler for ctrl-C and termination signals. Called once, by the program.
 ///
-/// Called once, by the program. If it cannot be, ctrl-C ends the process as it ends any other.
+/// If it cannot be installed, ctrl-C ends the process in the default way of the operating system.
 pub fn watch() {
     let _ = ctrlc::set_handler(stop);
 }
 
-/// Says what is to be done, in order, for the last word. What was said before is forgotten.
-pub fn begin(jobs: impl IntoIterator<Item = String>) {
-    let mut under_way = lock();
-    under_way.complete.clear();
-    under_way.open = jobs.into_iter().collect();
+/// Sets the list of jobs, in order, for the summary. Replaces an earlier list.
+pub fn begin_jobs(jobs: impl IntoIterator<Item = String>) {
+    let mut state = lock();
+    state.complete_jobs.clear();
+    state.open_jobs = jobs.into_iter().collect();
 }
 
-/// The first of the jobs that are open is done: its results are whole.
-pub fn complete_one() {
-    let mut under_way = lock();
-    if !under_way.open.is_empty() {
-        let done = under_way.open.remove(0);
-        under_way.complete.push(done);
+/// Marks the first open job as complete.
+pub fn complete_job() {
+    let mut state = lock();
+    if !state.open_jobs.is_empty() {
+        let job = state.open_jobs.remove(0);
+        state.complete_jobs.push(job);
     }
 }
 
-/// A file or a folder that goes with the process as long as this is there.
-pub struct Partial(PathBuf);
+/// A guard: its file or folder is removed if the process is interrupted while the guard exists.
+pub struct RemoveOnInterrupt(PathBuf);
 
-impl Partial {
-    /// Of this path.
+impl RemoveOnInterrupt {
+    /// Guards this path.
     pub fn new(path: &Path) -> Self {
-        lock().partial.insert(path.to_owned());
+        lock().incomplete.insert(path.to_owned());
         Self(path.to_owned())
     }
 }
 
-impl Drop for Partial {
+impl Drop for RemoveOnInterrupt {
     fn drop(&mut self) {
-        lock().partial.remove(&self.0);
+        lock().incomplete.remove(&self.0);
     }
 }
 
-/// A process group that ends with this process.
+/// A process group that is killed when this process is interrupted.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Group(#[cfg(unix)] pub rustix::process::Pid);
+pub struct ProcessGroup(#[cfg(unix)] pub rustix::process::Pid);
 
-impl Group {
-    /// Ends everybody in it.
+impl ProcessGroup {
+    /// Kills every process in the group.
     pub fn end(self) {
-        // An empty group is no error: everybody has gone already. Elsewhere only the command itself can be ended.
+        // An empty group is not an error: its processes have already exited. Without process groups (Windows) only the
+        // command itself can be killed, by its owner.
         #[cfg(unix)]
         let _ = rustix::process::kill_process_group(self.0, rustix::process::Signal::KILL);
     }
 
-    /// From now on it ends with this process.
-    pub fn enrol(self) {
-        lock().groups.push(self);
+    /// Kills the group on interruption from now on.
+    pub fn register(self) {
+        lock().process_groups.push(self);
     }
 
-    /// It ends by itself.
-    pub fn release(self) {
-        lock().groups.retain(|group| *group != self);
+    /// Undoes [`register`](Self::register).
+    pub fn unregister(self) {
+        lock().process_groups.retain(|group| *group != self);
     }
 }
 
 fn stop() {
     thread::spawn(|| {
-        thread::sleep(LAST_WORD);
-        std::process::exit(STOPPED);
+        thread::sleep(SUMMARY_TIMEOUT);
+        std::process::exit(EXIT_CODE);
     });
-    let under_way = lock();
-    under_way.groups.iter().for_each(|group| group.end());
-    for partial in &under_way.partial {
-        let _ = if partial.is_dir() { std::fs::remove_dir_all(partial) } else { std::fs::remove_file(partial) };
+    let state = lock();
+    state.process_groups.iter().for_each(|group| group.end());
+    for path in &state.incomplete {
+        let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
     }
-    output::tell(&last_word(&under_way.complete, &under_way.open));
-    std::process::exit(STOPPED);
+    console::eprint(&interrupt_summary(&state.complete_jobs, &state.open_jobs));
+    std::process::exit(EXIT_CODE);
 }
 
-/// What is complete and what is not.
-fn last_word(complete: &[String], open: &[String]) -> String {
-    let all = complete.len() + open.len();
+/// Which jobs are complete and which are not.
+fn interrupt_summary(complete: &[String], open: &[String]) -> String {
+    let total = complete.len() + open.len();
     let Some((current, rest)) = open.split_first() else {
-        return "\nstopped: nothing is half written".to_owned();
+        return "\nstopped: no incomplete files are left".to_owned();
     };
-    let done = if complete.is_empty() { String::new() } else { format!(": {}", some(complete)) };
-    let not_begun = if rest.is_empty() { String::new() } else { format!("; not begun: {}", some(rest)) };
+    let done = if complete.is_empty() { String::new() } else { format!(": {}", first_names(complete)) };
+    let not_started = if rest.is_empty() { String::new() } else { format!("; not started: {}", first_names(rest)) };
     format!(
-        "\nstopped: {} of {all} are complete{done}\nnot complete: {current}, whose files are whole, but may be of two runs{not_begun}\n\
-         the summaries are those of the run before",
+        "\nstopped: {} of {total} are complete{done}\n\
+         not complete: {current}; its folder may mix files from two runs{not_started}\n\
+         the summaries are still those of the previous run",
         complete.len()
     )
 }
 
-/// The first few of many names, and how many more there are.
-fn some(names: &[String]) -> String {
-    let (named, others) = names.split_at(names.len().min(MOST_NAMES));
+/// The first [`MAX_NAMES`] names, and the number of the others.
+fn first_names(names: &[String]) -> String {
+    let (named, others) = names.split_at(names.len().min(MAX_NAMES));
     let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
     format!("{}{more}", named.join(", "))
 }
 
 fn lock() -> MutexGuard<'static, RunState> {
-    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+    RUN_STATE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::last_word;
+    use super::interrupt_summary;
 
     #[test]
-    fn the_last_word_tells_what_is_complete_and_what_is_not() {
+    fn the_summary_lists_complete_and_incomplete_jobs() {
         let jobs = ["a", "b", "c"].map(str::to_owned);
-        let word = last_word(&jobs[..1], &jobs[1..]);
-        assert!(word.contains("1 of 3 are complete: a\n"), "{word}");
-        assert!(word.contains("not complete: b, ") && word.contains("; not begun: c\n"), "{word}");
+        let text = interrupt_summary(&jobs[..1], &jobs[1..]);
+        assert!(text.contains("1 of 3 are complete: a\n"), "{text}");
+        assert!(text.contains("not complete: b; ") && text.contains("; not started: c\n"), "{text}");
         let many: Vec<String> = (0..9).map(|number| number.to_string()).collect();
-        assert!(last_word(&[], &many).contains("not begun: 1, 2, 3, 4, 5 and 3 more\n"));
-        assert!(last_word(&[], &jobs[..1]).contains("0 of 1 are complete\nnot complete: a,"));
-        assert!(last_word(&[], &[]).contains("nothing is half written"));
+        assert!(interrupt_summary(&[], &many).contains("not started: 1, 2, 3, 4, 5 and 3 more\n"));
+        assert!(interrupt_summary(&[], &jobs[..1]).contains("0 of 1 are complete\nnot complete: a;"));
+        assert!(interrupt_summary(&[], &[]).contains("no incomplete files"));
     }
 }

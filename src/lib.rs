@@ -9,6 +9,7 @@
 
 pub mod campaign;
 pub mod cli;
+pub mod console;
 #[cfg(all(test, unix))]
 #[path = "../scenarios/tests/damage/mod.rs"]
 mod damage;
@@ -21,4 +22,5 @@ pub mod output;
 mod pipeline;
 pub mod plan_source;
 mod progress;
+pub mod report;
 pub mod verdict;

@@ -11,7 +11,7 @@ fn main() -> ExitCode {
     match Cli::parse().execute() {
         Ok(exit) => exit.into(),
         Err(error) => {
-            error.print();
+            harness::console::print_error(error);
             Exit::BadInput.into()
         }
     }

@@ -1,8 +1,8 @@
-//! What a run leaves behind: files, recordings and reports.
+//! Everything that is written: files, recordings, reports.
 
 mod files;
 pub mod recording;
 pub mod report;
 pub mod tum;
 
-pub use files::{create_folder, print, remove_stale, replace_file, tell, write_file, write_json};
+pub use files::{create_folder, remove_stale, replace_file, write_file, write_json};

@@ -17,12 +17,12 @@ use crate::jobs::Job;
 use crate::metrics;
 use crate::output;
 use crate::output::recording::{self, Recorder, Run};
-use crate::output::report::{ReplanTimes, Report, Timings};
 use crate::output::tum;
 use crate::plan_source::in_loop;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{InLoopPlanners, Log, PlanSource, PlannerOutput};
 use crate::progress::Progress;
+use crate::report::{ReplanTimes, Report, Timings};
 use crate::verdict;
 use crate::verdict::{Integration, Verdict};
 

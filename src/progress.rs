@@ -6,8 +6,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use scenarios::Iteration;
 
+use crate::console;
 use crate::jobs::Job;
-use crate::output;
 
 /// Tells how far a job has come.
 pub struct Progress {
@@ -89,7 +89,7 @@ impl Progress {
     fn begin(&self, message: String) {
         match &self.display {
             Display::Nothing => {}
-            Display::Lines { prefix } => output::tell(&format!("{prefix}: {message}")),
+            Display::Lines { prefix } => console::eprint(&format!("{prefix}: {message}")),
             Display::Bar(bar) => bar.set_message(message),
         }
     }

@@ -28,7 +28,7 @@ pub struct Comparison {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
     /// Is it a loss?
-    pub rating: Rating,
+    pub rating: Severity,
     /// Scenario.
     pub scenario: String,
     /// Planner.
@@ -46,7 +46,7 @@ pub struct Difference {
 /// What a difference means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Rating {
+pub enum Severity {
     /// A loss beyond tolerance: the comparison fails.
     Worse,
     /// A gain beyond tolerance.
@@ -61,24 +61,24 @@ pub enum Scope {
     /// All of the old run: one that is gone is a loss.
     Everything,
     /// Those of the new run: it may be a part.
-    WhatWasRun,
+    NewRunOnly,
 }
 
 impl Comparison {
     /// Differences of this rating.
-    pub fn count(&self, rating: Rating) -> usize {
+    pub fn count(&self, rating: Severity) -> usize {
         self.differences.iter().filter(|difference| difference.rating == rating).count()
     }
 
     /// Did nothing get worse?
     pub fn is_good(&self) -> bool {
-        self.count(Rating::Worse) == 0
+        self.count(Severity::Worse) == 0
     }
 
     /// `12 results compared: 1 worse, 3 better`.
     pub fn counts_line(&self) -> String {
         let Self { compared, .. } = self;
-        let (worse, better) = (self.count(Rating::Worse), self.count(Rating::Better));
+        let (worse, better) = (self.count(Severity::Worse), self.count(Severity::Better));
         let results = if *compared == 1 { "result" } else { "results" };
         format!("{compared} {results} compared: {worse} worse, {better} better")
     }
@@ -94,14 +94,14 @@ pub fn compare(old: &Snapshot, new: &Snapshot, scope: Scope) -> Comparison {
                 comparison.differences.extend(differences(before, after));
             }
             None if scope == Scope::Everything => {
-                comparison.differences.push(before.differs(Rating::Worse, "result", "there", "gone"));
+                comparison.differences.push(before.differs(Severity::Worse, "result", "there", "gone"));
             }
             None => {}
         }
     }
     let is_new = |after: &&Entry| old.find(&after.scenario, &after.planner).is_none();
     let fresh =
-        new.entries.iter().filter(is_new).map(|after| after.differs(Rating::Note, "result", "not there", "new"));
+        new.entries.iter().filter(is_new).map(|after| after.differs(Severity::Note, "result", "not there", "new"));
     comparison.differences.extend(fresh);
     comparison.differences.sort_by_key(|difference| difference.rating);
     comparison
@@ -110,20 +110,20 @@ pub fn compare(old: &Snapshot, new: &Snapshot, scope: Scope) -> Comparison {
 fn differences(old: &Entry, new: &Entry) -> Vec<Difference> {
     let mut differences = Vec::new();
     if old.seed != new.seed {
-        differences.push(new.differs(Rating::Note, "seed", &old.seed.to_string(), &new.seed.to_string()));
+        differences.push(new.differs(Severity::Note, "seed", &old.seed.to_string(), &new.seed.to_string()));
     }
     if old.verdict != new.verdict {
-        let rating = if new.verdict > old.verdict { Rating::Worse } else { Rating::Better };
+        let rating = if new.verdict > old.verdict { Severity::Worse } else { Severity::Better };
         differences.push(new.differs(rating, "verdict", &old.verdict.to_string(), &new.verdict.to_string()));
     }
     for (name, before) in &old.checks {
         match new.checks.get(name) {
             Some(after) if before.status != after.status => {
-                let rating = status_rating(before, after);
+                let rating = status_severity(before, after);
                 differences.push(new.differs(rating, name, word(before.status), word(after.status)));
             }
             Some(_) => {}
-            None => differences.push(new.differs(Rating::Worse, name, word(before.status), "not made")),
+            None => differences.push(new.differs(Severity::Worse, name, word(before.status), "not made")),
         }
     }
     let figures = old.figures.iter().filter_map(|(name, before)| Some((name, *before, *new.figures.get(name)?)));
@@ -144,16 +144,16 @@ fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Opti
     let is_advisory =
         name.strip_prefix("margin of ").and_then(|check| new.checks.get(check)).is_some_and(|it| it.advisory);
     let rating = match rule.decides && !is_advisory {
-        false => Rating::Note,
-        true if rule.is_gain(change) => Rating::Better,
-        true => Rating::Worse,
+        false => Severity::Note,
+        true if rule.is_gain(change) => Severity::Better,
+        true => Severity::Worse,
     };
     let by = format!("{} (tolerance {})", signed_quantity(change, unit), quantity(tolerance, unit));
     let (before, after) = (quantity(before, unit), quantity(after, unit));
     Some(Difference { change: by, ..new.differs(rating, name, &before, &after) })
 }
 
-fn status_rating(old: &CheckEntry, new: &CheckEntry) -> Rating {
+fn status_severity(old: &CheckEntry, new: &CheckEntry) -> Severity {
     // a check that is not made any more says less than one that passes
     let rank = |status: Status| match status {
         Status::Pass => 0,
@@ -162,11 +162,11 @@ fn status_rating(old: &CheckEntry, new: &CheckEntry) -> Rating {
         Status::Fail => 3,
     };
     if new.advisory {
-        Rating::Note
+        Severity::Note
     } else if rank(new.status) > rank(old.status) {
-        Rating::Worse
+        Severity::Worse
     } else {
-        Rating::Better
+        Severity::Better
     }
 }
 
@@ -180,7 +180,7 @@ fn word(status: Status) -> &'static str {
 }
 
 impl Entry {
-    fn differs(&self, rating: Rating, what: &str, old: &str, new: &str) -> Difference {
+    fn differs(&self, rating: Severity, what: &str, old: &str, new: &str) -> Difference {
         Difference {
             rating,
             scenario: self.scenario.clone(),

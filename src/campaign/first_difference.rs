@@ -3,7 +3,7 @@
 //! What should be the same to the last bit, and is not, has parted somewhere: the first row of the two logs that differs
 //! names the time, the vehicle, and the number that was different first.
 
-use crate::output::recording::log::Table;
+use crate::output::recording::parquet::Table;
 
 /// The first difference of two logs.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +89,7 @@ fn largest_distance_m(one: &Table, other: &Table) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Difference, first_difference};
-    use crate::output::recording::log::{Table, VehicleTable};
+    use crate::output::recording::parquet::{Table, VehicleTable};
 
     fn table() -> Table {
         let rows =

@@ -6,6 +6,7 @@ use scenarios::Scenario;
 use serde::Serialize;
 
 use crate::campaign::bench::{cooperative, fleets, horizon, ipm, slung};
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
@@ -157,7 +158,7 @@ impl Bench {
 
     fn tell(&self, stage: &str) {
         if !self.quiet {
-            output::tell(stage);
+            console::eprint(stage);
         }
     }
 
@@ -166,7 +167,7 @@ impl Bench {
         output::create_folder(&folder)?;
         output::write_json(&folder.join(format!("{name}.json")), results)?;
         output::write_file(&folder.join(format!("{name}.md")), |writer| write!(writer, "{page}"))?;
-        if self.quiet { Ok(()) } else { output::print(text) }.map(|()| Exit::Passed)
+        if self.quiet { Ok(()) } else { console::print(text) }.map(|()| Exit::Passed)
     }
 }
 

@@ -4,8 +4,8 @@ use clap::{Args, Subcommand};
 
 use super::session::Format;
 use crate::campaign::comparison::{self, Baseline, Scope, Snapshot};
+use crate::console;
 use crate::error::{Error, Exit};
-use crate::output;
 use crate::output::report::comparison_table;
 use crate::output::report::json_lines::{self, Event};
 
@@ -33,7 +33,7 @@ impl Compare {
         let (old, new) = (Snapshot::read(&self.old)?, Snapshot::read(&self.new)?);
         let compared = comparison::compare(&old, &new, Scope::Everything);
         match self.format {
-            Format::Text => output::print(&comparison_table::text(&compared))?,
+            Format::Text => console::print(&comparison_table::text(&compared))?,
             Format::JsonLines => json_lines::print(&Event::Comparison { comparison: &compared })?,
         }
         Ok(if compared.is_good() { Exit::Passed } else { Exit::Failed })
@@ -83,13 +83,13 @@ impl Accept {
         let results = Snapshot::read(&self.results)?;
         let earlier = if self.file.exists() { Some(Baseline::read(&self.file)?) } else { None };
         if let Some(earlier) = &earlier {
-            let compared = comparison::compare(&earlier.results, &results, Scope::WhatWasRun);
-            output::print(&comparison_table::text(&compared))?;
+            let compared = comparison::compare(&earlier.results, &results, Scope::NewRunOnly);
+            console::print(&comparison_table::text(&compared))?;
         }
         let count = results.entries.len();
         Baseline::accept(earlier, results, &self.reason).write(&self.file)?;
         let results = if count == 1 { "result" } else { "results" };
-        output::print(&format!("{count} {results} accepted into {}", self.file.display()))?;
+        console::print(&format!("{count} {results} accepted into {}", self.file.display()))?;
         Ok(Exit::Passed)
     }
 }

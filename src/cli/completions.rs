@@ -4,6 +4,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 use super::Cli;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
@@ -25,7 +26,7 @@ impl Completions {
     pub fn execute(&self) -> Result<Exit, Error> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "harness", &mut script);
-        output::print(String::from_utf8_lossy(&script).trim_end())?;
+        console::print(String::from_utf8_lossy(&script).trim_end())?;
         Ok(Exit::Passed)
     }
 }

@@ -3,11 +3,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::campaign::first_difference::{Difference, Parting, first_difference};
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::number_format;
-use crate::output;
-use crate::output::recording::log;
-use crate::output::report::{Report, StateHashes};
+use crate::output::recording::parquet;
+use crate::report::{Report, StateHashes};
 
 /// Show where two flights of one scenario first part.
 ///
@@ -44,14 +44,14 @@ impl Diverge {
         if logs.iter().any(|log| !log.exists()) && paths.iter().all(|path| path.is_dir()) {
             return self.by_hashes();
         }
-        let [one, other] = [log::read(&logs[0])?, log::read(&logs[1])?];
+        let [one, other] = [parquet::read(&logs[0])?, parquet::read(&logs[1])?];
         if one.scenario != other.scenario {
             let reason = format!("the flight of `{}`, where the other is of `{}`", other.scenario, one.scenario);
             return Err(Error::results(&logs[1], reason));
         }
         match first_difference(&one, &other) {
             None => same(),
-            Some(parting) => output::print(&in_words(&parting)).map(|()| Exit::Failed),
+            Some(parting) => console::print(&in_words(&parting)).map(|()| Exit::Failed),
         }
     }
 
@@ -67,7 +67,7 @@ impl Diverge {
             number_format::given_quantity(from_s, "s"),
             number_format::given_quantity(from_s + one.every_s, "s")
         );
-        output::print(&text).map(|()| Exit::Failed)
+        console::print(&text).map(|()| Exit::Failed)
     }
 }
 
@@ -79,7 +79,7 @@ fn hashes(folder: &Path) -> Result<StateHashes, Error> {
 }
 
 fn same() -> Result<Exit, Error> {
-    output::print("the flights are the same to the last bit").map(|()| Exit::Passed)
+    console::print("the flights are the same to the last bit").map(|()| Exit::Passed)
 }
 
 fn in_words(Parting { t_s, vehicle, difference, largest_m }: &Parting) -> String {

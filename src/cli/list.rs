@@ -4,8 +4,8 @@ use scenarios::Scenario;
 use serde_json::{Value, json};
 
 use super::selection::Selection;
+use crate::console;
 use crate::error::{Error, Exit};
-use crate::output;
 use crate::output::report::table;
 
 /// Show the scenarios and the planners, and what each planner claims to handle.
@@ -38,13 +38,13 @@ impl List {
             return Err(self.selection.nothing());
         }
         if self.json {
-            output::print(&format!("{:#}", as_json(&good)))?;
+            console::print(&format!("{:#}", as_json(&good)))?;
         } else {
             let (scenarios, planners) = (scenario_table(&good), planner_table());
-            output::print(&format!("Scenarios\n{}\n\nPlanners\n{}", scenarios.trim_fmt(), planners.trim_fmt()))?;
+            console::print(&format!("Scenarios\n{}\n\nPlanners\n{}", scenarios.trim_fmt(), planners.trim_fmt()))?;
         }
         let exit = if bad.is_empty() { Exit::Passed } else { Exit::BadInput };
-        bad.into_iter().for_each(|error| Error::from(error).print());
+        bad.into_iter().for_each(|error| console::print_error(error.into()));
         Ok(exit)
     }
 }

@@ -4,6 +4,7 @@ use clap::Args;
 use scenarios::{Plan, PlanStatus};
 
 use super::run::AuthorArgs;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
 use crate::output;
@@ -42,7 +43,10 @@ Examples:
 pub fn tell_no_plan(answer: &CompletedPlan) -> bool {
     let is_none = answer.plan.status == PlanStatus::NoPlan;
     if is_none {
-        output::tell(&format!("no plan: {}", answer.plan.reason.as_deref().unwrap_or("the planner gives no reason")));
+        console::eprint(&format!(
+            "no plan: {}",
+            answer.plan.reason.as_deref().unwrap_or("the planner gives no reason")
+        ));
     }
     is_none
 }
@@ -61,7 +65,7 @@ impl PlanCommand {
         progress.finish();
         if tell_no_plan(&output.answer) {
             if let Some(log) = output.log.filter(|log| !log.is_empty()) {
-                output::tell(log.trim_end());
+                console::eprint(log.trim_end());
             }
             return Ok(Exit::Failed);
         }
@@ -94,6 +98,6 @@ impl PlanCommand {
             return Ok(());
         }
         let reason = plan.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-        output::print(&format!("plan: {}{reason}; written to {}", plan.status, self.output.display()))
+        console::print(&format!("plan: {}{reason}; written to {}", plan.status, self.output.display()))
     }
 }

@@ -1,9 +1,9 @@
 use clap::{Args, ValueEnum};
 use serde_json::{Map, Value};
 
+use crate::console;
 use crate::error::{Error, Exit};
-use crate::output;
-use crate::output::report::Report;
+use crate::report::Report;
 
 /// Print the JSON Schema of scenario files or of report.json.
 #[derive(Args, Debug)]
@@ -38,7 +38,7 @@ impl Schema {
             Kind::Scenario => scenarios::Scenario::json_schema(),
             Kind::Report => schemars::schema_for!(Report).into(),
         };
-        output::print(&format!("{:#}", sorted(schema)))?;
+        console::print(&format!("{:#}", sorted(schema)))?;
         Ok(Exit::Passed)
     }
 }

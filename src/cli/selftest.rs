@@ -3,6 +3,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::campaign::selftest;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
@@ -36,7 +37,7 @@ impl SelftestCommand {
     pub fn execute(&self) -> Result<Exit, Error> {
         let selftest = selftest::run(&mut |stage| {
             if !self.quiet {
-                output::tell(stage);
+                console::eprint(stage);
             }
         });
         output::create_folder(&self.out)?;
@@ -44,7 +45,7 @@ impl SelftestCommand {
         let page = selftest::markdown(&selftest);
         output::write_file(&self.out.join("selftest.md"), |writer| write!(writer, "{page}"))?;
         if !self.quiet {
-            output::print(&selftest::text(&selftest))?;
+            console::print(&selftest::text(&selftest))?;
         }
         Ok(if selftest.is_good() { Exit::Passed } else { Exit::Failed })
     }

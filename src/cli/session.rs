@@ -3,16 +3,18 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use crate::campaign::comparison::{self, Comparison, Scope, Snapshot};
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::interrupt;
 use crate::jobs::{Job, Jobs};
 use crate::output;
 use crate::output::recording::Recorder;
 use crate::output::report::json_lines::Event;
-use crate::output::report::{Report, Summary, comparison_table, github, json_lines, junit, terminal};
+use crate::output::report::{Summary, comparison_table, github, json_lines, junit, terminal};
 use crate::pipeline;
 use crate::pipeline::Outputs;
 use crate::progress::Progress;
+use crate::report::Report;
 
 /// What is written, where, and what is printed.
 #[derive(Args, Debug)]
@@ -104,10 +106,12 @@ impl Session {
             let refused = done.summary.refuse(&refusal);
             self.event(&Event::Refused { file: refused })?;
             done.annotations.extend(github::annotations_of(&refusal.error));
-            refusal.error.print();
+            console::print_error(refusal.error);
         }
         let total = jobs.runnable.len();
-        interrupt::begin(jobs.runnable.iter().map(|job| format!("{} ({})", job.scenario.name, job.plan_source.name())));
+        interrupt::begin_jobs(
+            jobs.runnable.iter().map(|job| format!("{} ({})", job.scenario.name, job.plan_source.name())),
+        );
         for (index, job) in jobs.runnable.into_iter().enumerate() {
             let report = self.run_job(&job, &outputs, index + 1, total)?;
             done.summary.add(&report);
@@ -121,7 +125,7 @@ impl Session {
         let mut progress = Progress::new(job, number, total, self.quiet);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         let done = pipeline::run(job, outputs, &folder, &mut progress)?;
-        interrupt::complete_one();
+        interrupt::complete_job();
         progress.finish();
         self.show(&terminal::report(&done.report, done.log.as_deref()))?;
         self.event(&Event::Report { report: &done.report })?;
@@ -130,7 +134,7 @@ impl Session {
 
     fn finish(&self, done: &Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
         let Done { summary, reports, .. } = done;
-        let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(reports), Scope::WhatWasRun));
+        let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(reports), Scope::NewRunOnly));
         let compared_page = compared.as_ref().map_or_else(String::new, comparison_table::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
@@ -164,13 +168,13 @@ impl Session {
             .map(|(report, job)| github::Finding { report, scenario: &job.scenario, source: &job.source })
             .collect();
         for line in done.annotations.iter().cloned().chain(github::annotations(&findings)) {
-            if self.quiet || self.format == Format::JsonLines { output::tell(&line) } else { output::print(&line)? }
+            if self.quiet || self.format == Format::JsonLines { console::eprint(&line) } else { console::print(&line)? }
         }
         Ok(())
     }
 
     fn show(&self, text: &str) -> Result<(), Error> {
-        if self.quiet || self.format != Format::Text { Ok(()) } else { output::print(text) }
+        if self.quiet || self.format != Format::Text { Ok(()) } else { console::print(text) }
     }
 
     fn event(&self, event: &Event<'_>) -> Result<(), Error> {
@@ -229,7 +233,7 @@ fn mcap() -> Result<Box<dyn Recorder>, Error> {
 
 #[cfg(feature = "parquet")]
 fn parquet() -> Result<Box<dyn Recorder>, Error> {
-    Ok(Box::new(crate::output::recording::log::Log))
+    Ok(Box::new(crate::output::recording::parquet::Parquet))
 }
 
 #[cfg(not(feature = "parquet"))]

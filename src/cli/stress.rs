@@ -6,6 +6,7 @@ use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
 use crate::campaign::failure_threshold::{self, Axis, Stress};
 use crate::campaign::system_under_test::SystemUnderTest;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
 use crate::number_format::{number, quantity};
@@ -68,7 +69,7 @@ impl StressCommand {
             let stress = failure_threshold::run(&job.scenario, contender, over, job.seed, &mut |count| flown += count);
             output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
             if !self.quiet {
-                output::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;
+                console::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;
             }
             if stress.trials.first().is_some_and(|trial| !trial.passed) {
                 exit = Exit::Failed;

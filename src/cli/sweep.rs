@@ -9,6 +9,7 @@ use super::run::AuthorArgs;
 use super::session::start_threads;
 use crate::campaign::monte_carlo::{self, Partition, Question, Sample, Spread, Statistics, Sweep, table};
 use crate::campaign::system_under_test::SystemUnderTest;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
 use crate::output;
@@ -118,7 +119,7 @@ impl SweepCommand {
         let worst = write_worst(&question, &sweep, &samples, &folder)?;
         let exit = self.shown.finish(&sweep, &samples, &folder)?;
         if let Some(number) = worst.filter(|_| !self.shown.quiet) {
-            output::print(&format!("sample {number} failed most; its scenario stands in worst/"))?;
+            console::print(&format!("sample {number} failed most; its scenario stands in worst/"))?;
         }
         Ok(exit)
     }
@@ -169,8 +170,8 @@ impl Shown {
         table::write(sweep, samples, &folder.join("sweep.parquet"))?;
         output::write_json(&folder.join("sweep.json"), &Whole { sweep, statistics: &statistics })?;
         if !self.quiet {
-            output::print(&monte_carlo::text(sweep, &statistics))?;
-            output::print(&format!("results in {}", folder.display()))?;
+            console::print(&monte_carlo::text(sweep, &statistics))?;
+            console::print(&format!("results in {}", folder.display()))?;
         }
         // Written so that a sweep of nothing has not passed.
         let share = 100.0 * statistics.passed as f64 / statistics.samples as f64;

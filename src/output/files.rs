@@ -1,7 +1,8 @@
-//! Files and standard output.
+//! Atomic file output.
 //!
-//! A file appears under its name only when it is complete: it is written beside it under a temporary name and renamed, so
-//! that a killed run leaves no half file behind under the name of a result. What it does leave, the next run removes.
+//! Files are written under a temporary name in the same folder and renamed when they are complete, so that an
+//! interrupted run never leaves a partial file under the name of a result. Temporary files of killed runs are removed by
+//! the next run.
 
 mod stale_files;
 
@@ -14,17 +15,21 @@ use serde::Serialize;
 use tempfile::NamedTempFile;
 
 use crate::error::Error;
-use crate::interrupt::Partial;
+use crate::interrupt::RemoveOnInterrupt;
 
-/// What may go wrong while a file is written by somebody else's library.
-type Failure = Box<dyn error::Error + Send + Sync>;
+/// An error of whichever library writes the file.
+type WriteError = Box<dyn error::Error + Send + Sync>;
 
-/// Lets `write` write a file of its own, which becomes `path` once it is complete.
-pub fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Error> {
-    complete(path, write).map_err(|reason| Error::Write { path: path.to_owned(), reason })
+/// Calls `write` with a temporary path, and renames that file to `path` when it is complete.
+///
+/// # Errors
+///
+/// [`Error::Write`] if `write` fails or the file cannot be renamed; an existing file at `path` is then left as it was.
+pub fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), WriteError>) -> Result<(), Error> {
+    write_and_rename(path, write).map_err(|reason| Error::Write { path: path.to_owned(), reason })
 }
 
-/// Writes a file by `content`, all or nothing.
+/// [`replace_file`] for content that is written to a buffered stream.
 pub fn write_file(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
     replace_file(path, |partial| {
         let mut writer = BufWriter::new(File::create(partial)?);
@@ -33,7 +38,7 @@ pub fn write_file(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Resul
     })
 }
 
-/// Writes `value` as indented JSON, all or nothing.
+/// [`replace_file`] for `value` as indented JSON.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Error> {
     write_file(path, |writer| {
         serde_json::to_writer_pretty(&mut *writer, value)?;
@@ -41,14 +46,22 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Error> {
     })
 }
 
-/// Makes a folder and those above it, and rids it of what killed runs left in it.
+/// Creates a folder and its parents, and removes temporary files that killed runs left in it.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the folder cannot be created.
 pub fn create_folder(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).map_err(|reason| Error::Write { path: path.to_owned(), reason: reason.into() })?;
     stale_files::remove(path);
     Ok(())
 }
 
-/// Removes a result of an earlier run, if there is one.
+/// Removes a result of an earlier run, if it exists.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the file exists and cannot be removed.
 pub fn remove_stale(path: &Path) -> Result<(), Error> {
     match fs::remove_file(path) {
         Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
@@ -58,32 +71,17 @@ pub fn remove_stale(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Prints to standard output, with colours where the terminal has them and `NO_COLOR` does not forbid them. A reader who
-/// has gone (`harness list | head`) is no error.
-pub fn print(text: &str) -> Result<(), Error> {
-    match writeln!(anstream::stdout().lock(), "{text}") {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
-}
-
-/// Tells the user something on standard error. If nobody listens any more (`harness run 2>&1 | head`), that is no reason
-/// to stop, and there is nobody to tell.
-pub fn tell(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
-}
-
-fn complete(path: &Path, write: impl FnOnce(&Path) -> Result<(), Failure>) -> Result<(), Failure> {
+fn write_and_rename(path: &Path, write: impl FnOnce(&Path) -> Result<(), WriteError>) -> Result<(), WriteError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let partial = new_file(folder)?.into_temp_path(); // removed when it is dropped
-    let _with_us = Partial::new(&partial);
+    let partial = temporary_file(folder)?.into_temp_path(); // removed when dropped
+    let _guard = RemoveOnInterrupt::new(&partial);
     write(&partial)?;
     Ok(partial.persist(path)?)
 }
 
-/// A file for everybody to read, as far as the user's umask lets them (temporary files are private by default). Its name
-/// tells whose it is.
-fn new_file(folder: &Path) -> io::Result<NamedTempFile> {
+/// A temporary file whose name identifies this process, readable by everyone whom the umask allows (temporary files are
+/// private by default, and the file becomes a result).
+fn temporary_file(folder: &Path) -> io::Result<NamedTempFile> {
     let prefix = stale_files::prefix();
     let mut file = tempfile::Builder::new();
     file.prefix(&prefix);
@@ -100,7 +98,7 @@ mod tests {
     use super::write_file;
 
     #[test]
-    fn a_writer_that_fails_half_way_leaves_the_old_file_and_nothing_else() {
+    fn a_failed_write_leaves_the_old_file_and_no_temporary_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("report.json");
         fs::write(&path, "old").unwrap();
@@ -114,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_missing_is_named_in_the_error() {
+    fn the_error_names_a_missing_folder() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("missing/report.json");
         let error = write_file(&path, |_| Ok(())).unwrap_err();

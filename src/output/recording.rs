@@ -18,12 +18,10 @@ use crate::verdict::Verdict;
 mod colours;
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 mod events;
-#[cfg(feature = "parquet")]
-pub mod log;
-#[cfg(feature = "parquet")]
-mod log_columns;
 #[cfg(feature = "mcap")]
 pub mod mcap;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 #[cfg(feature = "rrd")]
 pub mod rrd;
 

@@ -9,10 +9,10 @@ use scenarios::Scenario;
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::interrupt::Partial;
+use crate::interrupt::RemoveOnInterrupt;
 use crate::output;
-use crate::output::report::Report;
 use crate::plan_source::external::group::{self, Guard};
+use crate::report::Report;
 
 /// Time between two looks at the process.
 const POLL: Duration = Duration::from_millis(5);
@@ -55,7 +55,7 @@ pub struct Entry {
 /// Plans, flies and judges `scenario` with `planner`; all of it within `limit_s`.
 pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Error> {
     let folder = tempfile::tempdir().map_err(|error| environment("make a temporary folder", &error))?;
-    let _with_us = Partial::new(folder.path());
+    let _with_us = RemoveOnInterrupt::new(folder.path());
     let file = folder.path().join(format!("{}.toml", scenario.name));
     output::write_file(&file, |writer| writer.write_all(scenario.to_toml().as_bytes()))?;
     let out = folder.path().join("out");

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Baseline, rules};
 use crate::error::Error;
-use crate::output::report::Report;
+use crate::report::Report;
 use crate::verdict::{Outcome, Status};
 
 /// What of a run is compared: one entry per scenario and planner, in the order of their names.

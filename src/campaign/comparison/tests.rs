@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Baseline, CheckEntry, Entry, Rating, Scope, Snapshot, compare, rules};
+use super::{Baseline, CheckEntry, Entry, Scope, Severity, Snapshot, compare, rules};
 use crate::verdict::{Outcome, Status};
 
 fn entry() -> Entry {
@@ -34,7 +34,7 @@ fn snapshot(change: impl Fn(&mut Entry)) -> Snapshot {
 }
 
 /// Ratings and subjects of what changed.
-fn found(change: impl Fn(&mut Entry)) -> Vec<(Rating, String)> {
+fn found(change: impl Fn(&mut Entry)) -> Vec<(Severity, String)> {
     let comparison = compare(&snapshot(|_| {}), &snapshot(change), Scope::Everything);
     comparison.differences.into_iter().map(|difference| (difference.rating, difference.what)).collect()
 }
@@ -53,8 +53,8 @@ fn a_loss_of_three_per_cent_is_found_in_every_figure_that_decides_and_a_tenth_of
     for (figure, worse) in
         [("margin of flight.separation", 0.97), (rules::FLOWN_TIME, 1.03), (rules::TRACKING_MAX, 1.03)]
     {
-        assert_eq!(found(scaled(figure, worse)), [(Rating::Worse, figure.to_owned())]);
-        assert_eq!(found(scaled(figure, 2.0 - worse)), [(Rating::Better, figure.to_owned())]);
+        assert_eq!(found(scaled(figure, worse)), [(Severity::Worse, figure.to_owned())]);
+        assert_eq!(found(scaled(figure, 2.0 - worse)), [(Severity::Better, figure.to_owned())]);
         assert_eq!(found(scaled(figure, 1.0 + (worse - 1.0) / 30.0)), [], "{figure}");
     }
 }
@@ -67,13 +67,13 @@ fn rounding_in_a_margin_of_nothing_is_no_change() {
 #[test]
 fn wall_times_are_told_and_decide_nothing() {
     assert_eq!(found(scaled(rules::PLANNING_TIME, 1.5)), []);
-    assert_eq!(found(scaled(rules::PLANNING_TIME, 9.0)), [(Rating::Note, rules::PLANNING_TIME.to_owned())]);
+    assert_eq!(found(scaled(rules::PLANNING_TIME, 9.0)), [(Severity::Note, rules::PLANNING_TIME.to_owned())]);
 }
 
 #[test]
 fn what_is_no_number_is_worse() {
     let lost = |entry: &mut Entry| *entry.figures.get_mut(rules::FLOWN_TIME).expect("a figure") = f64::NAN;
-    assert_eq!(found(lost), [(Rating::Worse, rules::FLOWN_TIME.to_owned())]);
+    assert_eq!(found(lost), [(Severity::Worse, rules::FLOWN_TIME.to_owned())]);
 }
 
 #[test]
@@ -81,13 +81,13 @@ fn statuses_and_verdicts_have_an_order() {
     let set = |status| move |entry: &mut Entry| entry.checks.get_mut("flight.separation").unwrap().status = status;
     let name = "flight.separation".to_owned();
     for status in [Status::Fail, Status::Undecided, Status::Skip] {
-        assert_eq!(found(set(status)), [(Rating::Worse, name.clone())], "{status:?}");
+        assert_eq!(found(set(status)), [(Severity::Worse, name.clone())], "{status:?}");
         let back = compare(&snapshot(set(status)), &snapshot(|_| {}), Scope::Everything);
-        assert_eq!(back.differences[0].rating, Rating::Better, "{status:?}");
+        assert_eq!(back.differences[0].rating, Severity::Better, "{status:?}");
     }
-    assert_eq!(found(|entry| entry.verdict = Outcome::Fail), [(Rating::Worse, "verdict".to_owned())]);
+    assert_eq!(found(|entry| entry.verdict = Outcome::Fail), [(Severity::Worse, "verdict".to_owned())]);
     let gone = |entry: &mut Entry| drop(entry.checks.remove("flight.separation"));
-    assert_eq!(found(gone), [(Rating::Worse, name)]);
+    assert_eq!(found(gone), [(Severity::Worse, name)]);
 }
 
 #[test]
@@ -97,15 +97,15 @@ fn an_advisory_check_is_told_and_decides_nothing() {
         (check.advisory, check.status) = (true, Status::Fail);
         *entry.figures.get_mut("margin of flight.separation").unwrap() = -1.0;
     };
-    assert!(found(advisory).iter().all(|(rating, _)| *rating == Rating::Note));
+    assert!(found(advisory).iter().all(|(rating, _)| *rating == Severity::Note));
 }
 
 #[test]
 fn a_result_that_is_gone_is_a_loss_unless_only_a_part_was_run() {
     let (old, new) = (snapshot(|_| {}), Snapshot::default());
     assert!(!compare(&old, &new, Scope::Everything).is_good());
-    assert!(compare(&old, &new, Scope::WhatWasRun).is_good());
-    assert_eq!(compare(&new, &old, Scope::Everything).differences[0].rating, Rating::Note);
+    assert!(compare(&old, &new, Scope::NewRunOnly).is_good());
+    assert_eq!(compare(&new, &old, Scope::Everything).differences[0].rating, Severity::Note);
 }
 
 #[test]

@@ -1,23 +1,24 @@
-//! What a killed run leaves: files under temporary names, which no result has. They tell which process they belonged to.
+//! Temporary files of killed runs. Their names identify the process that wrote them.
 
 use std::fs;
 use std::path::Path;
 
+/// First part of the name of every temporary file; no result has such a name.
 const PARTIAL: &str = ".partial";
 
-/// Beginning of the names of our own temporary files: `.partial-<host>-<process>-`.
+/// Name prefix of the temporary files of this process: `.partial-<host>-<process>-`.
 pub fn prefix() -> String {
     format!("{PARTIAL}-{}-{}-", host(), std::process::id())
 }
 
-/// Removes the files that a process of this machine left in a folder and that will never be completed, since the process is
-/// gone. What cannot be removed stays: it is in nobody's way.
+/// Removes the temporary files in `folder` whose process ran on this machine and no longer exists. Files that cannot be
+/// removed are left: they do no harm.
 pub fn remove(folder: &Path) {
-    let ours = format!("{PARTIAL}-{}-", host());
+    let host_prefix = format!("{PARTIAL}-{}-", host());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        let process = name.strip_prefix(&ours).and_then(|rest| rest.split('-').next()?.parse::<i32>().ok());
-        if process.is_some_and(is_gone) {
+        let process = name.strip_prefix(&host_prefix).and_then(|rest| rest.split('-').next()?.parse::<i32>().ok());
+        if process.is_some_and(has_exited) {
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -30,19 +31,19 @@ fn host() -> String {
 }
 
 #[cfg(unix)]
-fn is_gone(process: i32) -> bool {
+fn has_exited(process: i32) -> bool {
     use rustix::process::{Pid, test_kill_process};
     Pid::from_raw(process).is_none_or(|pid| test_kill_process(pid) == Err(rustix::io::Errno::SRCH))
 }
 
-/// Elsewhere nobody can be asked who is gone.
+/// Other platforms do not report whether a process exists, so that no file is removed there.
 #[cfg(not(unix))]
 fn host() -> String {
     String::new()
 }
 
 #[cfg(not(unix))]
-fn is_gone(_: i32) -> bool {
+fn has_exited(_: i32) -> bool {
     false
 }
 
@@ -52,13 +53,13 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_a_process_left_that_is_gone_is_removed_and_nothing_else() {
+    fn only_files_of_processes_that_have_exited_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let mut child = std::process::Command::new("true").spawn().unwrap();
-        let gone = prefix().replace(&std::process::id().to_string(), &child.id().to_string());
+        let stale = prefix().replace(&std::process::id().to_string(), &child.id().to_string());
         child.wait().unwrap();
         let kept = [format!("{}x", prefix()), ".partial-elsewhere-1-x".into(), "report.json".into(), ".partial".into()];
-        for name in kept.iter().chain([&format!("{gone}abc")]) {
+        for name in kept.iter().chain([&format!("{stale}abc")]) {
             std::fs::write(folder.path().join(name), "half").unwrap();
         }
         remove(folder.path());

@@ -12,7 +12,7 @@
 //! | `/events` | text log | `events` |
 //! | see there | what a quadrotor with a slung load has of its own | `slung_load` |
 //! | see there | what multirotors sense and plan in the loop | `multirotor` |
-//! | `/margins/QUESTION` | where the margins went | `waterfall` |
+//! | `/margins/QUESTION` | where the margins went | `margin_budget` |
 //! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
 //!
 //! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
@@ -21,19 +21,19 @@ mod airframe;
 mod blueprint;
 mod closest;
 mod convergence;
+mod decimation;
 mod distances;
 mod document;
 mod events;
 mod fleet;
 mod layout;
+mod margin_budget;
 mod multirotor;
 mod palette;
 mod paths;
 mod quantity;
 mod series;
 mod slung_load;
-mod thinning;
-mod waterfall;
 mod world;
 
 use std::error::Error;
@@ -70,7 +70,7 @@ impl Recorder for Rrd {
         layout::send(&stream, run, &distances)?;
         document::log(&stream, run)?;
         events::log(&stream, run)?;
-        waterfall::log(&stream, run.waterfall)?;
+        margin_budget::log(&stream, run.waterfall)?;
         world::log(&stream, run.scenario)?;
         convergence::log(&stream, run.plan)?;
         paths::log_planned(&stream, run)?;

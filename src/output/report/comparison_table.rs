@@ -4,7 +4,7 @@ use anstyle::{AnsiColor, Style};
 use comfy_table::{Cell, Color};
 
 use super::table;
-use crate::campaign::comparison::{Comparison, Difference, Rating};
+use crate::campaign::comparison::{Comparison, Difference, Severity};
 
 /// Rows that are shown; the others are counted.
 const MOST_ROWS: usize = 200;
@@ -51,11 +51,11 @@ pub fn markdown(comparison: &Comparison) -> String {
     lines.join("\n") + "\n"
 }
 
-fn rated(rating: Rating) -> (&'static str, Color) {
+fn rated(rating: Severity) -> (&'static str, Color) {
     match rating {
-        Rating::Worse => ("worse", Color::Red),
-        Rating::Better => ("better", Color::Green),
-        Rating::Note => ("note", Color::Yellow),
+        Severity::Worse => ("worse", Color::Red),
+        Severity::Better => ("better", Color::Green),
+        Severity::Note => ("note", Color::Yellow),
     }
 }
 

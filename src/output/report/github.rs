@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use scenarios::{Fault, LoadError, Scenario, Source};
 
-use super::{Report, headline, limit_field};
+use super::{headline, scenario_field};
 use crate::error::Error;
+use crate::report::Report;
 use crate::verdict::Check;
 
 /// GitHub shows so many errors of one step.
@@ -77,7 +78,7 @@ fn severity(check: &Check) -> f64 {
 }
 
 fn broken(finding: &Finding<'_>, check: &Check) -> String {
-    let fields = limit_field::candidates(check, finding.scenario);
+    let fields = scenario_field::candidates(check, finding.scenario);
     let line = fields.iter().find_map(|field| finding.source.line_of(field)).unwrap_or(1);
     let title = format!("{} · {}: {}", finding.report.scenario, finding.report.planner, check.name);
     command(finding.source.name(), line, &title, &headline::sentence(check))

@@ -2,8 +2,8 @@
 
 use scenarios::PlanStatus;
 
-use super::Report;
 use crate::number_format::{given_quantity, quantity, signed_quantity};
+use crate::report::Report;
 use crate::verdict::{Check, Outcome, Status, TELLING};
 
 /// Failed checks that the line names; the others are counted.

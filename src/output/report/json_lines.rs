@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::{RefusedFile, Report, Summary};
+use super::{RefusedFile, Summary};
+use crate::console;
 use crate::error::Error;
-use crate::output;
+use crate::report::Report;
 
 /// One line.
 #[derive(Serialize)]
@@ -37,5 +38,5 @@ pub enum Event<'a> {
 
 /// Prints one line.
 pub fn print(event: &Event<'_>) -> Result<(), Error> {
-    output::print(&serde_json::to_string(event).map_err(std::io::Error::from)?)
+    console::print(&serde_json::to_string(event).map_err(std::io::Error::from)?)
 }

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite, XmlString};
 
-use super::{RefusedFile, Report, headline};
+use super::{RefusedFile, headline};
+use crate::report::Report;
 use crate::verdict::{Check, Outcome, Status};
 
 /// The whole run as XML.

@@ -1,7 +1,8 @@
 //! `summary.md`: the run as a page, for a pull request or a build log. What went wrong comes first.
 
-use super::{Report, Summary, SummaryRun, headline};
+use super::{Summary, SummaryRun, headline};
 use crate::number_format::{given_quantity, quantity, signed_quantity};
+use crate::report::Report;
 use crate::verdict::{Check, Outcome};
 
 /// Failed jobs whose checks are listed one by one.

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Report, SCHEMA, headline, markdown};
+use super::{headline, markdown};
 use crate::error::{Error, Exit};
 use crate::jobs::RejectedJob;
+use crate::report::{Report, SCHEMA};
 use crate::verdict::Outcome;
 
 /// Every job of a run, and every file that could not be run.

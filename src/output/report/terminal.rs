@@ -7,9 +7,10 @@ use std::path::Path;
 use anstyle::{AnsiColor, Style};
 use comfy_table::{Cell, Color, Table};
 
-use super::{Report, Summary, SummaryRun, headline, table};
+use super::{Summary, SummaryRun, headline, table};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::number_format::{number, quantity, signed, signed_quantity};
+use crate::report::Report;
 use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, Status};
 
 /// Lines of an outside planner's log that are shown when it made no plan.

@@ -2,17 +2,17 @@
 
 use std::process::{Child, Command};
 
-use crate::interrupt::Group;
+use crate::interrupt::ProcessGroup;
 
 /// Watches over the process group that is running: with us it ends too, when somebody presses ctrl-C. Being a group of its
 /// own, it does not see the signal itself.
-pub(crate) struct Guard(Group);
+pub(crate) struct Guard(ProcessGroup);
 
 impl Guard {
     /// Watches over the process group of `child`, which was started [`apart`].
     pub(crate) fn of(child: &Child) -> Self {
         let group = group(child);
-        group.enrol();
+        group.register();
         Self(group)
     }
 
@@ -20,7 +20,7 @@ impl Guard {
     pub(crate) fn end(&self, child: &mut Child) {
         self.0.end();
         let _ = child.kill();
-        self.0.release();
+        self.0.unregister();
     }
 
     /// Has the child ended? It is not reaped: as long as it is there, nobody else gets its number, which is the group's.
@@ -46,11 +46,11 @@ pub(crate) fn apart(command: &mut Command) {
 }
 
 #[cfg(unix)]
-fn group(child: &Child) -> Group {
-    Group(rustix::process::Pid::from_child(child))
+fn group(child: &Child) -> ProcessGroup {
+    ProcessGroup(rustix::process::Pid::from_child(child))
 }
 
 #[cfg(not(unix))]
-fn group(_: &Child) -> Group {
-    Group()
+fn group(_: &Child) -> ProcessGroup {
+    ProcessGroup()
 }

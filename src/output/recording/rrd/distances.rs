@@ -6,7 +6,7 @@ use crate::metrics::{Nearest, clearance_over_time, separation_over_time};
 use crate::verdict::{Flown, is_flyable, multirotor};
 
 use super::Run;
-use super::thinning::Curve;
+use super::decimation::Curve;
 
 /// Time between two points, s.
 const STEP_S: f64 = 0.02;

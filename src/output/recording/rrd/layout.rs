@@ -10,11 +10,11 @@ use scenarios::{Family, Map, Scenario};
 use sim::Flight;
 
 use super::blueprint::{Blueprint, Part, ViewClass};
+use super::decimation::Curve;
 use super::distances::Distances;
 use super::multirotor;
 use super::quantity::Quantity;
 use super::series::end_s;
-use super::thinning::Curve;
 use super::{Logged, Run, SIM_TIME, convergence, palette, slung_load, to_f32};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;

@@ -19,10 +19,10 @@ use scenarios::multirotor::Plant;
 use sim::{Actuation, Flight, Sample};
 
 use super::blueprint::{Blueprint, Part, ViewClass};
+use super::decimation::Curve;
 use super::distances::Distances;
 use super::quantity::Quantity;
 use super::series::{end_s, log_curve, log_fleet, log_limit, log_quantity};
-use super::thinning::Curve;
 use super::{Logged, Run, entity, palette};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;
@@ -82,7 +82,7 @@ fn log_series(stream: &RecordingStream, run: &Run<'_>, flight: &Flight, distance
         let curve_of = |group: &str, name: &str, value: &dyn Fn(&Sample) -> f64| {
             let curve: Curve = log.samples.iter().map(|sample| (sample.t_s, value(sample))).collect();
             let path = entity(&format!("plots/{group}"), name);
-            log_curve(stream, path, name, colour, 1.2, curve.thinned(MOST_POINTS))
+            log_curve(stream, path, name, colour, 1.2, curve.decimated(MOST_POINTS))
         };
         curve_of("speed", &log.vehicle, &|sample| norm(sample.air_velocity_mps()))?;
         let model = run.scenario.multirotor_model(vehicle);

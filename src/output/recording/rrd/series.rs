@@ -5,9 +5,9 @@ use rerun::{Color, EntityPath, RecordingStream, Scalars, SeriesLines};
 use scenarios::Scenario;
 use sim::{Flight, VehicleLog};
 
+use super::decimation::Curve;
 use super::distances::Distances;
 use super::quantity::Quantity;
-use super::thinning::Curve;
 use super::{Logged, entity, palette, sim_times};
 use crate::number_format::given_quantity;
 
@@ -51,7 +51,7 @@ pub fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Fligh
     let curve = |log: &VehicleLog| -> Curve {
         log.samples.iter().filter(is_shown).map(|sample| (sample.t_s, quantity.of(sample))).collect()
     };
-    let curves: Vec<Curve> = flight.vehicles.par_iter().map(|log| curve(log).thinned(points)).collect();
+    let curves: Vec<Curve> = flight.vehicles.par_iter().map(|log| curve(log).decimated(points)).collect();
     for (index, (log, curve)) in flight.vehicles.iter().zip(curves).enumerate() {
         let path = entity(&format!("plots/{}", quantity.group()), &log.vehicle);
         log_curve(stream, path, &log.vehicle, palette::opaque(palette::vehicle(index, count)), 1.2, curve)?;
@@ -62,7 +62,7 @@ pub fn log_quantity(stream: &RecordingStream, quantity: Quantity, flight: &Fligh
 /// A quantity of the fleet as a whole.
 pub fn log_fleet(stream: &RecordingStream, group: &str, name: &str, curve: Curve) -> Logged {
     let path = entity("plots", group) / "fleet";
-    log_curve(stream, path, name, palette::opaque(palette::FLEET), 1.8, curve.thinned(2 * MOST_POINTS))
+    log_curve(stream, path, name, palette::opaque(palette::FLEET), 1.8, curve.decimated(2 * MOST_POINTS))
 }
 
 /// A horizontal line from the beginning to `end_s`, named with its value.

@@ -6,8 +6,8 @@ use scenarios::in_loop::Node;
 use sim::multirotor::Reference;
 use sim::{PlanningLog, Replan};
 
+use super::super::decimation::Curve;
 use super::super::series::log_curve;
-use super::super::thinning::Curve;
 use super::super::world::pixels;
 use super::super::{Logged, SIM_TIME, entity, palette, to_f32};
 

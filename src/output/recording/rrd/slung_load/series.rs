@@ -7,8 +7,8 @@ use scenarios::slung_load::{Cable, Model, Trajectory};
 use sim::slung_load::{Body, Part, Parts};
 use sim::{Actuation, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
+use super::super::decimation::Curve;
 use super::super::series::{end_s, log_limit};
-use super::super::thinning::Curve;
 use super::super::{Logged, Run, SIM_TIME, entity, palette, sim_times};
 use crate::verdict::is_flyable;
 use crate::verdict::slung_load::{Flown, Planned, TENSION_WINDOW_S};
@@ -166,7 +166,7 @@ fn curve_between(
     let style = SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([1.3]);
     let style = style.with_interpolation_mode(between);
     stream.log_static(path.clone(), &style)?;
-    let curve = curve.thinned(MOST_POINTS);
+    let curve = curve.decimated(MOST_POINTS);
     let values = Scalars::new(curve.values).columns_of_unit_batches()?;
     Ok(stream.send_columns(path, [sim_times(curve.times_s)], values)?)
 }

@@ -30,7 +30,7 @@ impl Curve {
 
     /// At most `points` points (at least 4): the smallest and the largest of every run of equally many neighbours, in
     /// the order of time, and the two ends.
-    pub fn thinned(self, points: usize) -> Self {
+    pub fn decimated(self, points: usize) -> Self {
         let n = self.values.len();
         if n <= points {
             return self;
@@ -69,12 +69,12 @@ mod tests {
     fn one_spike_among_many_points_survives() {
         let value = |i: usize| if i == 7_777 { -3.0 } else { (i as f64 * 1e-3).sin() };
         let curve: Curve = (0..20_000).map(|i| (i as f64 * 0.01, value(i))).collect();
-        let thinned = curve.clone().thinned(200);
-        assert!(thinned.values.len() <= 200, "{} points", thinned.values.len());
-        assert_eq!((thinned.min(), thinned.max()), (curve.min(), curve.max()));
-        assert_eq!(thinned.times_s[thinned.values.iter().position(|&v| v == -3.0).unwrap()], 77.77);
-        assert!(thinned.times_s.windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!((thinned.times_s[0], *thinned.times_s.last().unwrap()), (0.0, 199.99));
+        let decimated = curve.clone().decimated(200);
+        assert!(decimated.values.len() <= 200, "{} points", decimated.values.len());
+        assert_eq!((decimated.min(), decimated.max()), (curve.min(), curve.max()));
+        assert_eq!(decimated.times_s[decimated.values.iter().position(|&v| v == -3.0).unwrap()], 77.77);
+        assert!(decimated.times_s.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!((decimated.times_s[0], *decimated.times_s.last().unwrap()), (0.0, 199.99));
     }
 
     #[test]
@@ -82,6 +82,6 @@ mod tests {
         let curve: Curve =
             [(0.0, 1.0), (1.0, f64::NAN), (f64::NAN, 2.0), (3.0, f64::INFINITY), (4.0, 5.0)].into_iter().collect();
         assert_eq!(curve, Curve { times_s: vec![0.0, 4.0], values: vec![1.0, 5.0] });
-        assert_eq!(Curve::default().thinned(10), Curve::default());
+        assert_eq!(Curve::default().decimated(10), Curve::default());
     }
 }

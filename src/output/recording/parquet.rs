@@ -3,6 +3,8 @@
 //! One row per vehicle and step, in groups of rows of one vehicle: however long a flight, one group at a time is in memory
 //! beside it.
 
+mod columns;
+
 use std::fs::File;
 use std::ops::Range;
 use std::path::Path;
@@ -18,12 +20,12 @@ use parquet::record::RowAccessor;
 use parquet::schema::parser::parse_message_type;
 use sim::{Flight, VehicleLog};
 
-use super::log_columns::{columns, values};
+use self::columns::{columns, values};
 use super::{Recorder, Run};
 use crate::error::Error;
 
 /// Writes `flight.parquet`.
-pub struct Log;
+pub struct Parquet;
 
 /// A flight log as it was read back.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +54,7 @@ const SCENARIO: &str = "scenario";
 /// The column with the vehicle's name.
 const VEHICLE: &str = "vehicle";
 
-impl Recorder for Log {
+impl Recorder for Parquet {
     fn file_name(&self) -> &'static str {
         "flight.parquet"
     }

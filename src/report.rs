@@ -1,0 +1,231 @@
+//! `report.json`: everything that is known about one job, as data.
+
+use scenarios::{Alternative, PlanStatus, PlannedEvent};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use sim::{Flight, PlanningLog, StateHash};
+
+use crate::campaign::margin_budget::MarginBudget;
+use crate::metrics::Metrics;
+use crate::plan_source::plan_import::CompletedPlan;
+use crate::verdict::{Check, Integration, Outcome, Reconstruction, Verdict};
+
+/// Version of the form of `report.json` and `summary.json`.
+pub const SCHEMA: u32 = 1;
+
+/// `report.json`: everything that was measured about one scenario and one planner.
+///
+/// The same scenario, planner and seed give the same report on any number of threads, except for `timings` and the fields
+/// `wall_s` and `distributed_s`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Report {
+    /// Version of this form: 1.
+    pub schema: u32,
+    /// Version of the harness that wrote it.
+    pub harness: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the planner.
+    pub planner: String,
+    /// Seed of planning and flight.
+    pub seed: u64,
+    /// The whole in one word.
+    pub verdict: Outcome,
+    /// Does the planner call its plan solved although a check of the group `plan` failed?
+    pub overclaimed: bool,
+    /// Every check, in the order nodes, plan, flight.
+    pub checks: Vec<Check>,
+    /// What two integrators disagree on; absent if there is no flight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integration: Option<Integration>,
+    /// Where the margins went, if it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waterfall: Vec<MarginBudget>,
+    /// Hashes of the flight, to tell at a glance whether two are the same to the last bit; absent if there is no flight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state_hash: Option<StateHashes>,
+    /// What the planner says.
+    pub plan: PlanSummary,
+    /// What is measured beside the checks, without a limit.
+    pub metrics: Metrics,
+    /// Time that each stage took.
+    pub timings: Timings,
+}
+
+/// Hashes of everything that a flight log holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StateHashes {
+    /// Time from one of the running hashes to the next, s.
+    pub every_s: f64,
+    /// The hash until the end of each such time, 16 hexadecimal digits; the last one is that of the whole flight.
+    pub running: Vec<String>,
+}
+
+impl StateHashes {
+    /// Time between two of them, s.
+    const EVERY_S: f64 = 10.0;
+
+    /// Those of a flight.
+    pub fn of(flight: &Flight) -> Self {
+        let running = flight.running_hash(Self::EVERY_S).iter().map(StateHash::digits).collect();
+        Self { every_s: Self::EVERY_S, running }
+    }
+}
+
+/// A plan without its trajectories.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlanSummary {
+    /// What the planner says of its plan: `solved`, `not-converged`, `no-plan`, or `unstated`. The judge does not ask.
+    #[schemars(with = "String")]
+    pub status: PlanStatus,
+    /// Why the status is not `solved`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Iterations of the planner.
+    pub iterations: usize,
+    /// Time that planning took on this machine, s.
+    pub wall_s: f64,
+    /// Time that planning would take if every vehicle had its own computer, s.
+    pub distributed_s: f64,
+    /// Time at which the last vehicle reaches the end of its trajectory, s.
+    pub flight_time_s: Option<f64>,
+    /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
+    pub objective: Option<f64>,
+    /// What the plan did not give and was reconstructed, and how well.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reconstruction: Option<Reconstruction>,
+    /// What the plan foresees, in time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<EventSummary>,
+    /// Ways that were tried and not taken.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<AlternativeSummary>,
+}
+
+/// An instant that a plan foresees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EventSummary {
+    /// When, s.
+    pub at_s: f64,
+    /// What.
+    pub what: String,
+}
+
+/// A way that was tried and not taken, without its path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AlternativeSummary {
+    /// Which way.
+    pub name: String,
+    /// What the planner says of it.
+    #[schemars(with = "String")]
+    pub status: PlanStatus,
+    /// Value of the planner's objective.
+    pub objective: Option<f64>,
+}
+
+/// Wall time of the stages, s.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timings {
+    /// Planning.
+    pub planning_s: f64,
+    /// Simulation.
+    pub flying_s: f64,
+    /// Judging.
+    pub judging_s: f64,
+    /// Writing the recordings.
+    pub recording_s: f64,
+    /// Of a planner in the loop, how long single answers took.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub replans: Option<ReplanTimes>,
+}
+
+/// How long the answers of a planner in the loop took on this machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ReplanTimes {
+    /// Mean, s.
+    pub mean_s: f64,
+    /// Shortest, s.
+    pub min_s: f64,
+    /// Median, s.
+    pub median_s: f64,
+    /// Longest, s.
+    pub max_s: f64,
+}
+
+impl ReplanTimes {
+    /// Of all answers of a flight; `None` if there were none.
+    pub fn of(log: &PlanningLog) -> Option<Self> {
+        let mut walls_s: Vec<f64> = log.replans.iter().map(|replan| replan.wall_s).collect();
+        walls_s.sort_by(f64::total_cmp);
+        let (min_s, max_s) = (*walls_s.first()?, *walls_s.last()?);
+        let mean_s = walls_s.iter().sum::<f64>() / walls_s.len() as f64;
+        Some(Self { mean_s, min_s, median_s: walls_s[walls_s.len() / 2], max_s })
+    }
+}
+
+impl Timings {
+    /// All stages together, s.
+    pub fn total_s(&self) -> f64 {
+        self.planning_s + self.flying_s + self.judging_s + self.recording_s
+    }
+}
+
+impl Report {
+    /// The report on a plan that was judged.
+    pub fn new(
+        answer: &CompletedPlan,
+        flight: Option<&Flight>,
+        verdict: Verdict,
+        metrics: Metrics,
+        timings: Timings,
+    ) -> Self {
+        let plan = &answer.plan;
+        Self {
+            schema: SCHEMA,
+            harness: env!("CARGO_PKG_VERSION").to_owned(),
+            scenario: plan.scenario.clone(),
+            planner: plan.planner.clone(),
+            seed: plan.seed,
+            verdict: verdict.outcome,
+            overclaimed: verdict.overclaimed,
+            checks: verdict.checks,
+            integration: verdict.integration,
+            waterfall: Vec::new(),
+            state_hash: flight.map(StateHashes::of),
+            plan: PlanSummary::new(answer),
+            metrics,
+            timings,
+        }
+    }
+}
+
+impl PlanSummary {
+    fn new(answer: &CompletedPlan) -> Self {
+        let plan = &answer.plan;
+        Self {
+            status: plan.status,
+            reason: plan.reason.clone(),
+            iterations: plan.history.len(),
+            wall_s: plan.timings.wall_s,
+            distributed_s: plan.timings.distributed_s,
+            flight_time_s: plan.flight_time_s(),
+            objective: plan.objective,
+            events: plan.account.events.iter().map(EventSummary::new).collect(),
+            alternatives: plan.account.alternatives.iter().map(AlternativeSummary::new).collect(),
+            reconstruction: answer.provenance.reconstruction.clone(),
+        }
+    }
+}
+
+impl EventSummary {
+    fn new(event: &PlannedEvent) -> Self {
+        Self { at_s: event.at_s, what: event.what.clone() }
+    }
+}
+
+impl AlternativeSummary {
+    fn new(alternative: &Alternative) -> Self {
+        let Alternative { name, status, objective, .. } = alternative;
+        Self { name: name.clone(), status: *status, objective: *objective }
+    }
+}
