@@ -1,18 +1,19 @@
-//! A primal-dual interior-point method with filter line search for sparse nonlinear programmes (Wächter and Biegler
-//! 2006), without any matrix of its own: the programme factors and solves its own Newton systems, so that it can use what
-//! structure it has.
+//! A primal-dual interior-point method with filter line search for sparse nonlinear programs (Wächter and Biegler, "On
+//! the implementation of an interior-point filter line-search algorithm for large-scale nonlinear programming",
+//! Mathematical Programming 106, 2006).
 //!
 //! ```text
 //! min  f(x)     s.t.  c(x) = 0,  d(x) >= 0,  lower <= x <= upper
 //! ```
 //!
-//! With slacks `d(x) = s` and the barrier parameter μ the method follows the solutions of
+//! With slacks `d(x) = s` and the barrier parameter μ, the method follows the central path
 //!
 //! ```text
 //! ∇f + J_c^T y - J_d^T v - z_l + z_u = 0          c(x) = 0,  d(x) - s = 0
 //! s v = μ,  (x - lower) z_l = μ,  (upper - x) z_u = μ
 //! ```
 //!
+//! The method holds no matrices: a [`Program`] factors and solves its own Newton systems, and so exploits its structure.
 //! No vehicle is named here.
 
 mod barrier;
@@ -23,6 +24,7 @@ mod line_search;
 mod newton;
 mod program;
 mod solution;
+mod state;
 
 #[cfg(test)]
 mod dense;
@@ -30,6 +32,6 @@ mod dense;
 mod tests;
 
 pub use interior_point::InteriorPoint;
-pub use iterate::{Start, Warm};
+pub use iterate::{Start, WarmStart};
 pub use program::{Program, Sizes};
-pub use solution::{Record, Settings, Solution, Status};
+pub use solution::{IterationRecord, Settings, Solution, Status};

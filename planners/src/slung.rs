@@ -1,38 +1,40 @@
-//! A quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics after Foehn et al. 2017).
+//! Trajectory optimisation for a quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics after
+//! Foehn et al. 2017).
 
-mod answer;
 mod attitude;
 mod cable;
 mod cost;
-mod ends;
 mod envelope;
 mod gate;
 mod guess;
+mod initial_iterate;
 mod jet;
-mod model;
-mod opening;
+mod multiphase;
 mod optimise;
+mod path_constraints;
 mod planner;
 mod polygon;
 mod problem;
-mod pull;
-mod question;
+mod problem_builder;
 mod rotation;
 mod route;
-mod rows;
+mod solution;
+mod system;
+mod tension_derivatives;
+mod terminal_constraints;
 mod translation;
+
+#[cfg(test)]
+mod derivative_tests;
+#[cfg(test)]
+mod transcription_tests;
 
 pub use envelope::{Envelope, envelope};
 pub use guess::Guess;
-pub use model::Model;
-pub use optimise::{Candidate, Options, Round, optimise};
-pub use planner::{PLANNER, candidate_routes, name_of};
+pub use optimise::{Candidate, MeshIteration, Options, optimise};
+pub use planner::{PLANNER, candidate_routes, route_name};
 pub use polygon::Polygon;
-pub use problem::{Body, Gate, Limits, Mode, Problem, Rest, Stage, Weights};
-pub use question::{options, problem};
+pub use problem::{CableMode, Gate, InitialCondition, Limits, Phase, Problem, VehicleParameters, Weights};
+pub use problem_builder::{options, problem};
 pub use route::{Route, routes};
-
-#[cfg(test)]
-mod programme_tests;
-#[cfg(test)]
-mod tests;
+pub use system::SlungLoadSystem;

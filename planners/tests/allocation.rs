@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use planners::convex::{InteriorPoint, Program, Settings, Status};
 use planners::nlp;
-use planners::pseudospectral::{Mesh, Motion, Transcription};
+use planners::pseudospectral::{Mesh, MultiphaseSystem, Transcription};
 use planners::scp::parallel::plan_and_inspect;
 use planners::slung;
 
@@ -35,12 +35,12 @@ fn iterations_allocate_nothing() {
 fn iterations_of_the_nonlinear_method_allocate_nothing() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/slung/gate.toml");
     let problem = slung::problem(&scenarios::load(&path).expect("shipped scenario"));
-    let model = slung::Model::new(&problem);
+    let system = slung::SlungLoadSystem::new(&problem);
     let route = &slung::candidate_routes(&problem)[0];
-    let guess = slung::Guess::new(&problem, route, model.coordinates());
-    let phases: Vec<(usize, usize)> = problem.stages.iter().map(|_| (4, 3)).collect();
-    let mut programme = Transcription::new(&model, Mesh::uniform(&phases));
-    let start = nlp::Start::Cold(programme.guess(&|phase, share, node| guess.write(phase, share, node)));
+    let guess = slung::Guess::new(&problem, route, system.coordinates());
+    let phases: Vec<(usize, usize)> = problem.phases.iter().map(|_| (4, 3)).collect();
+    let mut programme = Transcription::new(&system, Mesh::uniform(&phases));
+    let start = nlp::Start::Cold(programme.variables_from(&|phase, share, node| guess.write(phase, share, node)));
     let mut count = |max_iterations: usize| {
         let settings = nlp::Settings { max_iterations, ..nlp::Settings::default() };
         let mut method = nlp::InteriorPoint::new(&programme, settings);

@@ -1,9 +1,10 @@
 //! The planner's optima against references that were computed by other means.
 
 use planners::nlp::Settings;
-use planners::pseudospectral::{Duration, Motion, Tolerances, Transcription};
+use planners::pseudospectral::{Duration, MultiphaseSystem, Tolerances, Transcription};
 use planners::slung::{
-    Candidate, Gate, Limits, Mode, Model, Options, Problem, Rest, Stage, Weights, candidate_routes, optimise,
+    CableMode, Candidate, Gate, InitialCondition, Limits, Options, Phase, Problem, SlungLoadSystem, Weights,
+    candidate_routes, optimise,
 };
 
 /// An optimum: J, and, where there is a switch, when it comes and with what impulse.
@@ -20,22 +21,22 @@ fn solve(problem: &Problem, options: &Options) -> [Optimum; 2] {
     [true, false].map(|right| {
         let route = routes.iter().find(|route| route.on_right == [right]).expect("a route on that side");
         let candidate = optimise(problem, route, options);
-        assert!(candidate.is_solved() && candidate.is_refined, "{:?}", candidate.rounds);
+        assert!(candidate.is_solved() && candidate.is_refined, "{:?}", candidate.mesh_iterations);
         optimum(problem, &candidate)
     })
 }
 
 fn optimum(problem: &Problem, candidate: &Candidate) -> Optimum {
-    let model = Model::new(problem);
-    let programme = Transcription::new(&model, candidate.mesh.clone());
-    let mut node = vec![0.0; model.width()];
-    programme.node(&candidate.x, programme.place(0, 1.0), &mut node);
-    let body = &problem.body;
+    let system = SlungLoadSystem::new(problem);
+    let program = Transcription::new(&system, candidate.mesh.clone());
+    let mut node = vec![0.0; system.width()];
+    program.node(&candidate.x, program.mesh_point(0, 1.0), &mut node);
+    let body = &problem.vehicle;
     let reduced_kg = body.quadrotor_kg * body.load_kg / (body.quadrotor_kg + body.load_kg);
     Optimum {
         objective: candidate.last().objective,
-        switch_s: programme.duration_s(0, &candidate.x),
-        impulse_ns: if problem.stages.len() > 1 { reduced_kg * node[model.coordinates() + 8] } else { 0.0 },
+        switch_s: program.duration_s(0, &candidate.x),
+        impulse_ns: if problem.phases.len() > 1 { reduced_kg * node[system.coordinates() + 8] } else { 0.0 },
     }
 }
 
@@ -90,17 +91,17 @@ fn complementarity_finds_the_taut_optimum_on_refined_meshes() {
 }
 
 fn complementary() -> Problem {
-    let (mode, duration) = (Mode::COMPLEMENTARITY, Duration::Fixed(4.0));
-    let stage = Stage { mode, duration, impulse_ns: None, gate: None };
-    Problem { stages: vec![stage], ..Problem::paper() }
+    let (mode, duration) = (CableMode::COMPLEMENTARITY, Duration::Fixed(4.0));
+    let stage = Phase { mode, duration, max_impulse_ns: None, gate: None };
+    Problem { phases: vec![stage], ..Problem::paper() }
 }
 
 /// The shortest times round either side, on a mesh that was refined and on a fine one.
 #[test]
 fn the_fastest_flights_do_not_depend_on_the_mesh() {
-    let duration = Duration::Free { least_s: 0.02, guess_s: 3.0, most_s: 12.0 };
-    let stage = Stage { mode: Mode::Taut, duration, impulse_ns: None, gate: None };
-    let problem = Problem { stages: vec![stage], weights: Weights::time(), ..Problem::paper() };
+    let duration = Duration::Free { min_s: 0.02, guess_s: 3.0, max_s: 12.0 };
+    let stage = Phase { mode: CableMode::Taut, duration, max_impulse_ns: None, gate: None };
+    let problem = Problem { phases: vec![stage], weights: Weights::time(), ..Problem::paper() };
     let seconds = |options: &Options| objectives(&problem, options).map(|cost| problem.reported(cost));
     let refined = Options { tolerances: Some(Tolerances { error: 1e-3, ..usual() }), ..Options::default() };
     let fine = Options { segments: 60, points: 4, tolerances: None, ..Options::default() };
@@ -113,18 +114,18 @@ fn usual() -> Tolerances {
     Options::default().tolerances.expect("meshes are refined")
 }
 
-fn phased(mode: Mode, position_m: [f64; 3], guess_s: f64, impulse_ns: Option<f64>) -> Problem {
+fn phased(mode: CableMode, position_m: [f64; 3], guess_s: f64, max_impulse_ns: Option<f64>) -> Problem {
     let first =
-        Stage { mode, duration: Duration::Free { least_s: 0.02, guess_s, most_s: 3.6 }, impulse_ns, gate: None };
-    let second = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None };
-    let start = Rest { position_m, cable: [0.0, 0.0, 0.35] };
-    Problem { start, stages: vec![first, second], ..Problem::paper() }
+        Phase { mode, duration: Duration::Free { min_s: 0.02, guess_s, max_s: 3.6 }, max_impulse_ns, gate: None };
+    let second = Phase { mode: CableMode::Taut, duration: Duration::Remainder(4.0), max_impulse_ns: None, gate: None };
+    let start = InitialCondition { position_m, cable: [0.0, 0.0, 0.35] };
+    Problem { start, phases: vec![first, second], ..Problem::paper() }
 }
 
 /// J = 2369.1 and 2357.9 on left and right, taut at 0.52 and 0.59 s with 0.22 and 0.26 N s.
 #[test]
 fn a_parked_load_is_picked_up_with_the_reference_impact() {
-    let problem = phased(Mode::Parked, [-2.0, 0.0, 0.35], 0.5, None);
+    let problem = phased(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, None);
     let [right, left] = solve(&problem, &Options::default());
     assert!((right.objective - 2357.9).abs() < 0.1 && (left.objective - 2369.1).abs() < 0.1);
     assert!((right.switch_s - 0.59).abs() < 0.01 && (left.switch_s - 0.52).abs() < 0.02);
@@ -134,7 +135,7 @@ fn a_parked_load_is_picked_up_with_the_reference_impact() {
 /// J = 2428.6 with an impulse of at most 1e-3 N s.
 #[test]
 fn a_parked_load_is_picked_up_softly() {
-    let problem = phased(Mode::Parked, [-2.0, 0.0, 0.35], 0.5, Some(1e-3));
+    let problem = phased(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, Some(1e-3));
     let [right, left] = objectives(&problem, &Options::default());
     assert!((right.min(left) - 2428.6).abs() < 0.1, "{right} {left}");
 }
@@ -142,7 +143,7 @@ fn a_parked_load_is_picked_up_softly() {
 /// J = 2432.9, caught at 0.228 s with 0.467 N s.
 #[test]
 fn a_falling_load_is_caught_with_the_reference_impact() {
-    let problem = phased(Mode::Slack, [-2.0, 0.0, 1.3], 0.25, None);
+    let problem = phased(CableMode::Slack, [-2.0, 0.0, 1.3], 0.25, None);
     let optima = solve(&problem, &Options::default());
     let best = optima.iter().min_by(|a, b| a.objective.total_cmp(&b.objective)).expect("two");
     assert!((best.objective - 2432.9).abs() < 0.1, "{}", best.objective);
@@ -152,46 +153,46 @@ fn a_falling_load_is_caught_with_the_reference_impact() {
 
 /// The paper's vehicle, with room for its cable to swing, on its way through free space: at one instant the load is to be
 /// above the quadrotor by so much and ahead of it, while the cable is what `mode` says.
-fn gated(height_m: f64, mode: Mode) -> Problem {
+fn gated(height_m: f64, mode: CableMode) -> Problem {
     let open = [f64::NEG_INFINITY, f64::INFINITY];
     let gate = Gate {
         quadrotor_m: [[-0.75, -0.05], open, [f64::NEG_INFINITY, 1.4]],
         load_m: [[0.05, 0.75], open, [1.4 + height_m, f64::INFINITY]],
     };
-    let stage = |mode, guess_s: f64, most_s: f64, gate| Stage {
+    let stage = |mode, guess_s: f64, max_s: f64, gate| Phase {
         mode,
-        duration: Duration::Free { least_s: 0.02, guess_s, most_s },
-        impulse_ns: None,
+        duration: Duration::Free { min_s: 0.02, guess_s, max_s },
+        max_impulse_ns: None,
         gate,
     };
-    let last = Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None };
-    let stages = match mode {
-        Mode::Slack => vec![
-            stage(Mode::Taut, 2.0, 2.2, None),
+    let last = Phase { mode: CableMode::Taut, duration: Duration::Remainder(4.0), max_impulse_ns: None, gate: None };
+    let phases = match mode {
+        CableMode::Slack => vec![
+            stage(CableMode::Taut, 2.0, 2.2, None),
             stage(mode, 0.2, 0.7, Some(gate)),
             stage(mode, 0.2, 0.7, None),
             last,
         ],
-        _ => vec![stage(Mode::Taut, 2.0, 3.6, Some(gate)), last],
+        _ => vec![stage(CableMode::Taut, 2.0, 3.6, Some(gate)), last],
     };
     let cable_rad = [-130.0_f64, 130.0].map(f64::to_radians);
     let paper = Problem::paper();
     let (obstacles, obstacle_names) = (Vec::new(), Vec::new());
-    Problem { limits: Limits { cable_rad, ..paper.limits }, obstacles, obstacle_names, stages, ..paper }
+    Problem { limits: Limits { cable_rad, ..paper.limits }, obstacles, obstacle_names, phases, ..paper }
 }
 
 /// To let the cable go slack pays, and the more so the higher above the quadrotor the load has to pass.
 #[test]
 fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
-    let objective = |height_m: f64, mode: Mode| {
+    let objective = |height_m: f64, mode: CableMode| {
         let problem = gated(height_m, mode);
         let routes = candidate_routes(&problem);
         let candidate = optimise(&problem, &routes[0], &Options::default());
-        assert!(candidate.is_solved() && candidate.is_refined, "{height_m} {mode:?}: {:?}", candidate.rounds);
+        assert!(candidate.is_solved() && candidate.is_refined, "{height_m} {mode:?}: {:?}", candidate.mesh_iterations);
         candidate.last().objective
     };
     let gain = |height_m: f64| {
-        let [taut, slack] = [Mode::Taut, Mode::Slack].map(|mode| objective(height_m, mode));
+        let [taut, slack] = [CableMode::Taut, CableMode::Slack].map(|mode| objective(height_m, mode));
         println!("{height_m:.2} m above: {taut:.3} taut, {slack:.3} with a slack phase");
         taut - slack
     };
@@ -205,13 +206,13 @@ fn a_gate_for_the_load_alone_is_passed() {
     let paper = Problem::paper();
     let open = [f64::NEG_INFINITY, f64::INFINITY];
     let gate = Gate { quadrotor_m: [open; 3], load_m: [[-0.3, 0.3], [0.5, 1.1], [1.4, 1.8]] };
-    let duration = Duration::Free { least_s: 0.02, guess_s: 2.0, most_s: 3.6 };
-    let stages = vec![
-        Stage { mode: Mode::Taut, duration, impulse_ns: None, gate: Some(gate) },
-        Stage { mode: Mode::Taut, duration: Duration::RestOf(4.0), impulse_ns: None, gate: None },
+    let duration = Duration::Free { min_s: 0.02, guess_s: 2.0, max_s: 3.6 };
+    let phases = vec![
+        Phase { mode: CableMode::Taut, duration, max_impulse_ns: None, gate: Some(gate) },
+        Phase { mode: CableMode::Taut, duration: Duration::Remainder(4.0), max_impulse_ns: None, gate: None },
     ];
-    let problem = Problem { obstacles: Vec::new(), obstacle_names: Vec::new(), stages, ..paper };
+    let problem = Problem { obstacles: Vec::new(), obstacle_names: Vec::new(), phases, ..paper };
     let routes = candidate_routes(&problem);
     let candidate = optimise(&problem, &routes[0], &Options::default());
-    assert!(candidate.is_solved() && candidate.is_refined, "{:?}", candidate.rounds);
+    assert!(candidate.is_solved() && candidate.is_refined, "{:?}", candidate.mesh_iterations);
 }

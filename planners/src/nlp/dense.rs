@@ -1,18 +1,18 @@
-//! Small programmes with dense matrices, to test the method on. Gradients are given; Hessians are differences of them.
+//! Dense test programs, given by values and gradients; Hessians are finite differences of gradients.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::program::{Program, Sizes};
 
-/// f, c, d with their gradients at a point.
+/// f, c and d with their gradients at a point.
 pub struct Values {
     pub f: (f64, Vec<f64>),
     pub c: Vec<(f64, Vec<f64>)>,
     pub d: Vec<(f64, Vec<f64>)>,
 }
 
-/// A programme given by a function.
-pub struct Dense {
+/// A program given by a function.
+pub struct DenseProgram {
     function: fn(&[f64]) -> Values,
     sizes: Sizes,
     lower: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Dense {
     j_d: DMatrix<f64>,
 }
 
-impl Dense {
+impl DenseProgram {
     pub fn new(function: fn(&[f64]) -> Values, lower: Vec<f64>, upper: Vec<f64>) -> Self {
         let n = lower.len();
         let at = function(&vec![0.5; n]);
@@ -46,7 +46,7 @@ impl Dense {
     }
 }
 
-impl Program for Dense {
+impl Program for DenseProgram {
     fn sizes(&self) -> Sizes {
         self.sizes
     }
@@ -55,7 +55,7 @@ impl Program for Dense {
         (&self.lower, &self.upper)
     }
 
-    fn values(&mut self, x: &[f64], c: &mut [f64], d: &mut [f64]) -> f64 {
+    fn evaluate(&mut self, x: &[f64], c: &mut [f64], d: &mut [f64]) -> f64 {
         let at = (self.function)(x);
         c.iter_mut().zip(at.c).for_each(|(c, row)| *c = row.0);
         d.iter_mut().zip(at.d).for_each(|(d, row)| *d = row.0);
@@ -83,7 +83,7 @@ impl Program for Dense {
         self.hessian = 0.5 * (&self.hessian + self.hessian.transpose());
     }
 
-    fn add_transposed(&self, y: &[f64], v: &[f64], out: &mut [f64]) {
+    fn add_jacobian_transposed(&self, y: &[f64], v: &[f64], out: &mut [f64]) {
         let mut sum = self.j_c.transpose() * DVector::from_column_slice(y);
         if !v.is_empty() {
             sum -= self.j_d.transpose() * DVector::from_column_slice(v);
@@ -91,7 +91,7 @@ impl Program for Dense {
         out.iter_mut().zip(sum.iter()).for_each(|(out, sum)| *out += sum);
     }
 
-    fn rows_times(&self, dx: &[f64], c: &mut [f64], d: &mut [f64]) {
+    fn jacobian_times(&self, dx: &[f64], c: &mut [f64], d: &mut [f64]) {
         let dx = DVector::from_column_slice(dx);
         c.copy_from_slice((&self.j_c * &dx).as_slice());
         d.copy_from_slice((&self.j_d * &dx).as_slice());
@@ -101,7 +101,7 @@ impl Program for Dense {
         let weights = DMatrix::from_diagonal(&DVector::from_column_slice(weights));
         let diagonal = DMatrix::from_diagonal(&DVector::from_column_slice(diagonal));
         self.matrix = &self.hessian + diagonal + self.j_d.transpose() * weights * &self.j_d;
-        // right curvature: as many negative eigenvalues as equalities
+        // the inertia is correct: as many negative eigenvalues as equalities, none of them zero
         let eigenvalues = self.kkt().symmetric_eigenvalues();
         eigenvalues.iter().filter(|&&value| value < -1e-12).count() == self.sizes.equalities
             && eigenvalues.iter().all(|value| value.abs() > 1e-12)
@@ -119,7 +119,7 @@ impl Program for Dense {
     }
 }
 
-impl Dense {
+impl DenseProgram {
     fn kkt(&self) -> DMatrix<f64> {
         let (n, m) = (self.sizes.variables, self.sizes.equalities);
         let mut kkt = DMatrix::zeros(n + m, n + m);

@@ -1,49 +1,51 @@
-//! The filter: pairs (violation θ, barrier objective φ) of which no new iterate may be dominated.
-//!
-//! Wächter and Biegler, "On the implementation of an interior-point filter line-search algorithm", Mathematical
-//! Programming 106 (2006), section 2.3.
+//! The filter: pairs (constraint violation θ, barrier objective φ), none of which may dominate a new iterate (Wächter and
+//! Biegler 2006, section 2.3).
 
-/// Share of the violation by which a step must better one of the two measures.
-const Γ_VIOLATION: f64 = 1e-5;
-const Γ_OBJECTIVE: f64 = 1e-8;
+/// Sufficient decrease of θ and of φ, relative to θ (Wächter and Biegler 2006, eq. 18).
+pub const Γ_THETA: f64 = 1e-5;
+pub const Γ_PHI: f64 = 1e-8;
 
-/// Pairs that count as visited.
+/// Pairs that new iterates must not be dominated by.
 #[derive(Clone, Debug)]
 pub struct Filter {
     pairs: Vec<(f64, f64)>,
-    largest_violation: f64,
+    θ_max: f64,
 }
 
 impl Filter {
-    /// Empty, with room for some pairs.
+    /// An empty filter without a limit on θ.
     pub fn new() -> Self {
-        Self { pairs: Vec::with_capacity(64), largest_violation: f64::INFINITY }
+        Self { pairs: Vec::with_capacity(64), θ_max: f64::INFINITY }
     }
 
-    /// Forgets all pairs; violations above `largest_violation` are refused from now on.
-    pub fn reset(&mut self, largest_violation: f64) {
+    /// Removes all pairs, and rejects θ > `θ_max` from now on (ibid., eq. 21).
+    pub fn reset(&mut self, θ_max: f64) {
         self.pairs.clear();
-        self.largest_violation = largest_violation;
+        self.θ_max = θ_max;
     }
 
-    /// Forgets all pairs, as a new barrier parameter makes φ another function.
-    pub fn forget(&mut self) {
+    /// Removes all pairs, as they hold for one barrier parameter only.
+    pub fn clear(&mut self) {
         self.pairs.clear();
     }
 
     /// Whether no pair dominates `(θ, φ)`. False for NaN.
     pub fn accepts(&self, θ: f64, φ: f64) -> bool {
-        θ <= self.largest_violation && self.pairs.iter().all(|&(θ_j, φ_j)| θ <= θ_j || φ <= φ_j)
+        θ <= self.θ_max && self.pairs.iter().all(|&(θ_j, φ_j)| θ <= θ_j || φ <= φ_j)
     }
 
-    /// Whether `(θ, φ)` is enough of an improvement on `(θ_0, φ_0)`.
+    /// Whether `(θ, φ)` sufficiently improves on `(θ_0, φ_0)`, up to rounding:
+    ///
+    /// ```text
+    /// θ <= (1 - γ_θ) θ_0   or   φ <= φ_0 - γ_φ θ_0                            [Wächter and Biegler 2006, eq. 18]
+    /// ```
     pub fn improves((θ_0, φ_0): (f64, f64), (θ, φ): (f64, f64)) -> bool {
-        θ <= (1.0 - Γ_VIOLATION) * θ_0 || φ <= φ_0 - Γ_OBJECTIVE * θ_0 + 10.0 * f64::EPSILON * φ_0.abs()
+        θ <= (1.0 - Γ_THETA) * θ_0 || φ <= φ_0 - Γ_PHI * θ_0 + 10.0 * f64::EPSILON * φ_0.abs()
     }
 
-    /// Marks the surroundings of `(θ, φ)` as visited.
+    /// Adds `(θ, φ)` with its margins (ibid., eq. 22).
     pub fn add(&mut self, θ: f64, φ: f64) {
-        let pair = ((1.0 - Γ_VIOLATION) * θ, φ - Γ_OBJECTIVE * θ);
+        let pair = ((1.0 - Γ_THETA) * θ, φ - Γ_PHI * θ);
         self.pairs.retain(|other| other.0 < pair.0 || other.1 < pair.1);
         self.pairs.push(pair);
     }
@@ -54,14 +56,14 @@ mod tests {
     use super::Filter;
 
     #[test]
-    fn dominated_pairs_are_refused_and_nan_never_passes() {
+    fn dominated_pairs_and_nan_are_rejected() {
         let mut filter = Filter::new();
         filter.reset(10.0);
         filter.add(1.0, 5.0);
         assert!(filter.accepts(0.5, 9.0) && filter.accepts(2.0, 4.0));
         assert!(!filter.accepts(1.5, 6.0) && !filter.accepts(11.0, 0.0));
         assert!(!filter.accepts(f64::NAN, 0.0) && !filter.accepts(2.0, f64::NAN));
-        filter.forget();
+        filter.clear();
         assert!(filter.accepts(1.5, 6.0));
     }
 }

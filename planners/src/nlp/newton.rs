@@ -1,18 +1,18 @@
-//! One Newton direction: what is left after slacks and duals have been eliminated, and what follows from it.
+//! The Newton direction. Slacks and duals are eliminated first, and recovered from dx:
 //!
 //! ```text
-//! [ W + Σ_x + δ + J_d^T Σ_s J_d   J_c^T ] [ dx ]     [ ∇f + J_c^T y - Σ_j μ/t_j - J_d^T (μ/s - Σ_s (d - s)) ]
-//! [ J_c                             0   ] [ dy ] = - [ c                                                    ]
+//! [ W + Σ_t + δ + J_d^T Σ_s J_d   J_c^T ] [ dx ]     [ ∇f + J_c^T y - Σ_j ±μ/t_j - J_d^T (μ/s - Σ_s (d - s)) ]
+//! [ J_c                             0   ] [ dy ] = - [ c                                                     ]
 //!
-//! ds = J_d dx + d - s,      dv = μ/s - v - Σ_s ds,      Σ_s = v/s, and so for the bounds' slacks t
+//! ds = J_d dx + d - s,      dv = μ/s - v - Σ_s ds,      Σ_s = v/s, and likewise Σ_t for the slacks t of the bounds
 //! ```
 
-use super::iterate::{Iterate, Sides};
+use super::iterate::{Bounds, Iterate};
 use super::program::{Program, Sizes};
 
-/// Refinement stops at this residual relative to the right-hand side, or after so many rounds.
-const RESIDUAL: f64 = 1e-11;
-const ROUNDS: usize = 4;
+/// Iterative refinement ends at this residual, relative to the right-hand side, or after this many rounds.
+const REFINEMENT_TOLERANCE: f64 = 1e-11;
+const MAX_REFINEMENTS: usize = 4;
 
 /// Values at a point.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct Values {
 }
 
 impl Values {
-    /// Room for values.
+    /// All zero.
     pub fn zero(sizes: Sizes) -> Self {
         Self {
             objective: 0.0,
@@ -35,6 +35,22 @@ impl Values {
     }
 }
 
+/// Residuals of the constraints that a direction is to remove: those of a point, or those of a second-order correction.
+#[derive(Clone, Debug)]
+pub struct Residuals {
+    /// c.
+    pub c: Vec<f64>,
+    /// d - s.
+    pub slack: Vec<f64>,
+}
+
+impl Residuals {
+    /// All zero.
+    pub fn zero(sizes: Sizes) -> Self {
+        Self { c: vec![0.0; sizes.equalities], slack: vec![0.0; sizes.inequalities] }
+    }
+}
+
 /// Work vectors of the Newton system.
 #[derive(Clone, Debug)]
 pub struct Newton {
@@ -42,71 +58,72 @@ pub struct Newton {
     rhs_y: Vec<f64>,
     residual_x: Vec<f64>,
     residual_y: Vec<f64>,
-    rows: Vec<f64>,
-    row_duals: Vec<f64>,
+    /// J_d dx, which the refinement does not use.
+    unused: Vec<f64>,
+    /// μ/s - Σ_s (d - s).
+    inequality_duals: Vec<f64>,
+    /// δ + Σ_t, and Σ_s.
     diagonal: Vec<f64>,
     weights: Vec<f64>,
 }
 
 impl Newton {
-    /// Room for programmes of that size.
+    /// Work vectors for programs of that size.
     pub fn new(sizes: Sizes) -> Self {
         Self {
             rhs_x: vec![0.0; sizes.variables],
             rhs_y: vec![0.0; sizes.equalities],
             residual_x: vec![0.0; sizes.variables],
             residual_y: vec![0.0; sizes.equalities],
-            rows: vec![0.0; sizes.inequalities],
-            row_duals: vec![0.0; sizes.inequalities],
+            unused: vec![0.0; sizes.inequalities],
+            inequality_duals: vec![0.0; sizes.inequalities],
             diagonal: vec![0.0; sizes.variables],
             weights: vec![0.0; sizes.inequalities],
         }
     }
 
-    /// Factors at `point` with δ on the diagonal; false if the curvature is wrong.
-    pub fn factor(&mut self, program: &mut impl Program, sides: &Sides, point: &Iterate, δ: f64) -> bool {
+    /// Factors at `point` with δ on the diagonal; false if the inertia is wrong.
+    pub fn factor(&mut self, program: &mut impl Program, bounds: &Bounds, point: &Iterate, δ: f64) -> bool {
         self.diagonal.fill(δ);
-        for ((side, slack), dual) in sides.0.iter().zip(&point.slack).zip(&point.dual) {
-            self.diagonal[side.index] += dual / slack;
+        for ((bound, slack), dual) in bounds.0.iter().zip(&point.slack).zip(&point.dual) {
+            self.diagonal[bound.index] += dual / slack;
         }
-        let bounds = sides.0.len();
-        for (weight, (dual, slack)) in
-            self.weights.iter_mut().zip(point.dual[bounds..].iter().zip(&point.slack[bounds..]))
-        {
+        let bound_count = bounds.0.len();
+        let pairs = point.dual[bound_count..].iter().zip(&point.slack[bound_count..]);
+        for (weight, (dual, slack)) in self.weights.iter_mut().zip(pairs) {
             *weight = dual / slack;
         }
         program.factor(&self.diagonal, &self.weights)
     }
 
-    /// The direction from `point` towards the central path of μ, with `c` and `excess = d - s` as the rows' residuals
-    /// (those of the point, or those of a second-order correction).
+    /// Writes the direction from `point` to the point of the central path at μ that removes `residuals` to first order.
     pub fn direction(
         &mut self,
         program: &mut impl Program,
-        sides: &Sides,
+        bounds: &Bounds,
         (point, gradient): (&Iterate, &[f64]),
-        (c, excess): (&[f64], &[f64]),
+        residuals: &Residuals,
         μ: f64,
         step: &mut Iterate,
     ) {
-        let bounds = sides.0.len();
-        for (i, dual) in self.row_duals.iter_mut().enumerate() {
-            *dual = μ / point.slack[bounds + i] - self.weights[i] * excess[i];
+        let bound_count = bounds.0.len();
+        for (i, dual) in self.inequality_duals.iter_mut().enumerate() {
+            *dual = μ / point.slack[bound_count + i] - self.weights[i] * residuals.slack[i];
         }
         self.rhs_x.copy_from_slice(gradient);
-        program.add_transposed(&point.y, &self.row_duals, &mut self.rhs_x);
-        for (side, slack) in sides.0.iter().zip(&point.slack) {
-            self.rhs_x[side.index] -= side.sign * μ / slack;
+        program.add_jacobian_transposed(&point.y, &self.inequality_duals, &mut self.rhs_x);
+        for (bound, slack) in bounds.0.iter().zip(&point.slack) {
+            self.rhs_x[bound.index] -= bound.sign * μ / slack;
         }
         negate(&mut self.rhs_x);
-        self.rhs_y.copy_from_slice(c);
+        self.rhs_y.copy_from_slice(&residuals.c);
         negate(&mut self.rhs_y);
         self.solve(program, step);
 
-        sides.steps(&step.x, &mut step.slack);
-        program.rows_times(&step.x, &mut self.residual_y, &mut step.slack[bounds..]);
-        for (ds, excess) in step.slack[bounds..].iter_mut().zip(excess) {
-            *ds += excess;
+        bounds.steps(&step.x, &mut step.slack);
+        program.jacobian_times(&step.x, &mut self.residual_y, &mut step.slack[bound_count..]);
+        for (ds, residual) in step.slack[bound_count..].iter_mut().zip(&residuals.slack) {
+            *ds += residual;
         }
         for (j, dual) in step.dual.iter_mut().enumerate() {
             let (s, v) = (point.slack[j], point.dual[j]);
@@ -114,21 +131,21 @@ impl Newton {
         }
     }
 
-    /// Solves for `step.x` and `step.y`, with refinement.
+    /// Solves for `step.x` and `step.y`, with iterative refinement.
     fn solve(&mut self, program: &mut impl Program, step: &mut Iterate) {
         step.x.copy_from_slice(&self.rhs_x);
         step.y.copy_from_slice(&self.rhs_y);
         program.solve(&mut step.x, &mut step.y);
-        let scale = largest(&self.rhs_x).max(largest(&self.rhs_y)).max(f64::MIN_POSITIVE);
+        let scale = max_norm(&self.rhs_x).max(max_norm(&self.rhs_y)).max(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_REFINEMENTS {
             program.hessian_times(&step.x, &mut self.residual_x);
-            program.add_transposed(&step.y, &[], &mut self.residual_x);
-            program.rows_times(&step.x, &mut self.residual_y, &mut self.rows);
+            program.add_jacobian_transposed(&step.y, &[], &mut self.residual_x);
+            program.jacobian_times(&step.x, &mut self.residual_y, &mut self.unused);
             subtract_from(&self.rhs_x, &mut self.residual_x);
             subtract_from(&self.rhs_y, &mut self.residual_y);
-            let residual = largest(&self.residual_x).max(largest(&self.residual_y)) / scale;
-            if residual <= RESIDUAL || residual > 0.5 * last {
+            let residual = max_norm(&self.residual_x).max(max_norm(&self.residual_y)) / scale;
+            if residual <= REFINEMENT_TOLERANCE || residual > 0.5 * last {
                 break;
             }
             last = residual;
@@ -139,14 +156,15 @@ impl Newton {
     }
 }
 
-/// Largest absolute value; infinite as soon as one of them is not finite.
-pub fn largest(values: &[f64]) -> f64 {
+/// Max norm; infinite if any entry is not finite.
+pub fn max_norm(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |max, value| if value.is_finite() { value.abs().max(max) } else { f64::INFINITY })
 }
 
-fn add(to: &mut [f64], what: &[f64]) {
-    for (to, what) in to.iter_mut().zip(what) {
-        *to += what;
+/// `a <- a + b`.
+fn add(a: &mut [f64], b: &[f64]) {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a += b;
     }
 }
 

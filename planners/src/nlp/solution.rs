@@ -1,65 +1,66 @@
-/// When to stop, and how to go.
+/// Settings of the method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Largest scaled error of the optimality conditions at the end, -.
+    /// Convergence tolerance of the scaled optimality error, dimensionless.
     pub tolerance: f64,
-    /// Barrier parameter of the start.
-    pub start: f64,
-    /// Least distance of a cold start to the bounds and rows, relative to the bound or the width of its box.
-    pub push: f64,
-    /// Most iterations.
+    /// Initial barrier parameter μ.
+    pub initial_barrier: f64,
+    /// Minimum distance of a cold start from its bounds, relative to max(1, |bound|) and to the width of the box; minimum
+    /// slack of the inequalities.
+    pub bound_push: f64,
+    /// Iteration limit.
     pub max_iterations: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-7, start: 0.1, push: 1e-2, max_iterations: 200 }
+        Self { tolerance: 1e-7, initial_barrier: 0.1, bound_push: 1e-2, max_iterations: 200 }
     }
 }
 
-/// How it ended.
+/// Why the method terminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The optimality conditions hold to the tolerance: a local minimum.
     Solved,
-    /// They did not within the allowed number of iterations.
+    /// The iteration limit was reached first.
     IterationLimit,
-    /// No step was found that makes progress: most often the rows cannot be met near the point where it stopped.
+    /// The line search found no acceptable step, which most often means local infeasibility.
     Stalled,
-    /// A value or a derivative is not a number.
+    /// A value or a derivative is not finite.
     NotFinite,
 }
 
 /// One iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Record {
+pub struct IterationRecord {
     /// f(x).
     pub objective: f64,
-    /// Largest violation of a row.
+    /// Largest constraint violation, max norm.
     pub violation: f64,
-    /// Scaled error of the optimality conditions with products measured against zero.
+    /// Scaled optimality error at μ = 0.
     pub error: f64,
-    /// Barrier parameter.
+    /// Barrier parameter μ.
     pub barrier: f64,
-    /// Added to the diagonal of the Hessian to make the step one of descent.
+    /// Regularisation δ of the Hessian's diagonal.
     pub regularisation: f64,
-    /// Length of the step that led here, primal.
+    /// Primal length of the step to this iterate, in [0, 1].
     pub step: f64,
 }
 
-/// The end of a run. The point itself stays in the method's iterate.
+/// Result of a run. The point itself remains in the method, see [`InteriorPoint::x`](super::InteriorPoint::x).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// How it ended.
+    /// Why the method terminated.
     pub status: Status,
     /// f(x).
     pub objective: f64,
-    /// Largest violation of a row.
+    /// Largest constraint violation, max norm.
     pub violation: f64,
-    /// Scaled error of the optimality conditions.
+    /// Scaled optimality error.
     pub error: f64,
     /// Number of Newton steps.
     pub iterations: usize,
-    /// One entry per iteration, the start included.
-    pub history: Vec<Record>,
+    /// One record per iterate, the initial one included.
+    pub history: Vec<IterationRecord>,
 }

@@ -1,6 +1,6 @@
-//! Problems of Hock and Schittkowski, "Test Examples for Nonlinear Programming Codes" (1981), by their numbers there.
+//! Problems of Hock and Schittkowski, "Test Examples for Nonlinear Programming Codes" (1981), by their numbers.
 
-use super::dense::{Dense, Values};
+use super::dense::{DenseProgram, Values};
 use super::interior_point::InteriorPoint;
 use super::iterate::Start;
 use super::solution::{Settings, Solution, Status};
@@ -9,7 +9,7 @@ const FREE: f64 = f64::INFINITY;
 
 fn solve(function: fn(&[f64]) -> Values, bounds: Vec<[f64; 2]>, start: Vec<f64>) -> (Solution, Vec<f64>) {
     let (lower, upper) = bounds.into_iter().map(|[lower, upper]| (lower, upper)).unzip();
-    let mut program = Dense::new(function, lower, upper);
+    let mut program = DenseProgram::new(function, lower, upper);
     let mut method = InteriorPoint::new(&program, Settings { tolerance: 1e-8, ..Settings::default() });
     let solution = method.solve(&mut program, &Start::Cold(start));
     let x = method.x().to_vec();
@@ -26,7 +26,7 @@ fn assert_optimum((solution, x): &(Solution, Vec<f64>), objective: f64, optimum:
     assert!(x.iter().zip(optimum).all(|(x, best)| (x - best).abs() < 1e-3), "{x:?}");
 }
 
-/// Equality with a curved row, from an infeasible start.
+/// A nonlinear equality, from an infeasible start.
 #[test]
 fn hs6() {
     let function = |x: &[f64]| Values {
@@ -34,11 +34,11 @@ fn hs6() {
         c: vec![(10.0 * (x[1] - x[0] * x[0]), vec![-20.0 * x[0], 10.0])],
         d: vec![],
     };
-    let answer = solve(function, vec![[-FREE, FREE]; 2], vec![-1.2, 1.0]);
-    assert_optimum(&answer, 0.0, &[1.0, 1.0]);
+    let result = solve(function, vec![[-FREE, FREE]; 2], vec![-1.2, 1.0]);
+    assert_optimum(&result, 0.0, &[1.0, 1.0]);
 }
 
-/// A nonconvex objective: the Hessian has to be corrected on the way.
+/// A nonconvex objective: the Hessian must be regularised.
 #[test]
 fn hs7() {
     let function = |x: &[f64]| {
@@ -49,11 +49,11 @@ fn hs7() {
             d: vec![],
         }
     };
-    let answer = solve(function, vec![[-FREE, FREE]; 2], vec![2.0, 2.0]);
-    assert_optimum(&answer, -3.0_f64.sqrt(), &[0.0, 3.0_f64.sqrt()]);
+    let result = solve(function, vec![[-FREE, FREE]; 2], vec![2.0, 2.0]);
+    assert_optimum(&result, -3.0_f64.sqrt(), &[0.0, 3.0_f64.sqrt()]);
 }
 
-/// A convex quadratic programme with one inequality and bounds.
+/// A convex quadratic program with one inequality and bounds.
 #[test]
 fn hs35() {
     let function = |x: &[f64]| {
@@ -70,11 +70,11 @@ fn hs35() {
         ];
         Values { f: (f, g), c: vec![], d: vec![(3.0 - x[0] - x[1] - 2.0 * x[2], vec![-1.0, -1.0, -2.0])] }
     };
-    let answer = solve(function, vec![[0.0, FREE]; 3], vec![0.5; 3]);
-    assert_optimum(&answer, 1.0 / 9.0, &[4.0 / 3.0, 7.0 / 9.0, 4.0 / 9.0]);
+    let result = solve(function, vec![[0.0, FREE]; 3], vec![0.5; 3]);
+    assert_optimum(&result, 1.0 / 9.0, &[4.0 / 3.0, 7.0 / 9.0, 4.0 / 9.0]);
 }
 
-/// Three curved inequalities.
+/// Three nonlinear inequalities.
 #[test]
 fn hs43() {
     let function = |x: &[f64]| {
@@ -92,11 +92,11 @@ fn hs43() {
         ];
         Values { f: (f, g), c: vec![], d }
     };
-    let answer = solve(function, vec![[-FREE, FREE]; 4], vec![0.0; 4]);
-    assert_optimum(&answer, -44.0, &[0.0, 1.0, 2.0, -1.0]);
+    let result = solve(function, vec![[-FREE, FREE]; 4], vec![0.0; 4]);
+    assert_optimum(&result, -44.0, &[0.0, 1.0, 2.0, -1.0]);
 }
 
-/// Equality, inequality and bounds together.
+/// An equality, an inequality and bounds.
 #[test]
 fn hs71() {
     let function = |x: &[f64]| {
@@ -108,8 +108,8 @@ fn hs71() {
             d: vec![(product - 25.0, x.iter().map(|x| product / x).collect())],
         }
     };
-    let answer = solve(function, vec![[1.0, 5.0]; 4], vec![1.0, 5.0, 5.0, 1.0]);
-    assert_optimum(&answer, 17.014_017_3, &[1.0, 4.742_994, 3.821_15, 1.379_408]);
+    let result = solve(function, vec![[1.0, 5.0]; 4], vec![1.0, 5.0, 5.0, 1.0]);
+    assert_optimum(&result, 17.014_017_3, &[1.0, 4.742_994, 3.821_15, 1.379_408]);
 }
 
 /// Rows that contradict each other are not called solved.
@@ -122,17 +122,17 @@ fn an_infeasible_programme_is_reported_as_such() {
     assert!(solution.violation > 0.9);
 }
 
-/// A function that is not a number where the method begins.
+/// A function that is not a number (NaN) at the initial point.
 #[test]
-fn not_a_number_is_reported_as_such() {
+fn nan_is_reported_as_not_finite() {
     let function = |_: &[f64]| Values { f: (f64::NAN, vec![f64::NAN]), c: vec![], d: vec![] };
     let (solution, _) = solve(function, vec![[0.0, 1.0]], vec![0.5]);
     assert_eq!(solution.status, Status::NotFinite);
 }
 
-/// The same start gives the same steps, to the last bit.
+/// The same start gives the same iterates, to the bit.
 #[test]
-fn runs_repeat() {
+fn runs_are_reproducible() {
     let function = |x: &[f64]| Values {
         f: ((1.0 - x[0]).powi(2), vec![-2.0 * (1.0 - x[0]), 0.0]),
         c: vec![(x[1] - x[0] * x[0], vec![-2.0 * x[0], 1.0])],

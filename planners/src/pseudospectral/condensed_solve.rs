@@ -1,10 +1,10 @@
 //! Right-hand sides of a condensed segment: backward to the cost-to-go's gradient, forward to the solution and the
 //! multipliers of the defects.
 
-use super::segment::{Nodes, Segment, costate};
-use super::small::{add_scaled, dot};
+use super::condensed_segment::{CondensedSegment, Nodes, costate};
+use super::dense_kernels::{add_scaled, dot};
 
-impl Segment {
+impl CondensedSegment {
     /// Backward pass of a right-hand side: `gradient` of the node vectors (the negative of the right-hand side's first
     /// block), `residuals` of the defects (its second). `next.vector` must be set; writes the vector of the cost-to-go at
     /// the segment's beginning.

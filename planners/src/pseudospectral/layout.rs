@@ -1,19 +1,21 @@
-//! Where everything stands in the vectors of the nonlinear programme.
+//! Layout of the vectors of the nonlinear program.
 //!
-//! Variables: phase by phase the node vectors (q, q', u) and the last state; then the free durations. Equalities: the
-//! start; then phase by phase the defects node by node (those of q, then those of q'), the events, and the link to the
-//! next phase. Inequalities: phase by phase the path rows node by node, then the rows of the end.
+//! - Variables: phase by phase the node vectors (q, q', u) and the final state; then the parameters, which are the free
+//!   durations.
+//! - Equalities: the initial state; then phase by phase the defects node by node (those of q, then those of q'), the
+//!   terminal equalities, and the linkage to the next phase.
+//! - Inequalities: phase by phase the path constraints node by node, then the terminal inequalities.
 
 use super::mesh::Mesh;
-use super::motion::{Duration, Motion};
+use super::multiphase_system::{Duration, MultiphaseSystem};
 
-/// Sizes and offsets.
+/// Sizes and offsets: a field `x_at` is the offset of x, a field `x` the number of x.
 #[derive(Clone, Debug)]
 pub struct Layout {
     pub coordinates: usize,
     pub controls: usize,
     pub phases: Vec<PhaseLayout>,
-    /// Offset and number of the free durations.
+    /// The free durations.
     pub parameters_at: usize,
     pub parameters: usize,
     pub equalities: usize,
@@ -23,88 +25,92 @@ pub struct Layout {
 /// Offsets of a phase.
 #[derive(Clone, Debug)]
 pub struct PhaseLayout {
-    /// Number of nodes.
+    /// Collocation points.
     pub nodes: usize,
-    /// Index of the first of them among all nodes.
+    /// Index of the first node among the nodes of all phases.
     pub first_node: usize,
-    /// Variables of the first node; the others follow, and then the last state.
     pub variables_at: usize,
     pub defects_at: usize,
-    pub events_at: usize,
-    pub events: usize,
-    pub link_at: usize,
-    pub rows_at: usize,
-    /// Path rows of a node.
-    pub rows: usize,
-    pub end_rows_at: usize,
-    pub end_rows: usize,
-    pub duration: Affine,
-    /// First node, share and order of the segments.
+    pub terminal_equalities_at: usize,
+    pub terminal_equalities: usize,
+    pub linkage_at: usize,
+    pub path_constraints_at: usize,
+    /// Path constraints per node.
+    pub path_constraints: usize,
+    pub terminal_inequalities_at: usize,
+    pub terminal_inequalities: usize,
+    pub duration: AffineDuration,
     pub segments: Vec<SegmentLayout>,
 }
 
-/// Offsets of a segment in its phase.
+/// A segment of a phase.
 #[derive(Clone, Copy, Debug)]
 pub struct SegmentLayout {
-    pub first: usize,
+    /// Index of its first node among the nodes of the phase.
+    pub first_node: usize,
     pub order: usize,
-    pub share: f64,
+    /// Fraction of the phase's duration.
+    pub fraction: f64,
 }
 
-/// A duration as a function of the free ones: `constant + Σ gains_j p_j`, s.
+/// A duration as a function of the free ones, s: `constant + Σ_j coefficients_j p_j`.
 #[derive(Clone, Debug)]
-pub struct Affine {
+pub struct AffineDuration {
     pub constant: f64,
-    pub gains: Vec<f64>,
+    pub coefficients: Vec<f64>,
 }
 
-impl Affine {
-    /// Value for the free durations `p`.
+impl AffineDuration {
+    /// Its value at the free durations `p`, s.
     pub fn at(&self, p: &[f64]) -> f64 {
-        self.constant + self.gains.iter().zip(p).map(|(gain, p)| gain * p).sum::<f64>()
+        self.constant + self.coefficients.iter().zip(p).map(|(coefficient, p)| coefficient * p).sum::<f64>()
     }
 }
 
 impl Layout {
-    /// For `motion` on `mesh`, which has as many phases as the motion has durations.
-    pub fn new(motion: &dyn Motion, mesh: &Mesh) -> Self {
-        let durations = durations(motion.durations());
+    /// The layout of `system` on `mesh`.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the mesh has not as many phases as the system.
+    pub fn new(system: &dyn MultiphaseSystem, mesh: &Mesh) -> Self {
+        let durations = durations(system.durations());
         assert_eq!(durations.len(), mesh.phases.len(), "one list of segments per phase");
-        let states = 2 * motion.coordinates();
-        let width = states + motion.controls();
+        let states = 2 * system.coordinates();
+        let width = states + system.controls();
         let (mut variables, mut equalities, mut inequalities, mut first_node) = (0, states, 0, 0);
         let last = durations.len() - 1;
         let mut phases = Vec::with_capacity(durations.len());
         for (index, duration) in durations.into_iter().enumerate() {
             let segments = segments(mesh, index);
             let nodes = segments.iter().map(|segment| segment.order).sum();
-            let rows = motion.rows(index);
-            let (events, end_rows) = motion.end_rows(index);
+            let path_constraints = system.path_constraint_count(index);
+            let (terminal_equalities, terminal_inequalities) = system.terminal_constraint_counts(index);
             let phase = PhaseLayout {
                 nodes,
                 first_node,
                 variables_at: variables,
                 defects_at: equalities,
-                events_at: equalities + nodes * states,
-                events,
-                link_at: equalities + nodes * states + events,
-                rows_at: inequalities,
-                rows,
-                end_rows_at: inequalities + nodes * rows,
-                end_rows,
+                terminal_equalities_at: equalities + nodes * states,
+                terminal_equalities,
+                linkage_at: equalities + nodes * states + terminal_equalities,
+                path_constraints_at: inequalities,
+                path_constraints,
+                terminal_inequalities_at: inequalities + nodes * path_constraints,
+                terminal_inequalities,
                 duration,
                 segments,
             };
             first_node += nodes;
             variables += nodes * width + states;
-            equalities = phase.link_at + if index < last { states } else { 0 };
-            inequalities = phase.end_rows_at + end_rows;
+            equalities = phase.linkage_at + if index < last { states } else { 0 };
+            inequalities = phase.terminal_inequalities_at + terminal_inequalities;
             phases.push(phase);
         }
         Self {
-            coordinates: motion.coordinates(),
-            controls: motion.controls(),
-            parameters: phases[0].duration.gains.len(),
+            coordinates: system.coordinates(),
+            controls: system.controls(),
+            parameters: phases[0].duration.coefficients.len(),
             phases,
             parameters_at: variables,
             equalities,
@@ -112,7 +118,7 @@ impl Layout {
         }
     }
 
-    /// Number of states, 2 per coordinate.
+    /// Number of states: 2 per coordinate.
     pub fn states(&self) -> usize {
         2 * self.coordinates
     }
@@ -132,7 +138,7 @@ impl Layout {
         self.phases.iter().map(|phase| phase.nodes).sum()
     }
 
-    /// Offset of a node's variables; the node after the last one has a state only.
+    /// Offset of a node's variables; node number `phase.nodes` is the final state, without controls.
     pub fn node_at(&self, phase: &PhaseLayout, node: usize) -> usize {
         phase.variables_at + node * self.width()
     }
@@ -145,33 +151,33 @@ impl Layout {
 
 fn segments(mesh: &Mesh, phase: usize) -> Vec<SegmentLayout> {
     let starts = mesh.phases[phase].iter().scan(0, |next, segment| {
-        let first = *next;
+        let first_node = *next;
         *next += segment.order;
-        Some(SegmentLayout { first, order: segment.order, share: segment.share })
+        Some(SegmentLayout { first_node, order: segment.order, fraction: segment.fraction })
     });
     starts.collect()
 }
 
-fn durations(durations: &[Duration]) -> Vec<Affine> {
+fn durations(durations: &[Duration]) -> Vec<AffineDuration> {
     let free = durations.iter().filter(|duration| matches!(duration, Duration::Free { .. })).count();
-    let mut so_far = Affine { constant: 0.0, gains: vec![0.0; free] };
+    let mut elapsed = AffineDuration { constant: 0.0, coefficients: vec![0.0; free] };
     let mut next_parameter = 0;
     let affine = durations.iter().map(|duration| {
-        let mut affine = Affine { constant: 0.0, gains: vec![0.0; free] };
+        let mut affine = AffineDuration { constant: 0.0, coefficients: vec![0.0; free] };
         match *duration {
             Duration::Fixed(seconds) => affine.constant = seconds,
             Duration::Free { .. } => {
-                affine.gains[next_parameter] = 1.0;
+                affine.coefficients[next_parameter] = 1.0;
                 next_parameter += 1;
             }
-            Duration::RestOf(total) => {
-                affine.constant = total - so_far.constant;
-                affine.gains = so_far.gains.iter().map(|gain| -gain).collect();
+            Duration::Remainder(total) => {
+                affine.constant = total - elapsed.constant;
+                affine.coefficients = elapsed.coefficients.iter().map(|coefficient| -coefficient).collect();
             }
         }
-        so_far.constant += affine.constant;
-        for (sum, gain) in so_far.gains.iter_mut().zip(&affine.gains) {
-            *sum += gain;
+        elapsed.constant += affine.constant;
+        for (sum, coefficient) in elapsed.coefficients.iter_mut().zip(&affine.coefficients) {
+            *sum += coefficient;
         }
         affine
     });

@@ -1,10 +1,12 @@
 use super::mesh::Mesh;
-use super::motion::{Duration, EndDerivatives, EndValues, EndWeights, Motion, NodeDerivatives, NodeWeights};
+use super::multiphase_system::{
+    Duration, MultiphaseSystem, NodeDerivatives, NodeWeights, TerminalDerivatives, TerminalValues, TerminalWeights,
+};
 use super::refinement::{Tolerances, refine};
 use super::transcription::Transcription;
 use crate::nlp::{InteriorPoint, Program, Settings, Start, Status};
 
-/// A cart on a line, `q'' = u` in every phase: from rest at 0 to rest at 1, with effort and time as cost.
+/// A cart on a line, `q'' = u`, from rest at 0 to rest at 1, with the cost `effort ∫ u^2 + time T`.
 struct Cart {
     durations: Vec<Duration>,
     effort: f64,
@@ -20,19 +22,19 @@ impl Cart {
     }
 
     fn solve(&self, mesh: Mesh) -> (crate::nlp::Solution, Vec<f64>) {
-        let mut programme = Transcription::new(self, mesh);
-        let start = programme.guess(&|_, share, node| {
+        let mut program = Transcription::new(self, mesh);
+        let start = program.variables_from(&|_, fraction, node| {
             node.fill(0.0);
-            node[0] = share;
+            node[0] = fraction;
         });
-        let mut method = InteriorPoint::new(&programme, Settings { tolerance: 1e-9, ..Settings::default() });
-        let solution = method.solve(&mut programme, &Start::Cold(start));
+        let mut method = InteriorPoint::new(&program, Settings { tolerance: 1e-9, ..Settings::default() });
+        let solution = method.solve(&mut program, &Start::Cold(start));
         let x = method.x().to_vec();
         (solution, x)
     }
 }
 
-impl Motion for Cart {
+impl MultiphaseSystem for Cart {
     fn coordinates(&self) -> usize {
         1
     }
@@ -48,20 +50,20 @@ impl Motion for Cart {
     fn time_cost(&self) -> f64 {
         self.time
     }
-    fn start(&self) -> &[f64] {
+    fn initial_state(&self) -> &[f64] {
         &[0.0, 0.0]
     }
     fn bounds(&self, phase: usize) -> (&[f64], &[f64]) {
         let [lower, upper] = &self.bounds[phase];
         (lower, upper)
     }
-    fn rows(&self, _: usize) -> usize {
+    fn path_constraint_count(&self, _: usize) -> usize {
         0
     }
-    fn end_rows(&self, phase: usize) -> (usize, usize) {
+    fn terminal_constraint_counts(&self, phase: usize) -> (usize, usize) {
         (if phase + 1 == self.durations.len() { 2 } else { 0 }, 0)
     }
-    fn values(&self, _: usize, node: &[f64], acceleration: &mut [f64], _: &mut [f64]) -> f64 {
+    fn evaluate(&self, _: usize, node: &[f64], acceleration: &mut [f64], _: &mut [f64]) -> f64 {
         acceleration[0] = node[2];
         self.effort * node[2] * node[2]
     }
@@ -70,22 +72,22 @@ impl Motion for Cart {
         derivatives.cost[2] = 2.0 * self.effort * node[2];
         derivatives.hessian[8] = 2.0 * self.effort * weights.cost;
     }
-    fn end_values(&self, phase: usize, state: &[f64], values: &mut EndValues) {
+    fn evaluate_terminal(&self, phase: usize, state: &[f64], values: &mut TerminalValues) {
         if phase + 1 == self.durations.len() {
-            (values.events[0], values.events[1]) = (state[0] - 1.0, state[1]);
+            (values.equalities[0], values.equalities[1]) = (state[0] - 1.0, state[1]);
         } else {
-            values.next.copy_from_slice(state);
+            values.next_state.copy_from_slice(state);
         }
     }
-    fn end_differentiate(&self, phase: usize, _: &[f64], _: EndWeights, derivatives: EndDerivatives) {
-        let identity = if phase + 1 == self.durations.len() { derivatives.events } else { derivatives.next };
+    fn differentiate_terminal(&self, phase: usize, _: &[f64], _: TerminalWeights, derivatives: TerminalDerivatives) {
+        let identity = if phase + 1 == self.durations.len() { derivatives.equalities } else { derivatives.next_state };
         identity.copy_from_slice(&[1.0, 0.0, 0.0, 1.0]);
     }
 }
 
-/// `∫ u^2 = 12/T^3` for a unit distance in T, with `u = 6/T^2 (1 - 2 t/T)`: a polynomial, so that any mesh is exact.
+/// `∫ u^2 = 12/T^3` for a unit distance in T, with `u = 6/T^2 (1 - 2 t/T)`: a polynomial, for which every mesh is exact.
 #[test]
-fn least_effort_is_exact_on_any_mesh() {
+fn minimum_effort_is_exact_on_any_mesh() {
     let cart = Cart::new(vec![Duration::Fixed(2.0)], 1.0, 0.0, &[[-9.0, 9.0]]);
     for mesh in [Mesh::uniform(&[(1, 4)]), Mesh::uniform(&[(5, 3)]), Mesh::graded(&[(4, 5)])] {
         let (solution, _) = cart.solve(mesh);
@@ -94,11 +96,11 @@ fn least_effort_is_exact_on_any_mesh() {
     }
 }
 
-/// Full acceleration, then full braking: T = 2 for a unit distance with |u| <= 1, switched at 1, both times free. The
-/// control may leave its bounds only after the last node of a segment, and less so on finer meshes.
+/// Bang-bang control with |u| <= 1: T = 2 for a unit distance, with the switch at 1; both durations are free. The control can
+/// leave its bounds only after the last node of a segment, and does so less on finer meshes.
 #[test]
-fn least_time_with_a_free_switch_converges() {
-    let free = Duration::Free { least_s: 0.1, guess_s: 2.0, most_s: 9.0 };
+fn minimum_time_with_a_free_switch_converges() {
+    let free = Duration::Free { min_s: 0.1, guess_s: 2.0, max_s: 9.0 };
     let cart = Cart::new(vec![free, free], 0.0, 1.0, &[[-1.0, 1.0], [-1.0, 1.0]]);
     for (segments, tolerance) in [(2, 5e-3), (8, 4e-4)] {
         let (solution, x) = cart.solve(Mesh::uniform(&[(segments, 3), (segments, 3)]));
@@ -109,29 +111,29 @@ fn least_time_with_a_free_switch_converges() {
     }
 }
 
-/// A time that is what others leave of a total.
+/// The last phase takes the remainder of a fixed total.
 #[test]
-fn the_rest_of_a_total_is_shared_out() {
-    let free = Duration::Free { least_s: 0.1, guess_s: 0.5, most_s: 1.8 };
-    let cart = Cart::new(vec![free, Duration::RestOf(2.0)], 1.0, 0.0, &[[0.0, 9.0], [-9.0, 0.0]]);
+fn a_remainder_completes_the_total() {
+    let free = Duration::Free { min_s: 0.1, guess_s: 0.5, max_s: 1.8 };
+    let cart = Cart::new(vec![free, Duration::Remainder(2.0)], 1.0, 0.0, &[[0.0, 9.0], [-9.0, 0.0]]);
     let (solution, x) = cart.solve(Mesh::uniform(&[(3, 3), (3, 3)]));
     assert_eq!(solution.status, Status::Solved);
     assert!((solution.objective - 1.5).abs() < 1e-5, "{}", solution.objective);
     assert!((x[x.len() - 1] - 1.0).abs() < 5e-2, "the sign changes halfway: {}", x[x.len() - 1]);
 }
 
-/// A bang-bang control on a fixed mesh overshoots between its nodes; the mesh is refined at the switch until it does not.
+/// A bang-bang control overshoots between the nodes of a coarse mesh; the mesh is refined at the switch until it does not.
 #[test]
-fn refinement_goes_where_the_control_jumps() {
+fn the_mesh_is_refined_where_the_control_jumps() {
     let cart = Cart::new(vec![Duration::Fixed(2.02)], 1e-3, 0.0, &[[-1.0, 1.0]]);
-    let tolerances = Tolerances { error: 1e-6, violation: 1e-6, overshoot: 0.02, highest_order: 6 };
+    let tolerances = Tolerances { error: 1e-6, violation: 1e-6, overshoot: 0.02, max_order: 6 };
     let mut mesh = Mesh::uniform(&[(5, 3)]);
     for _ in 0..10 {
-        let mut programme = Transcription::new(&cart, mesh.clone());
-        let start = programme.guess(&|_, share, node| node.copy_from_slice(&[share, 0.5, 0.0]));
-        let mut method = InteriorPoint::new(&programme, Settings::default());
-        assert_eq!(method.solve(&mut programme, &Start::Cold(start)).status, Status::Solved);
-        match refine(&programme, method.x(), &tolerances) {
+        let mut program = Transcription::new(&cart, mesh.clone());
+        let start = program.variables_from(&|_, fraction, node| node.copy_from_slice(&[fraction, 0.5, 0.0]));
+        let mut method = InteriorPoint::new(&program, Settings::default());
+        assert_eq!(method.solve(&mut program, &Start::Cold(start)).status, Status::Solved);
+        match refine(&program, method.x(), &tolerances) {
             Some(finer) => mesh = finer,
             None => break,
         }
@@ -140,38 +142,43 @@ fn refinement_goes_where_the_control_jumps() {
     let ends: Vec<f64> = segments
         .iter()
         .scan(0.0, |end, segment| {
-            *end += segment.share;
+            *end += segment.fraction;
             Some(*end)
         })
         .collect();
-    let shortest = (0..ends.len()).min_by(|&a, &b| segments[a].share.total_cmp(&segments[b].share)).expect("segments");
-    assert!(segments[shortest].share < 0.11, "{segments:?}");
-    assert!((0.2..0.8).contains(&(ends[shortest] - segments[shortest].share)), "in the middle: {segments:?}");
-    assert_eq!((segments[0].share, segments[segments.len() - 1].share), (0.2, 0.2), "not at the ends: {segments:?}");
+    let shortest =
+        (0..ends.len()).min_by(|&a, &b| segments[a].fraction.total_cmp(&segments[b].fraction)).expect("segments");
+    assert!(segments[shortest].fraction < 0.11, "{segments:?}");
+    assert!((0.2..0.8).contains(&(ends[shortest] - segments[shortest].fraction)), "in the middle: {segments:?}");
+    assert_eq!(
+        (segments[0].fraction, segments[segments.len() - 1].fraction),
+        (0.2, 0.2),
+        "not at the ends: {segments:?}"
+    );
 }
 
-/// A solution carried to another mesh is nearly a solution there: a few steps suffice.
+/// A solution transferred to another mesh is almost a solution there: the warm start takes fewer iterations.
 #[test]
-fn solutions_carry_over() {
+fn transferred_solutions_save_iterations() {
     let cart = Cart::new(vec![Duration::Fixed(2.0)], 1.0, 0.0, &[[-1.2, 1.2]]);
     let mut coarse = Transcription::new(&cart, Mesh::uniform(&[(6, 3)]));
-    let start = coarse.guess(&|_, share, node| node.copy_from_slice(&[share, 0.5, 0.0]));
+    let start = coarse.variables_from(&|_, fraction, node| node.copy_from_slice(&[fraction, 0.5, 0.0]));
     let mut method = InteriorPoint::new(&coarse, Settings::default());
     let cold = method.solve(&mut coarse, &Start::Cold(start));
     let mut fine = Transcription::new(&cart, Mesh::uniform(&[(9, 4)]));
-    let warm_start = Start::Warm(coarse.carry_over(&method.warm_start(), &fine));
-    let mut method = InteriorPoint::new(&fine, Settings { start: 1e-6, ..Settings::default() });
+    let warm_start = Start::Warm(coarse.transfer(&method.warm_start(), &fine));
+    let mut method = InteriorPoint::new(&fine, Settings { initial_barrier: 1e-6, ..Settings::default() });
     let warm = method.solve(&mut fine, &warm_start);
     assert_eq!((cold.status, warm.status), (Status::Solved, Status::Solved));
     assert!(warm.history[0].violation < 1e-2, "{:?}", warm.history[0]);
     assert!(warm.iterations < cold.iterations, "{} after {}", warm.iterations, cold.iterations);
 }
 
-/// The start is an equality, its multiplier the gradient of the cost-to-go: the sweep must not lose it.
+/// The initial state is an equality constraint.
 #[test]
 fn sizes_add_up() {
     let cart = Cart::new(vec![Duration::Fixed(2.0)], 1.0, 0.0, &[[-9.0, 9.0]]);
-    let programme = Transcription::new(&cart, Mesh::uniform(&[(4, 3)]));
-    let sizes = programme.sizes();
+    let program = Transcription::new(&cart, Mesh::uniform(&[(4, 3)]));
+    let sizes = program.sizes();
     assert_eq!((sizes.variables, sizes.equalities, sizes.inequalities), (12 * 3 + 2, 2 + 12 * 2 + 2, 0));
 }

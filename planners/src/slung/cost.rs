@@ -1,22 +1,23 @@
-//! The paper's running cost `x^T Q' x + u^T R' u`, on the state itself.
+//! The running cost `l = x^T Q' x + u^T R' u` of Kang, Huang, Wen 2020, of the state itself and not of its distance from the
+//! goal.
 
-use super::model::{ALPHA, EULER, LENGTH, Model, ROTORS};
+use super::system::{ALPHA, EULER, LENGTH, ROTORS, SlungLoadSystem};
 use crate::pseudospectral::NodeDerivatives;
 
-/// At a node.
-pub fn value(model: &Model, node: &[f64]) -> f64 {
-    let squares: f64 = node.iter().enumerate().map(|(index, value)| weight(model, index) * value * value).sum();
-    // 10 ρ^2 is part of the paper's J also where ρ is no variable
-    let constant = if model.coordinates > LENGTH { 0.0 } else { model.problem.body.cable_m.powi(2) };
-    squares + model.problem.weights.cable * constant
+/// Running cost at a node.
+pub fn evaluate(system: &SlungLoadSystem, node: &[f64]) -> f64 {
+    let squares: f64 = node.iter().enumerate().map(|(index, value)| weight(system, index) * value * value).sum();
+    // 10 ρ^2 is part of the paper's J even where ρ is not a variable
+    let constant = if system.coordinates > LENGTH { 0.0 } else { system.problem.vehicle.cable_m.powi(2) };
+    squares + system.problem.weights.cable * constant
 }
 
 /// Adds the gradient, and `factor` times the Hessian.
 #[inline(always)]
-pub fn differentiate(model: &Model, node: &[f64], factor: f64, derivatives: &mut NodeDerivatives) {
-    let width = model.width();
+pub fn differentiate(system: &SlungLoadSystem, node: &[f64], factor: f64, derivatives: &mut NodeDerivatives) {
+    let width = system.width();
     for (index, value) in node.iter().enumerate() {
-        let square = 2.0 * weight(model, index);
+        let square = 2.0 * weight(system, index);
         derivatives.cost[index] += square * value;
         derivatives.hessian[index * width + index] += factor * square;
     }
@@ -24,8 +25,8 @@ pub fn differentiate(model: &Model, node: &[f64], factor: f64, derivatives: &mut
 
 /// Weight of the square of an entry of the node vector.
 #[inline(always)]
-fn weight(model: &Model, index: usize) -> f64 {
-    let (weights, nq) = (&model.problem.weights, model.coordinates);
+fn weight(system: &SlungLoadSystem, index: usize) -> f64 {
+    let (weights, nq) = (&system.problem.weights, system.coordinates);
     let rate = index.wrapping_sub(nq);
     match index {
         EULER..ALPHA => weights.euler,

@@ -1,10 +1,10 @@
-//! A gate at the end of a phase: rows, each to be >= 0, that hold quadrotor and load in their windows at that instant.
+//! A gate at the end of a phase: inequalities that hold quadrotor and load in their windows at that instant.
 
-use super::cable::Cable;
+use super::cable::CableGeometry;
 use super::jet::Jet;
-use super::model::{LENGTH, Model};
 use super::problem::Gate;
-use crate::pseudospectral::{EndDerivatives, EndWeights};
+use super::system::{LENGTH, SlungLoadSystem};
+use crate::pseudospectral::{TerminalDerivatives, TerminalWeights};
 
 /// `sign (p - at_m) >= 0` for one coordinate of the quadrotor or of the load.
 #[derive(Clone, Copy, Debug)]
@@ -15,55 +15,55 @@ struct Face {
     at_m: f64,
 }
 
-/// Those that there are, the quadrotor's first.
+/// The finite faces of the windows, the quadrotor's first.
 fn faces(gate: &Gate) -> impl Iterator<Item = Face> {
     let windows = [(false, gate.quadrotor_m), (true, gate.load_m)];
     let all = windows.into_iter().flat_map(|(is_load, window)| {
-        let of_axis = move |(axis, [low, high]): (usize, [f64; 2])| {
+        let axis_faces = move |(axis, [low, high]): (usize, [f64; 2])| {
             [(1.0, low), (-1.0, high)].map(|(sign, at_m)| Face { is_load, axis, sign, at_m })
         };
-        window.into_iter().enumerate().flat_map(of_axis)
+        window.into_iter().enumerate().flat_map(axis_faces)
     });
     all.filter(|face| face.at_m.is_finite())
 }
 
-/// Number of rows at the end of a phase: the faces, and the cable's length where it is a variable.
+/// Number of inequalities at the end of a phase: the faces, and the cable's length where it is a variable.
 ///
-/// At the ends of phases the states have no bounds, so that the length needs a row.
-pub fn count(model: &Model, phase: usize) -> usize {
-    let length = usize::from(model.has_length(model.mode(phase)));
-    model.problem.stages[phase].gate.map_or(0, |gate| faces(&gate).count() + length)
+/// The states at the ends of phases have no bounds, so the length needs an inequality.
+pub fn count(system: &SlungLoadSystem, phase: usize) -> usize {
+    let length = usize::from(system.has_length(system.mode(phase)));
+    system.problem.phases[phase].gate.map_or(0, |gate| faces(&gate).count() + length)
 }
 
-/// Writes the rows.
-pub fn values(model: &Model, phase: usize, state: &[f64], rows: &mut [f64]) {
-    let Some(gate) = model.problem.stages[phase].gate else { return };
-    let mode = model.mode(phase);
-    let arguments = model.cable_arguments(mode, state);
-    let direction = Cable::at(arguments).direction;
-    for (row, face) in rows.iter_mut().zip(faces(&gate)) {
+/// Writes the inequalities, m.
+pub fn evaluate(system: &SlungLoadSystem, phase: usize, state: &[f64], inequalities: &mut [f64]) {
+    let Some(gate) = system.problem.phases[phase].gate else { return };
+    let mode = system.mode(phase);
+    let arguments = system.cable_arguments(mode, state);
+    let direction = CableGeometry::at(arguments).direction;
+    for (inequality, face) in inequalities.iter_mut().zip(faces(&gate)) {
         let hanging_m = if face.is_load { arguments[2].value * direction[face.axis].value } else { 0.0 };
-        *row = face.sign * (state[face.axis] + hanging_m - face.at_m);
+        *inequality = face.sign * (state[face.axis] + hanging_m - face.at_m);
     }
-    if let (true, Some(last)) = (model.has_length(mode), rows.last_mut()) {
-        *last = model.problem.body.cable_m - state[LENGTH];
+    if let (true, Some(last)) = (system.has_length(mode), inequalities.last_mut()) {
+        *last = system.problem.vehicle.cable_m - state[LENGTH];
     }
 }
 
-/// Writes their derivatives, and adds the weighted Hessian.
+/// Writes their Jacobian, and adds the weighted Hessian.
 pub fn differentiate(
-    model: &Model,
+    system: &SlungLoadSystem,
     phase: usize,
     state: &[f64],
-    weights: &EndWeights,
-    derivatives: &mut EndDerivatives,
+    weights: &TerminalWeights,
+    derivatives: &mut TerminalDerivatives,
 ) {
-    let Some(gate) = model.problem.stages[phase].gate else { return };
-    let (mode, n) = (model.mode(phase), 2 * model.coordinates);
-    let (count, at) = (model.cable_count(mode), model.cable_at());
-    let arguments = model.cable_arguments(mode, state);
-    let hanging: [Jet<3>; 3] = Cable::at(arguments).direction.map(|d| d * arguments[2]);
-    let rows = derivatives.rows.chunks_exact_mut(n).zip(weights.rows);
+    let Some(gate) = system.problem.phases[phase].gate else { return };
+    let (mode, n) = (system.mode(phase), 2 * system.coordinates);
+    let (count, at) = (system.cable_count(mode), system.cable_indices());
+    let arguments = system.cable_arguments(mode, state);
+    let hanging: [Jet<3>; 3] = CableGeometry::at(arguments).direction.map(|d| d * arguments[2]);
+    let rows = derivatives.inequalities.chunks_exact_mut(n).zip(weights.inequalities);
     for ((row, weight), face) in rows.zip(faces(&gate)) {
         row[face.axis] = face.sign;
         if face.is_load {
@@ -73,7 +73,7 @@ pub fn differentiate(
             hanging[face.axis].scatter(derivatives.hessian, n, at, count, weight * face.sign);
         }
     }
-    if let (true, Some(last)) = (model.has_length(mode), derivatives.rows.chunks_exact_mut(n).last()) {
+    if let (true, Some(last)) = (system.has_length(mode), derivatives.inequalities.chunks_exact_mut(n).last()) {
         last[LENGTH] = -1.0;
     }
 }

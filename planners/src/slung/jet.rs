@@ -1,7 +1,7 @@
-//! Second-order forward differentiation in a few variables: a value with its gradient and its Hessian.
+//! Second-order forward-mode automatic differentiation: a value with its gradient and its Hessian.
 //!
-//! The equations are written once, with jets for numbers, and their derivatives are exact. Costs grow with N^2, so that a
-//! function is best split into factors of few variables each.
+//! The equations are written once, in jets, and their derivatives are exact. The cost grows with N^2, so a function is best
+//! split into factors of few variables each.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -17,13 +17,13 @@ pub struct Jet<const N: usize> {
 }
 
 impl<const N: usize> Jet<N> {
-    /// A number that depends on nothing.
+    /// A constant.
     #[inline(always)]
     pub fn constant(value: f64) -> Self {
         Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }
     }
 
-    /// The variable of that index.
+    /// The variable of this index.
     #[inline(always)]
     pub fn variable(index: usize, value: f64) -> Self {
         let mut jet = Self::constant(value);
@@ -37,7 +37,8 @@ impl<const N: usize> Jet<N> {
         std::array::from_fn(|i| Self::variable(i, values[i]))
     }
 
-    /// Adds `weight` times the Hessian to a row-major matrix, where the first `count` variables stand in it.
+    /// Adds `weight` times the Hessian to a row-major matrix of `width` columns; variable i has the index `at[i]` there. Only
+    /// the first `count` variables take part.
     #[inline(always)]
     pub fn scatter(&self, matrix: &mut [f64], width: usize, at: [usize; N], count: usize, weight: f64) {
         for i in 0..count {
@@ -47,7 +48,7 @@ impl<const N: usize> Jet<N> {
         }
     }
 
-    /// `f(self)` by the chain rule, from `f`, `f'` and `f''` at the value.
+    /// `f(self)` by the chain rule, given `f`, `f'` and `f''` at the value.
     #[inline(always)]
     fn chain(self, f: f64, df: f64, ddf: f64) -> Self {
         let mut image = Self::constant(f);
@@ -142,7 +143,7 @@ impl<const N: usize> Mul for Jet<N> {
 mod tests {
     use super::Jet;
 
-    /// sin(x y)/(x + y^2) against its derivatives by hand of a computer algebra system's kind: central differences.
+    /// `sin(x y)/(x + y^2) - 3 x` against central differences.
     #[test]
     fn derivatives_agree_with_differences() {
         let f = |x: f64, y: f64| {

@@ -1,16 +1,15 @@
-//! Planner `slung-lgr`: every way round the obstacles is optimised, the best is kept.
+//! Planner `slung-lgr`: optimises along one route per homotopy class, and keeps the best candidate.
 
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use scenarios::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent, Scenario};
 
-use super::answer;
 use super::envelope::envelope;
-use super::optimise::{Candidate, Round, optimise};
+use super::optimise::{Candidate, MeshIteration, optimise};
 use super::problem::Problem;
-use super::question;
 use super::route::{Route, routes};
+use super::{problem_builder, solution};
 use crate::nlp::Status;
 use crate::planner::{Answers, Planner, Progress};
 
@@ -19,37 +18,37 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Legendre-Gauss-Radau collocation with the switchable envelope circle (Kang, Huang, Wen 2020)",
     handles: "a quadrotor with a slung load among convex prisms",
-    refuses: question::refuses,
+    refuses: problem_builder::refuses,
     answers: Answers::Ahead(plan),
 };
 
 const NAME: &str = "slung-lgr";
 
-/// Most ways round the obstacles that are tried.
-const MOST_ROUTES: usize = 4;
+/// Maximum number of candidate routes.
+const MAX_ROUTES: usize = 4;
 
-/// The routes that are tried.
+/// The shortest routes around the obstacles, at most four.
 pub fn candidate_routes(problem: &Problem) -> Vec<Route> {
     let [x, y, _] = problem.start.position_m;
     let [goal_x, goal_y, _] = problem.goal_m;
-    let distance_m = problem.limits.clearance_m + problem.body.radius_m;
-    routes([x, y], [goal_x, goal_y], &problem.obstacles, distance_m, MOST_ROUTES)
+    let distance_m = problem.limits.clearance_m + problem.vehicle.radius_m;
+    routes([x, y], [goal_x, goal_y], &problem.obstacles, distance_m, MAX_ROUTES)
 }
 
 fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let begin = Instant::now();
-    let (problem, options) = (question::problem(scenario), question::options(scenario));
+    let (problem, options) = (problem_builder::problem(scenario), problem_builder::options(scenario));
     let routes = candidate_routes(&problem);
     let candidates: Vec<Candidate> = routes.par_iter().map(|route| optimise(&problem, route, &options)).collect();
     let elapsed = begin.elapsed();
     let Some(best) = best(&candidates) else {
-        let reason = "no way between the obstacles leads from start to goal".to_owned();
+        let reason = "no path between the obstacles leads from start to goal".to_owned();
         return without_trajectory(scenario, seed, reason, elapsed);
     };
-    let history: Vec<Iteration> = best.rounds.iter().map(|round| iteration(&problem, round)).collect();
+    let history: Vec<Iteration> = best.mesh_iterations.iter().map(|mesh| iteration(&problem, mesh)).collect();
     history.iter().for_each(progress);
     let (status, reason) = status(best);
-    let trajectory = answer::trajectory(&problem, best, &scenario.vehicles[0].name);
+    let trajectory = solution::trajectory(&problem, best, &scenario.vehicles[0].name);
     Plan {
         schema: 1,
         scenario: scenario.name.clone(),
@@ -65,7 +64,7 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     }
 }
 
-/// When the envelope and the cable switch, and the ways that were not taken.
+/// Switches of the envelope and of the cable, and the alternatives that were not chosen.
 fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Account {
     let mut events: Vec<PlannedEvent> = envelope(problem, best)
         .switches
@@ -79,20 +78,20 @@ fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Acc
             PlannedEvent { at_s, what: what.to_owned() }
         })
         .collect();
-    events.extend(answer::switches(problem, best));
+    events.extend(solution::events(problem, best));
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
     let others = candidates.iter().filter(|candidate| !std::ptr::eq(*candidate, best));
     let alternative = |candidate: &Candidate| Alternative {
-        name: name_of(candidate.route, problem),
+        name: route_name(candidate.route, problem),
         status: status(candidate).0,
         objective: Some(problem.reported(candidate.last().objective)),
-        path_m: answer::path_m(problem, candidate),
+        path_m: solution::path_m(problem, candidate),
     };
     Account { events, alternatives: others.map(alternative).collect() }
 }
 
-/// `left of block, right of box`.
-pub fn name_of(route: &Route, problem: &Problem) -> String {
+/// Name of a route by the sides on which it passes the obstacles: `left of block, right of box`.
+pub fn route_name(route: &Route, problem: &Problem) -> String {
     let side = |(&obstacle, &on_right): (&usize, &bool)| {
         format!("{} of {}", if on_right { "right" } else { "left" }, problem.obstacle_names[obstacle])
     };
@@ -100,7 +99,7 @@ pub fn name_of(route: &Route, problem: &Problem) -> String {
     if sides.is_empty() { "straight".to_owned() } else { sides.join(", ") }
 }
 
-/// The cheapest of those that were solved; if none was, the one that violates its rows least.
+/// The cheapest solved candidate; if there is none, the one with the smallest constraint violation.
 fn best<'a, 'b>(candidates: &'a [Candidate<'b>]) -> Option<&'a Candidate<'b>> {
     let rank = |candidate: &Candidate| {
         let last = candidate.last();
@@ -114,31 +113,33 @@ fn best<'a, 'b>(candidates: &'a [Candidate<'b>]) -> Option<&'a Candidate<'b>> {
 
 fn status(candidate: &Candidate) -> (PlanStatus, Option<String>) {
     let last = candidate.last();
-    let complaint = match last.status {
+    let failure_reason = match last.status {
         Status::Solved if candidate.is_refined => return (PlanStatus::Solved, None),
-        Status::Solved => format!("the mesh is still too coarse after {} refinements", candidate.rounds.len() - 1),
-        Status::IterationLimit => format!("the optimiser had not come to rest after {} iterations", last.iterations),
-        Status::Stalled => format!("the optimiser found no further step; rows are violated by {:.1e}", last.violation),
-        Status::NotFinite => "a value or a derivative is not a number".to_owned(),
+        Status::Solved => {
+            format!("the mesh is still too coarse after {} refinements", candidate.mesh_iterations.len() - 1)
+        }
+        Status::IterationLimit => format!("the optimiser did not converge within {} iterations", last.iterations),
+        Status::Stalled => format!("the line search failed; constraints are violated by {:.1e}", last.violation),
+        Status::NotFinite => "a value or a derivative is not finite".to_owned(),
     };
-    (PlanStatus::NotConverged, Some(complaint))
+    (PlanStatus::NotConverged, Some(failure_reason))
 }
 
 /// One entry of the history per mesh.
-fn iteration(problem: &Problem, round: &Round) -> Iteration {
+fn iteration(problem: &Problem, mesh: &MeshIteration) -> Iteration {
     Iteration {
-        objective: problem.reported(round.objective),
-        dt_s: round.longest_s,
-        defect_m: round.quality.error,
-        slack: round.violation,
+        objective: problem.reported(mesh.objective),
+        dt_s: mesh.max_interval_s,
+        defect_m: mesh.quality.error,
+        slack: mesh.violation,
         separation_m: None,
         clearance_m: None,
         change_m: 0.0,
         trust_region_m: 0.0,
-        solver_iterations: round.iterations,
-        unsolved: usize::from(round.status != Status::Solved),
-        wall_s: round.wall_s,
-        distributed_s: round.wall_s,
+        solver_iterations: mesh.iterations,
+        unsolved: usize::from(mesh.status != Status::Solved),
+        wall_s: mesh.wall_s,
+        distributed_s: mesh.wall_s,
     }
 }
 

@@ -1,14 +1,13 @@
-//! The optimal control problem in the planner's own terms.
+//! The optimal control problem of the planner (Kang, Huang, Wen 2020).
+
+use scenarios::GRAVITY_MPS2;
 
 use super::polygon::Polygon;
 use crate::pseudospectral::Duration;
 
-/// Acceleration of gravity, m/s^2.
-pub const GRAVITY: f64 = 9.81;
-
 /// Masses, lengths and inertia.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct VehicleParameters {
     /// Mass of the quadrotor, kg.
     pub quadrotor_kg: f64,
     /// Mass of the load, kg.
@@ -17,15 +16,15 @@ pub struct Body {
     pub cable_m: f64,
     /// Distance L of the rotors from the roll and pitch axes, m.
     pub arm_m: f64,
-    /// Rotor's yaw torque per thrust k, m.
+    /// Yaw torque per thrust k of a rotor, m.
     pub yaw_m: f64,
-    /// Principal moments of inertia about x, y, z of the body, kg m^2.
+    /// Principal moments of inertia about the body's x, y, z, kg m^2.
     pub inertia_kgm2: [f64; 3],
-    /// Radius r_2 of the body's circle, m.
+    /// Radius r_2 of the body circle, m.
     pub radius_m: f64,
 }
 
-/// What the plan keeps to.
+/// Limits of the plan, [minimum, maximum] each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Thrust of a rotor, N.
@@ -36,137 +35,138 @@ pub struct Limits {
     pub cable_rad: [f64; 2],
     /// Largest tension of the taut cable, N.
     pub tension_n: f64,
-    /// Position of the quadrotor, lowest and highest of each coordinate, m.
+    /// Position of the quadrotor, by coordinate, m.
     pub position_m: [[f64; 2]; 3],
-    /// Distance r' kept from the obstacles, m.
+    /// Safety distance r' of the envelope circle from the obstacles, m.
     pub clearance_m: f64,
-    /// Least altitude of the load, m.
+    /// Minimum altitude of the load, m.
     pub floor_m: Option<f64>,
 }
 
-/// Weights of the cost `x^T Q' x + u^T R' u`, and of time.
+/// Weights of the running cost `x^T Q' x + u^T R' u`, and of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights {
-    /// Of (ψ, θ, φ).
+    /// Weight of the squares of (ψ, θ, φ).
     pub euler: f64,
-    /// Of (α, β, ρ).
+    /// Weight of the squares of (α, β, ρ).
     pub cable: f64,
-    /// Of the Euler angles' rates.
+    /// Weight of the squares of (ψ', θ', φ').
     pub euler_rate: f64,
-    /// Of the cable's rates.
+    /// Weight of the squares of (α', β', ρ').
     pub cable_rate: f64,
-    /// Of each rotor's thrust.
+    /// Weight of the squares of the rotors' thrusts.
     pub thrust: f64,
-    /// Of a second.
+    /// Cost per second.
     pub time: f64,
 }
 
-/// Weight of a second where time is what counts: large enough for the barrier to be small beside it, as it is beside the
+/// Cost per second of minimum-time problems: large enough for the barrier to be small in comparison, as it is beside the
 /// effort.
-const TIME: f64 = 30.0;
+const TIME_WEIGHT: f64 = 30.0;
 
-/// Weight of the effort beside the duration: next to nothing, but it tells apart controls that are equally fast.
-const EFFORT_OF_TIME: f64 = 1e-4;
+/// Weight of the effort relative to time in minimum-time problems: it selects one of the controls that are equally fast.
+const EFFORT_PER_TIME: f64 = 1e-4;
 
 impl Weights {
-    /// The paper's.
+    /// Weights Q' and R' of the paper.
     pub fn effort() -> Self {
         Self { euler: 1.0, cable: 10.0, euler_rate: 10.0, cable_rate: 1.0, thrust: 10.0, time: 0.0 }
     }
 
-    /// Time, with a trace of the paper's.
+    /// Weights of minimum-time problems.
     pub fn time() -> Self {
-        let (effort, share) = (Self::effort(), TIME * EFFORT_OF_TIME);
+        let (effort, scale) = (Self::effort(), TIME_WEIGHT * EFFORT_PER_TIME);
         Self {
-            euler: share * effort.euler,
-            cable: share * effort.cable,
-            euler_rate: share * effort.euler_rate,
-            cable_rate: share * effort.cable_rate,
-            thrust: share * effort.thrust,
-            time: TIME,
+            euler: scale * effort.euler,
+            cable: scale * effort.cable,
+            euler_rate: scale * effort.euler_rate,
+            cable_rate: scale * effort.cable_rate,
+            thrust: scale * effort.thrust,
+            time: TIME_WEIGHT,
         }
     }
 }
 
-/// What the cable does in a phase.
+/// Mode of the cable in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mode {
-    /// Taut: its length is l_0 and the tension follows in closed form.
+pub enum CableMode {
+    /// Taut: its length is l_0, and the tension follows in closed form.
     Taut,
-    /// Slack: the load falls freely.
+    /// Slack: the load is in free fall.
     Slack,
-    /// Slack, and the load stands on the ground.
-    Parked,
-    /// Either, decided node by node: `λ (l_0 - ρ) <= ε` with the tension λ as a control; N m.
-    Either {
-        /// ε.
+    /// Slack, with the load at rest on the ground.
+    OnGround,
+    /// Taut or slack at every node, by the paper's complementarity (eq. 2 to 4), relaxed to `λ (l_0 - ρ) <= ε` with the
+    /// tension λ as a control.
+    Complementarity {
+        /// ε, N m.
         epsilon: f64,
     },
 }
 
-impl Mode {
-    /// The paper's complementarity, relaxed by next to nothing: larger ε lead into motions whose cable is a spring.
-    pub const COMPLEMENTARITY: Self = Self::Either { epsilon: 1e-6 };
+impl CableMode {
+    /// Complementarity with a negligible relaxation. With larger ε, solutions treat the cable as a spring.
+    pub const COMPLEMENTARITY: Self = Self::Complementarity { epsilon: 1e-6 };
 }
 
-/// Where quadrotor and load have to be at one instant, lowest and highest of each coordinate, m.
+/// Windows that quadrotor and load pass at one instant: [minimum, maximum] by coordinate, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gate {
-    /// The quadrotor.
+    /// Window of the quadrotor.
     pub quadrotor_m: [[f64; 2]; 3],
-    /// The load.
+    /// Window of the load.
     pub load_m: [[f64; 2]; 3],
 }
 
 /// A phase of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stage {
-    /// What the cable does.
-    pub mode: Mode,
-    /// How long.
+pub struct Phase {
+    /// Mode of the cable.
+    pub mode: CableMode,
+    /// Duration.
     pub duration: Duration,
-    /// Largest impulse with which the cable may become taut at the end of the phase, N s; none where it does not matter.
-    pub impulse_ns: Option<f64>,
-    /// The gate that is passed at the end of the phase, if there is one.
+    /// Maximum impulse with which the cable may become taut at the end of the phase, N s; none for no limit.
+    pub max_impulse_ns: Option<f64>,
+    /// The gate that is passed at the end of the phase, if any.
     pub gate: Option<Gate>,
 }
 
-/// Rest at a place.
+/// The initial state, at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rest {
+pub struct InitialCondition {
     /// Position of the quadrotor, m.
     pub position_m: [f64; 3],
-    /// From the quadrotor to the load: (α, β, ρ), rad and m.
+    /// Cable from the quadrotor to the load: (α, β, ρ), rad and m.
     pub cable: [f64; 3],
 }
 
-/// The problem.
+/// An optimal control problem of a quadrotor with a slung load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Masses, lengths and inertia.
-    pub body: Body,
+    pub vehicle: VehicleParameters,
     /// Limits.
     pub limits: Limits,
     /// Cost.
     pub weights: Weights,
-    /// Vertical prisms, by their sections.
+    /// Cross-sections of the obstacles, which are vertical prisms.
     pub obstacles: Vec<Polygon>,
-    /// Their names.
+    /// Names of the obstacles.
     pub obstacle_names: Vec<String>,
-    /// Start, at rest.
-    pub start: Rest,
-    /// Where the quadrotor comes to rest, the load hanging straight down on the taut cable, m.
+    /// Initial state, at rest.
+    pub start: InitialCondition,
+    /// Goal position of the quadrotor, at rest with the load hanging straight down, m.
     pub goal_m: [f64; 3],
-    /// The flight's phases.
-    pub stages: Vec<Stage>,
+    /// Phases of the flight.
+    pub phases: Vec<Phase>,
 }
 
 impl Problem {
-    /// The case of Kang, Huang, Wen 2020, with r_p = 0.127 m.
+    /// The case of Kang, Huang, Wen 2020, with r_p = 0.127 m, which the paper does not give.
     pub fn paper() -> Self {
         let half = std::f64::consts::FRAC_PI_4;
         Self {
-            body: Body {
+            vehicle: VehicleParameters {
                 quadrotor_kg: 1.32,
                 load_kg: 0.2,
                 cable_m: 0.65,
@@ -187,44 +187,49 @@ impl Problem {
             weights: Weights::effort(),
             obstacles: vec![Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -half)],
             obstacle_names: vec!["block".to_owned()],
-            start: Rest { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
+            start: InitialCondition { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
             goal_m: [2.0, 0.0, 1.5],
-            stages: vec![Stage { mode: Mode::Taut, duration: Duration::Fixed(4.0), impulse_ns: None, gate: None }],
+            phases: vec![Phase {
+                mode: CableMode::Taut,
+                duration: Duration::Fixed(4.0),
+                max_impulse_ns: None,
+                gate: None,
+            }],
         }
     }
 
     /// Thrust of each rotor in hover with the load, N.
     pub fn hover_n(&self) -> f64 {
-        0.25 * (self.body.quadrotor_kg + self.body.load_kg) * GRAVITY
+        0.25 * (self.vehicle.quadrotor_kg + self.vehicle.load_kg) * GRAVITY_MPS2
     }
 
-    /// Whether a phase leaves slack or taut to the optimiser.
-    pub fn is_complementary(&self) -> bool {
-        self.stages.iter().any(|stage| matches!(stage.mode, Mode::Either { .. }))
+    /// Whether any phase is under complementarity.
+    pub fn has_complementarity(&self) -> bool {
+        self.phases.iter().any(|phase| matches!(phase.mode, CableMode::Complementarity { .. }))
     }
 
-    /// Cost of hovering for so long, s: about what a flight costs.
+    /// Cost of hovering for `duration_s`: the order of magnitude of the cost of a flight.
     pub fn hover_cost(&self, duration_s: f64) -> f64 {
         let Weights { thrust, cable, time, .. } = self.weights;
-        duration_s * (4.0 * thrust * self.hover_n().powi(2) + cable * self.body.cable_m.powi(2) + time)
+        duration_s * (4.0 * thrust * self.hover_n().powi(2) + cable * self.vehicle.cable_m.powi(2) + time)
     }
 
-    /// A cost as it is reported: where time counts, in seconds.
+    /// The objective as reported: in seconds for minimum-time problems, else the cost itself.
     pub fn reported(&self, cost: f64) -> f64 {
         if self.weights.time > 0.0 { cost / self.weights.time } else { cost }
     }
 
-    /// The same flight at least effort, in the time that is guessed for it.
-    pub fn at_leisure(&self) -> Self {
+    /// The minimum-effort problem with the same phases, in the guessed total time.
+    pub fn min_effort(&self) -> Self {
         let mut problem = Self { weights: Weights::effort(), ..self.clone() };
         let guess_s = |duration: Duration| match duration {
             Duration::Free { guess_s, .. } => guess_s,
             Duration::Fixed(seconds) => seconds,
-            Duration::RestOf(_) => 0.0,
+            Duration::Remainder(_) => 0.0,
         };
-        let total_s = self.stages.iter().map(|stage| guess_s(stage.duration)).sum();
-        if let Some(last) = problem.stages.last_mut() {
-            last.duration = Duration::RestOf(total_s);
+        let total_s = self.phases.iter().map(|phase| guess_s(phase.duration)).sum();
+        if let Some(last) = problem.phases.last_mut() {
+            last.duration = Duration::Remainder(total_s);
         }
         problem
     }

@@ -1,220 +1,208 @@
-//! Ways round the obstacles: shortest polylines in the plane, one for every choice of sides.
+//! Routes around the obstacles: shortest polylines in the plane, one per homotopy class.
 //!
-//! Dijkstra's method on the visibility graph of the inflated corners, with the sides passed as part of the vertex
-//! (Bhattacharya, Kumar, Likhachev 2010): a ray from each obstacle's middle, square to the line from start to goal, is
-//! crossed or is not.
+//! Dijkstra's algorithm on the visibility graph of the offset corners, augmented by a signature of the homotopy class
+//! (Bhattacharya, Kumar, Likhachev 2010): a ray from each obstacle's centre, perpendicular to the line from start to goal,
+//! contributes one bit, the parity of its crossings.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use nalgebra::Vector2;
+
 use super::polygon::Polygon;
 
-/// Distance of the corners' turning points beyond what the obstacles demand, as a share of it.
-const ROOM: f64 = 0.25;
+/// Offset of the visibility graph's vertices beyond the required distance from the obstacles, as a fraction of it.
+const VERTEX_MARGIN: f64 = 0.25;
 
-/// Share of the demanded distance that the straight legs keep at least.
-const LEG: f64 = 0.7;
+/// Fraction of the required distance that the legs keep at least.
+const MIN_LEG_CLEARANCE: f64 = 0.7;
 
-/// So many obstacles at most tell routes apart; the others are gone round on the shorter side.
-const MOST_SIDES: usize = 6;
+/// Maximum number of obstacles that distinguish homotopy classes; the others are passed on the shorter side.
+const MAX_SIGNATURE_BITS: usize = 6;
+
+/// A vertex and a signature: the state of the search.
+type Key = (usize, u32);
+
+const START: usize = 0;
+const GOAL: usize = 1;
 
 /// A polyline from start to goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// Its corners, m, start and goal included.
+    /// Corners, m, start and goal included.
     pub points_m: Vec<[f64; 2]>,
-    /// The obstacles that tell routes apart, by index, nearest to the straight line first.
+    /// Indices of the obstacles that distinguish routes, the nearest to the straight line first.
     pub obstacles: Vec<usize>,
-    /// For each of them, whether it is passed on the right, seen along the straight line from start to goal.
+    /// For each of them, whether the route passes it on the right, as seen along the straight line from start to goal.
     pub on_right: Vec<bool>,
 }
 
 impl Route {
-    /// Its length, m.
+    /// Length, m.
     pub fn length_m(&self) -> f64 {
-        self.points_m.windows(2).map(|leg| length(minus(leg[1], leg[0]))).sum()
+        self.legs().map(|(a, b)| length(b - a)).sum()
     }
 
-    /// The point at a share of its length.
-    pub fn at(&self, share: f64) -> [f64; 2] {
-        let mut left = share.clamp(0.0, 1.0) * self.length_m();
-        for leg in self.points_m.windows(2) {
-            let along = minus(leg[1], leg[0]);
-            let whole = length(along);
-            if left <= whole && whole > 0.0 {
-                return [leg[0][0] + along[0] * left / whole, leg[0][1] + along[1] * left / whole];
+    /// The point at a fraction of the length, m.
+    pub fn at(&self, fraction: f64) -> [f64; 2] {
+        let mut remaining_m = fraction.clamp(0.0, 1.0) * self.length_m();
+        for (a, b) in self.legs() {
+            let leg = b - a;
+            let length_m = length(leg);
+            if remaining_m <= length_m && length_m > 0.0 {
+                return [a.x + leg.x * remaining_m / length_m, a.y + leg.y * remaining_m / length_m];
             }
-            left -= whole;
+            remaining_m -= length_m;
         }
         self.points_m[self.points_m.len() - 1]
     }
+
+    fn legs(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> {
+        self.points_m.windows(2).map(|leg| (leg[0].into(), leg[1].into()))
+    }
 }
 
-/// The shortest routes, at most `most`, one per choice of sides, shortest first; they keep about `distance_m` from the
-/// obstacles.
-pub fn routes(start: [f64; 2], goal: [f64; 2], obstacles: &[Polygon], distance_m: f64, most: usize) -> Vec<Route> {
-    let graph = Graph::new(start, goal, obstacles, distance_m);
-    graph.search(most)
+/// The shortest route of each homotopy class, shortest first.
+///
+/// - `distance_m`: distance that the routes keep, approximately, from the obstacles
+/// - `max_routes`: maximum number of routes
+pub fn routes(
+    start: [f64; 2],
+    goal: [f64; 2],
+    obstacles: &[Polygon],
+    distance_m: f64,
+    max_routes: usize,
+) -> Vec<Route> {
+    Graph::new(start.into(), goal.into(), obstacles, distance_m).search(max_routes)
 }
 
+/// The visibility graph.
 struct Graph<'a> {
-    vertices: Vec<[f64; 2]>,
+    /// Start, goal, and the offset corners.
+    vertices: Vec<Vector2<f64>>,
     obstacles: &'a [Polygon],
-    /// Obstacles by index, and a ray from each.
-    rays: Vec<(usize, [f64; 2], [f64; 2])>,
-    clear_m: Vec<f64>,
+    /// Distance that legs keep from each obstacle, m.
+    clearances_m: Vec<f64>,
+    rays: Vec<Ray>,
+}
+
+/// A ray from the centre of an obstacle.
+struct Ray {
+    obstacle: usize,
+    from: Vector2<f64>,
+    direction: Vector2<f64>,
+}
+
+/// An edge to another vertex.
+struct Edge {
+    to: usize,
+    length_m: f64,
+    signature: u32,
 }
 
 impl<'a> Graph<'a> {
-    fn new(start: [f64; 2], goal: [f64; 2], obstacles: &'a [Polygon], distance_m: f64) -> Self {
+    fn new(start: Vector2<f64>, goal: Vector2<f64>, obstacles: &'a [Polygon], distance_m: f64) -> Self {
         let mut vertices = vec![start, goal];
         for obstacle in obstacles {
-            vertices.extend(inflated(obstacle, (1.0 + ROOM) * distance_m));
+            vertices.extend(obstacle.offset_corners((1.0 + VERTEX_MARGIN) * distance_m));
         }
-        let ahead = minus(goal, start);
-        let right = [ahead[1], -ahead[0]];
-        let nearness = |obstacle: &Polygon| distance_to_leg(obstacle, start, goal);
-        let mut by_nearness: Vec<usize> = (0..obstacles.len()).collect();
-        by_nearness.sort_by(|&a, &b| nearness(&obstacles[a]).total_cmp(&nearness(&obstacles[b])));
-        let ray = |index: usize| (index, middle(&obstacles[index]), right);
-        let rays = by_nearness.into_iter().take(MOST_SIDES).map(ray).collect();
-        // a start close to an obstacle must still be able to leave it
-        let ends = |obstacle: &Polygon| [start, goal].map(|point| obstacle.distance(point).value);
-        let clear = |obstacle: &Polygon| ends(obstacle).into_iter().fold(distance_m, f64::min) * LEG;
-        Self { vertices, obstacles, rays, clear_m: obstacles.iter().map(clear).collect() }
+        let ahead = goal - start;
+        let right = Vector2::new(ahead.y, -ahead.x);
+        let from_line = |index: usize| obstacles[index].distance_to_segment(start, goal);
+        let mut by_distance: Vec<usize> = (0..obstacles.len()).collect();
+        by_distance.sort_by(|&a, &b| from_line(a).total_cmp(&from_line(b)));
+        let ray = |obstacle: usize| Ray { obstacle, from: obstacles[obstacle].center(), direction: right };
+        let rays = by_distance.into_iter().take(MAX_SIGNATURE_BITS).map(ray).collect();
+        // a start or goal closer than the required distance must still be reachable
+        let ends = |obstacle: &Polygon| [start, goal].map(|point| obstacle.distance(point.into()).value);
+        let clearance = |obstacle: &Polygon| ends(obstacle).into_iter().fold(distance_m, f64::min) * MIN_LEG_CLEARANCE;
+        Self { vertices, obstacles, clearances_m: obstacles.iter().map(clearance).collect(), rays }
     }
 
-    fn is_free(&self, a: [f64; 2], b: [f64; 2]) -> bool {
-        self.obstacles.iter().zip(&self.clear_m).all(|(obstacle, &clear)| distance_to_leg(obstacle, a, b) > clear)
+    fn is_free(&self, a: Vector2<f64>, b: Vector2<f64>) -> bool {
+        let mut obstacles = self.obstacles.iter().zip(&self.clearances_m);
+        obstacles.all(|(obstacle, &clearance_m)| obstacle.distance_to_segment(a, b) > clearance_m)
     }
 
-    fn crossings(&self, a: [f64; 2], b: [f64; 2]) -> u32 {
-        let crosses = |(_, from, along): &(usize, [f64; 2], [f64; 2])| {
-            let side = |point: [f64; 2]| cross(*along, minus(point, *from)) > 0.0;
-            // where the leg meets the ray's line, ahead of its beginning or behind
-            let leg = minus(b, a);
-            let denominator = cross(leg, *along);
-            side(a) != side(b) && cross(leg, minus(*from, a)) * -denominator.signum() > 0.0
+    /// One bit per ray: whether the leg crosses it.
+    fn signature(&self, a: Vector2<f64>, b: Vector2<f64>) -> u32 {
+        let crosses = |Ray { from, direction, .. }: &Ray| {
+            let side = |point: Vector2<f64>| direction.perp(&(point - from)) > 0.0;
+            // the leg meets the ray's line ahead of its origin
+            let leg = b - a;
+            let denominator = leg.perp(direction);
+            side(a) != side(b) && leg.perp(&(from - a)) * -denominator.signum() > 0.0
         };
         self.rays.iter().enumerate().map(|(bit, ray)| u32::from(crosses(ray)) << bit).sum()
     }
 
-    fn search(&self, most: usize) -> Vec<Route> {
+    fn edges(&self) -> Vec<Vec<Edge>> {
         let count = self.vertices.len();
-        let mut edges = vec![Vec::new(); count];
-        for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))).filter(|(i, j)| i != j) {
-            let (a, b) = (self.vertices[i], self.vertices[j]);
-            if self.is_free(a, b) {
-                edges[i].push((j, length(minus(b, a)), self.crossings(a, b)));
-            }
-        }
-        let mut heap = BinaryHeap::from([(Reverse(Metres(0.0)), 0_usize, 0_u32, (0, 0))]);
-        let mut before: BTreeMap<(usize, u32), (usize, u32)> = BTreeMap::new();
+        let edge = |i: usize, to: usize| {
+            let (a, b) = (self.vertices[i], self.vertices[to]);
+            let is_edge = i != to && self.is_free(a, b);
+            is_edge.then(|| Edge { to, length_m: length(b - a), signature: self.signature(a, b) })
+        };
+        (0..count).map(|i| (0..count).filter_map(|j| edge(i, j)).collect()).collect()
+    }
+
+    /// Dijkstra's algorithm over (vertex, signature).
+    fn search(&self, max_routes: usize) -> Vec<Route> {
+        let edges = self.edges();
+        let start: Key = (START, 0);
+        let mut queue = BinaryHeap::from([(Reverse(Length(0.0)), start, start)]);
+        let mut predecessors: BTreeMap<Key, Key> = BTreeMap::new();
         let mut found = Vec::new();
-        while let Some((Reverse(Metres(so_far)), vertex, sides, from)) = heap.pop() {
-            if before.contains_key(&(vertex, sides)) {
+        while let Some((Reverse(Length(length_m)), key, predecessor)) = queue.pop() {
+            if predecessors.contains_key(&key) {
                 continue;
             }
-            before.insert((vertex, sides), from);
-            if vertex == 1 {
-                found.push(self.route(&before, sides));
-                if found.len() == most {
+            predecessors.insert(key, predecessor);
+            let (vertex, signature) = key;
+            if vertex == GOAL {
+                found.push(self.route(&predecessors, signature));
+                if found.len() == max_routes {
                     break;
                 }
                 continue;
             }
-            for &(next, step, crossings) in &edges[vertex] {
-                heap.push((Reverse(Metres(so_far + step)), next, sides ^ crossings, (vertex, sides)));
+            for edge in &edges[vertex] {
+                queue.push((Reverse(Length(length_m + edge.length_m)), (edge.to, signature ^ edge.signature), key));
             }
         }
         found
     }
 
-    fn route(&self, before: &BTreeMap<(usize, u32), (usize, u32)>, sides: u32) -> Route {
-        let mut key = (1, sides);
-        let mut points_m = vec![self.vertices[1]];
-        while key.0 != 0 {
-            key = before[&key];
-            points_m.push(self.vertices[key.0]);
+    fn route(&self, predecessors: &BTreeMap<Key, Key>, signature: u32) -> Route {
+        let mut key = (GOAL, signature);
+        let mut points_m = vec![self.vertices[GOAL].into()];
+        while key.0 != START {
+            key = predecessors[&key];
+            points_m.push(self.vertices[key.0].into());
         }
         points_m.reverse();
-        let obstacles = self.rays.iter().map(|ray| ray.0).collect();
-        Route { points_m, obstacles, on_right: (0..self.rays.len()).map(|bit| sides >> bit & 1 == 1).collect() }
+        let obstacles = self.rays.iter().map(|ray| ray.obstacle).collect();
+        Route { points_m, obstacles, on_right: (0..self.rays.len()).map(|bit| signature >> bit & 1 == 1).collect() }
     }
 }
 
-/// A length with a total order.
+/// A length, m, with a total order.
 #[derive(Clone, Copy, PartialEq)]
-struct Metres(f64);
-impl Eq for Metres {}
-impl PartialOrd for Metres {
+struct Length(f64);
+impl Eq for Length {}
+impl PartialOrd for Length {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Metres {
+impl Ord for Length {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.0.total_cmp(&other.0)
     }
 }
 
-/// Corners of the polygon whose edges are `distance_m` further out.
-fn inflated(polygon: &Polygon, distance_m: f64) -> Vec<[f64; 2]> {
-    let corners = polygon.corners();
-    let n = corners.len();
-    let normal = |i: usize| {
-        let along = minus(corners[(i + 1) % n], corners[i]);
-        [along[1] / length(along), -along[0] / length(along)]
-    };
-    let corner = |i: usize| {
-        let (a, b) = (normal((i + n - 1) % n), normal(i));
-        let stretch = distance_m / (1.0 + a[0] * b[0] + a[1] * b[1]);
-        [corners[i][0] + stretch * (a[0] + b[0]), corners[i][1] + stretch * (a[1] + b[1])]
-    };
-    (0..n).map(corner).collect()
-}
-
-/// Distance from a polygon to a leg, zero where they meet.
-fn distance_to_leg(polygon: &Polygon, a: [f64; 2], b: [f64; 2]) -> f64 {
-    let corners = polygon.corners();
-    let n = corners.len();
-    let (mut nearest, mut meets) = (f64::INFINITY, false);
-    for i in 0..n {
-        let (c, d) = (corners[i], corners[(i + 1) % n]);
-        let apart = |p: [f64; 2], q: [f64; 2], r: [f64; 2], s: [f64; 2]| {
-            cross(minus(q, p), minus(r, p)) * cross(minus(q, p), minus(s, p)) < 0.0
-        };
-        meets |= apart(a, b, c, d) && apart(c, d, a, b);
-        nearest = nearest.min(point_to_leg(c, a, b));
-    }
-    let ends = polygon.distance(a).value.min(polygon.distance(b).value);
-    if meets { 0.0 } else { nearest.min(ends).max(0.0) }
-}
-
-fn point_to_leg(point: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (leg, to_point) = (minus(b, a), minus(point, a));
-    let share =
-        (leg[0] * to_point[0] + leg[1] * to_point[1]) / (leg[0] * leg[0] + leg[1] * leg[1]).max(f64::MIN_POSITIVE);
-    let share = share.clamp(0.0, 1.0);
-    length(minus(to_point, [share * leg[0], share * leg[1]]))
-}
-
-fn middle(polygon: &Polygon) -> [f64; 2] {
-    let count = polygon.corners().len() as f64;
-    let sum = polygon.corners().iter().fold([0.0; 2], |sum, corner| [sum[0] + corner[0], sum[1] + corner[1]]);
-    sum.map(|sum| sum / count)
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn length(a: [f64; 2]) -> f64 {
-    a[0].hypot(a[1])
-}
-
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
+fn length(a: Vector2<f64>) -> f64 {
+    a.x.hypot(a.y)
 }
 
 #[cfg(test)]
@@ -222,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ways_round_one_obstacle_are_found() {
+    fn one_obstacle_is_passed_on_both_sides() {
         let obstacle = Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -std::f64::consts::FRAC_PI_4);
         let routes = routes([-2.0, 0.0], [2.0, 0.0], &[obstacle], 0.4, 4);
         assert_eq!(routes.len(), 2, "{routes:?}");
@@ -235,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn two_obstacles_give_four_ways_and_free_space_one() {
+    fn two_obstacles_give_four_classes_and_free_space_one() {
         let obstacles = [-1.5, 1.5].map(|x| Polygon::rectangle([x, 0.0], [0.6, 1.0], 0.0));
         assert_eq!(routes([-4.0, 0.0], [4.0, 0.0], &obstacles, 0.3, 9).len(), 4);
         let straight = routes([-4.0, 0.0], [4.0, 0.0], &[], 0.3, 9);

@@ -5,7 +5,7 @@ mod show;
 
 use std::time::Instant;
 
-use planners::slung::{self, Candidate, Mode, Options, Problem, Route};
+use planners::slung::{self, CableMode, Candidate, Options, Problem, Route};
 use rayon::prelude::*;
 use scenarios::Scenario;
 use serde::Serialize;
@@ -110,8 +110,8 @@ pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> 
 /// The same problem with the tension as a control in all phases.
 fn free_tension(problem: &Problem) -> Problem {
     let mut problem = problem.clone();
-    for stage in &mut problem.stages {
-        stage.mode = Mode::COMPLEMENTARITY;
+    for stage in &mut problem.phases {
+        stage.mode = CableMode::COMPLEMENTARITY;
     }
     problem
 }
@@ -132,12 +132,12 @@ fn way(problem: &Problem, route: &Route, options: &Options, repetitions: usize) 
     let (candidate, time_ms) = best(repetitions, || slung::optimise(problem, route, options));
     let last = candidate.last();
     Way {
-        name: slung::name_of(route, problem),
+        name: slung::route_name(route, problem),
         is_solved: candidate.is_solved() && candidate.is_refined,
         segments: last.segments,
         variables: last.variables,
-        iterations: candidate.rounds.iter().map(|round| round.iterations).sum(),
-        meshes: candidate.rounds.len(),
+        iterations: candidate.mesh_iterations.iter().map(|round| round.iterations).sum(),
+        meshes: candidate.mesh_iterations.len(),
         time_ms,
         objective: last.objective,
         error_between_nodes: last.quality.error,

@@ -4,9 +4,9 @@
 //! cost-to-go(x_1, p) = min_U  1/2 [U x_1 p] Q [U x_1 p]^T + cost-to-go of the next segment(x_{N+1}, p)
 //! ```
 
-use super::condense::{Dimensions, Stages};
+use super::condensing::{Dimensions, Stages};
+use super::dense_kernels::{add_scaled, add_transposed_product, dot, eliminate, padded, product};
 use super::radau::Radau;
-use super::small::{add_scaled, add_transposed_product, dot, eliminate, padded, product};
 
 /// Pivots must exceed this for a minimum over the controls.
 const LEAST_PIVOT: f64 = 1e-14;
@@ -45,7 +45,7 @@ pub struct Nodes<'a> {
 
 /// The condensed segment and its factors.
 #[derive(Clone, Debug)]
-pub struct Segment {
+pub struct CondensedSegment {
     pub(super) stages: Stages,
     pub(super) dimensions: Dimensions,
     /// Padded number of columns.
@@ -70,7 +70,7 @@ pub struct Segment {
     pub(super) last: Vec<f64>,
 }
 
-impl Segment {
+impl CondensedSegment {
     /// Room for a segment.
     pub fn new(dimensions: Dimensions, rule: &Radau) -> Self {
         let (n, nq) = (dimensions.order, dimensions.coordinates);

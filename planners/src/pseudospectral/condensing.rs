@@ -9,8 +9,8 @@
 //!
 //! Only the accelerations of the stages 2..N are implicit, and of these only the coordinates that are not ignorable.
 
+use super::dense_kernels::{Lu, add_scaled};
 use super::radau::Radau;
-use super::small::{Lu, add_scaled};
 
 /// Dimensions of a segment's stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

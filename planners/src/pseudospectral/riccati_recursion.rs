@@ -1,49 +1,21 @@
 //! Newton systems of the whole horizon: backward over the segments to factor, backward and forward to solve.
 
-use super::condense::Dimensions;
+use super::condensed_segment::{CondensedSegment, CostToGo, Nodes, costate};
+use super::condensing::Dimensions;
+use super::dense_kernels::{add_scaled, congruence, dot, eliminate, padded};
 use super::layout::{Layout, PhaseLayout};
-use super::motion::Motion;
+use super::linearisation::{Linearisation, TerminalLinearisation};
+use super::multiphase_system::MultiphaseSystem;
 use super::radau::Radau;
-use super::segment::{CostToGo, Nodes, Segment, costate};
-use super::small::{add_scaled, congruence, dot, eliminate, padded};
 use super::workspace::Workspace;
 
-/// Weight of the events in the factors, 1/δ_c: they hold after refinement.
+/// Weight of the terminal_equalities in the factors, 1/δ_c: they hold after refinement.
 const EVENT_WEIGHT: f64 = 1e8;
-
-/// Derivatives of all nodes and ends at the last point of linearisation, and the barrier's additions.
-#[derive(Clone, Debug)]
-pub struct Linearisation {
-    /// Node by node: Hessians without and with the barrier's terms, [A^q A^v B], a, path rows, the derivatives with
-    /// respect to η and the node vector.
-    pub hessians: Vec<f64>,
-    pub weighted: Vec<f64>,
-    pub jacobians: Vec<f64>,
-    pub accelerations: Vec<f64>,
-    pub rows: Vec<f64>,
-    pub cross: Vec<f64>,
-    /// The point itself.
-    pub variables: Vec<f64>,
-    /// Ends, one per phase.
-    pub ends: Vec<End>,
-    /// Diagonal of the parameters.
-    pub parameter_diagonal: Vec<f64>,
-}
-
-/// Derivatives at the end of a phase, row-major.
-#[derive(Clone, Debug)]
-pub struct End {
-    pub events: Vec<f64>,
-    pub rows: Vec<f64>,
-    pub next: Vec<f64>,
-    pub hessian: Vec<f64>,
-    pub weighted: Vec<f64>,
-}
 
 /// All segments with their factors.
 #[derive(Clone, Debug)]
-pub struct Sweep {
-    segments: Vec<Vec<Segment>>,
+pub struct RiccatiRecursion {
+    segments: Vec<Vec<CondensedSegment>>,
     /// Derivatives of the segments' half-lengths with respect to the parameters.
     gains: Vec<Vec<Vec<f64>>>,
     /// Costs-to-go at the first state of every phase.
@@ -55,23 +27,23 @@ pub struct Sweep {
     parameters: usize,
 }
 
-impl Sweep {
-    /// Room for `motion` on a mesh.
-    pub fn new(motion: &dyn Motion, layout: &Layout, rules: &[Radau]) -> Self {
+impl RiccatiRecursion {
+    /// Room for `system` on a mesh.
+    pub fn new(system: &dyn MultiphaseSystem, layout: &Layout, rules: &[Radau]) -> Self {
         let segment = |order: usize| {
             let dimensions = Dimensions {
                 coordinates: layout.coordinates,
-                ignorable: motion.ignorable(),
+                ignorable: system.ignorable(),
                 controls: layout.controls,
                 parameters: layout.parameters,
                 order,
             };
-            Segment::new(dimensions, &rules[order])
+            CondensedSegment::new(dimensions, &rules[order])
         };
         let phase = |phase: &PhaseLayout| phase.segments.iter().map(|s| segment(s.order)).collect();
         let gains = |phase: &PhaseLayout| {
-            let of = |share: f64| phase.duration.gains.iter().map(|gain| 0.5 * share * gain).collect();
-            phase.segments.iter().map(|segment| of(segment.share)).collect()
+            let of = |share: f64| phase.duration.coefficients.iter().map(|gain| 0.5 * share * gain).collect();
+            phase.segments.iter().map(|segment| of(segment.fraction)).collect()
         };
         let size = layout.states() + layout.parameters;
         Self {
@@ -97,7 +69,7 @@ impl Sweep {
     #[inline(always)]
     fn factor_phases(&mut self, layout: &Layout, point: &Linearisation, work: &mut Workspace) -> bool {
         for (index, phase) in layout.phases.iter().enumerate().rev() {
-            self.end_matrix(phase.events, &point.ends[index], work);
+            self.end_matrix(phase.terminal_equalities, &point.ends[index], work);
             std::mem::swap(&mut work.after, &mut work.before);
             for k in (0..phase.segments.len()).rev() {
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
@@ -114,17 +86,17 @@ impl Sweep {
     }
 
     /// Cost-to-go at the last state of a phase: the next phase's through the link, the events', the end's own.
-    fn end_matrix(&self, events: usize, end: &End, work: &mut Workspace) {
+    fn end_matrix(&self, terminal_equalities: usize, end: &TerminalLinearisation, work: &mut Workspace) {
         let (n, size) = (self.states, self.states + self.parameters);
         let Workspace { after, before, half, .. } = work;
         before.fill(0.0);
-        if !end.next.is_empty() {
-            congruence(&end.next, after, n, size, half, before);
+        if !end.next_state.is_empty() {
+            congruence(&end.next_state, after, n, size, half, before);
         }
         for r in 0..n {
-            add_scaled(&mut before[r * size..r * size + n], 1.0, &end.weighted[r * n..(r + 1) * n]);
+            add_scaled(&mut before[r * size..r * size + n], 1.0, &end.barrier_hessian[r * n..(r + 1) * n]);
         }
-        for row in end.events.chunks_exact(n).take(events) {
+        for row in end.equalities.chunks_exact(n).take(terminal_equalities) {
             for r in (0..n).filter(|&r| row[r] != 0.0) {
                 add_scaled(&mut before[r * size..r * size + n], EVENT_WEIGHT * row[r], row);
             }
@@ -166,7 +138,7 @@ impl Sweep {
             add_scaled(&mut before[..n], 1.0, &gradient[end_at..end_at + n]);
             std::mem::swap(after, before);
             for k in (0..phase.segments.len()).rev() {
-                let (first, order) = (phase.segments[k].first, phase.segments[k].order);
+                let (first, order) = (phase.segments[k].first_node, phase.segments[k].order);
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
                 let segment = &mut self.segments[index][k];
                 segment.next.vector.copy_from_slice(after);
@@ -193,19 +165,21 @@ impl Sweep {
         let (n, size) = (self.states, self.states + self.parameters);
         let (phase, end) = (&layout.phases[index], &point.ends[index]);
         before.fill(0.0);
-        if !end.next.is_empty() {
-            let residual = &y[phase.link_at..][..n];
+        if !end.next_state.is_empty() {
+            let residual = &y[phase.linkage_at..][..n];
             let matrix = &self.begins[index + 1].matrix;
             for r in 0..size {
                 let value = after[r] + dot(&matrix[r * size..][..n], residual);
                 if r < n {
-                    add_scaled(&mut before[..n], value, &end.next[r * n..(r + 1) * n]);
+                    add_scaled(&mut before[..n], value, &end.next_state[r * n..(r + 1) * n]);
                 } else {
                     before[r] += value;
                 }
             }
         }
-        for (row, residual) in end.events.chunks_exact(n).zip(&y[phase.events_at..][..phase.events]) {
+        for (row, residual) in
+            end.equalities.chunks_exact(n).zip(&y[phase.terminal_equalities_at..][..phase.terminal_equalities])
+        {
             add_scaled(&mut before[..n], -EVENT_WEIGHT * residual, row);
         }
     }
@@ -219,11 +193,11 @@ impl Sweep {
         costate(&self.begins[0], &work.state, &work.parameters, &mut y[..n]);
         for (index, phase) in layout.phases.iter().enumerate() {
             for (k, segment) in phase.segments.iter().enumerate() {
-                let at = layout.node_at(phase, segment.first);
+                let at = layout.node_at(phase, segment.first_node);
                 let solution = &mut x[at..at + segment.order * width + n];
                 solution[..n].copy_from_slice(&work.state);
                 let nodes = nodes(layout, index, k, point, &self.gains[index][k]);
-                let multipliers = &mut y[layout.defect_at(phase, segment.first)..][..segment.order * n];
+                let multipliers = &mut y[layout.defect_at(phase, segment.first_node)..][..segment.order * n];
                 let gradient = &work.gradient[at..at + segment.order * width];
                 self.segments[index][k].forward(&nodes, gradient, &work.parameters, solution, multipliers);
                 work.state.copy_from_slice(&solution[segment.order * width..]);
@@ -250,20 +224,29 @@ impl Sweep {
         }
     }
 
-    /// Multipliers of the events and of the link; the state goes on to the next phase.
+    /// Multipliers of the terminal_equalities and of the link; the state goes on to the next phase.
     #[inline(always)]
-    fn end_forward(&self, phase: &PhaseLayout, end: &End, index: usize, y: &mut [f64], work: &mut Workspace) {
+    fn end_forward(
+        &self,
+        phase: &PhaseLayout,
+        end: &TerminalLinearisation,
+        index: usize,
+        y: &mut [f64],
+        work: &mut Workspace,
+    ) {
         let n = self.states;
         let Workspace { state, next, parameters, .. } = work;
-        for (row, y) in end.events.chunks_exact(n).zip(&mut y[phase.events_at..][..phase.events]) {
+        for (row, y) in
+            end.equalities.chunks_exact(n).zip(&mut y[phase.terminal_equalities_at..][..phase.terminal_equalities])
+        {
             *y = EVENT_WEIGHT * (dot(row, state) - *y);
         }
-        if end.next.is_empty() {
+        if end.next_state.is_empty() {
             return;
         }
-        let residual = &mut y[phase.link_at..][..n];
+        let residual = &mut y[phase.linkage_at..][..n];
         for (r, (next, residual)) in next.iter_mut().zip(&*residual).enumerate() {
-            *next = residual + dot(&end.next[r * n..(r + 1) * n], state);
+            *next = residual + dot(&end.next_state[r * n..(r + 1) * n], state);
         }
         costate(&self.begins[index + 1], next, parameters, residual);
         std::mem::swap(state, next);
@@ -275,15 +258,15 @@ fn nodes<'a>(layout: &Layout, phase: usize, segment: usize, point: &'a Linearisa
     let phase = &layout.phases[phase];
     let segment = &phase.segments[segment];
     let (width, nq) = (layout.width(), layout.coordinates);
-    let (node, count) = (phase.first_node + segment.first, segment.order);
+    let (node, count) = (phase.first_node + segment.first_node, segment.order);
     let parameters = &point.variables[layout.parameters_at..];
     Nodes {
-        half_length: 0.5 * segment.share * phase.duration.at(parameters),
+        half_length: 0.5 * segment.fraction * phase.duration.at(parameters),
         half_length_gains: gains,
-        hessians: &point.weighted[node * width * width..][..count * width * width],
+        hessians: &point.barrier_hessians[node * width * width..][..count * width * width],
         jacobians: &point.jacobians[node * nq * width..][..count * nq * width],
         accelerations: &point.accelerations[node * nq..][..count * nq],
-        variables: &point.variables[layout.node_at(phase, segment.first)..][..count * width],
+        variables: &point.variables[layout.node_at(phase, segment.first_node)..][..count * width],
         cross: &point.cross[node * width..][..count * width],
     }
 }
