@@ -14,6 +14,7 @@ pub mod console;
 #[path = "../scenarios/tests/damage/mod.rs"]
 mod damage;
 pub mod error;
+mod families;
 pub mod interrupt;
 mod jobs;
 pub mod metrics;

@@ -3,22 +3,24 @@
 //! Wang, Xu, Long (2020), section 5, give for a fleet: flight time, mean speed, standard deviations of speed and
 //! altitude, sums of the absolute load factors, smallest distance between vehicles.
 
+pub mod fixed_wing;
+mod flight;
 mod in_loop;
+pub mod multirotor;
 mod over_time;
-mod slung_load;
+pub mod slung_load;
 pub mod trajectory_error;
 
-use scenarios::fixed_wing::Trajectory;
-use scenarios::{Family, Plan, Scenario};
+use scenarios::{Plan, Scenario};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sim::{Flight, Sample};
+use sim::Flight;
 
 use self::trajectory_error::VehicleErrors;
-use crate::verdict::{self, Flown, Motion, Planned};
+use crate::{families, verdict};
 
 pub use in_loop::InLoopMetrics;
-pub use over_time::{Nearest, clearance_over_time, separation_over_time};
+pub use over_time::{Nearest, clearance_in_space_over_time, clearance_over_time, separation_over_time};
 pub use slung_load::{CableSwitch, SlungLoadMetrics};
 
 /// Everything that was measured of a plan and its flight.
@@ -101,102 +103,9 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
         return Metrics::default();
     }
     let pose_errors = flight.map(trajectory_error::of_fleet).unwrap_or_default();
-    if scenario.family() == Family::SlungLoad {
-        let slung_load = Some(slung_load::measure(scenario, plan, flight));
-        return Metrics { slung_load, pose_errors, ..Metrics::default() };
-    }
-    let flown = flight.and_then(|flight| Flown::new(scenario, plan, flight).ok());
-    Metrics {
-        plan: (scenario.family() == Family::FixedWing).then(|| of_plan(scenario, plan)),
-        flight: flown.map(|flown| of_flight(scenario, &flown)),
-        slung_load: None,
-        in_loop: flight.and_then(|flight| Some(in_loop::measure(flight, flight.planning.as_ref()?))),
-        pose_errors,
-    }
-}
-
-fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
-    let planned = Planned::new(scenario, plan);
-    let trajectories = || plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing);
-    let states = |value: fn(&scenarios::fixed_wing::State) -> f64| {
-        Spread::over(trajectories().map(|trajectory| trajectory.states.iter().map(value)))
-    };
-    let controls = |axis: usize, trim: f64| {
-        let magnitudes = |trajectory: &Trajectory| -> f64 {
-            trajectory.controls.iter().map(|control| (control.to_array()[axis] - trim).abs()).sum()
-        };
-        finite(trajectories().map(magnitudes).sum())
-    };
-    let (speed, altitude) = (states(|state| state.speed_mps), states(|state| state.z_m));
-    PlanMetrics {
-        flight_time_s: plan.flight_time_s().and_then(finite),
-        mean_speed_mps: speed.mean,
-        speed_std_mps: speed.standard_deviation,
-        altitude_std_m: altitude.standard_deviation,
-        sum_abs_n_x: controls(0, 0.0),
-        sum_abs_n_y: controls(1, 0.0),
-        sum_abs_n_z_minus_1: controls(2, 1.0),
-        at_nodes: SmallestDistances {
-            separation_m: verdict::separation_at_nodes(plan).and_then(|nearest| finite(nearest.lower_m)),
-            clearance_m: verdict::clearance_at_nodes(&scenario.world, plan).and_then(|nearest| finite(nearest.lower_m)),
-        },
-        between_nodes: planned.map_or_else(|_| SmallestDistances::default(), |it| distances(scenario, &it.motions)),
-    }
-}
-
-fn of_flight(scenario: &Scenario, flown: &Flown<'_>) -> FlightMetrics {
-    let vehicles = || flown.vehicles.iter();
-    let speed = Spread::over(vehicles().map(|vehicle| vehicle.judged.iter().map(airspeed_mps)));
-    let altitude = Spread::over(vehicles().map(|vehicle| vehicle.judged.iter().map(|sample| sample.position_m[2])));
-    let worst = |value: fn(&[Sample]) -> f64| {
-        let values: Option<Vec<f64>> = vehicles().map(|vehicle| finite(value(vehicle.tracked))).collect();
-        values?.into_iter().reduce(f64::max)
-    };
-    FlightMetrics {
-        flight_time_s: finite(verdict::flown_duration_s(flown)),
-        mean_speed_mps: speed.mean,
-        speed_std_mps: speed.standard_deviation,
-        altitude_std_m: altitude.standard_deviation,
-        tracking_max_m: worst(|samples| verdict::largest_tracking_error(samples).0),
-        tracking_rms_m: worst(verdict::root_mean_square_tracking_error),
-        saturation: worst(verdict::saturation),
-        distances: distances(scenario, &flown.motions),
-    }
-}
-
-fn distances(scenario: &Scenario, motions: &[Motion]) -> SmallestDistances {
-    let clearance_m = match scenario.family() {
-        Family::Multirotor => verdict::multirotor::closest(scenario, motions).map(|nearest| nearest.lower_m),
-        _ => verdict::closest_to_cylinders(motions, &scenario.world.cylinders).map(|nearest| nearest.lower_m),
-    };
-    SmallestDistances { separation_m: verdict::closest_vehicles(motions).map(|nearest| nearest.lower_m), clearance_m }
-}
-
-fn airspeed_mps(sample: &Sample) -> f64 {
-    sample.air_velocity_mps().iter().map(|component| component * component).sum::<f64>().sqrt()
+    Metrics { pose_errors, ..(families::of(scenario.family()).measure)(scenario, plan, flight) }
 }
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-/// Mean over the vehicles of each one's mean and standard deviation.
-struct Spread {
-    mean: Option<f64>,
-    standard_deviation: Option<f64>,
-}
-
-impl Spread {
-    fn over<V: Iterator<Item = f64> + Clone>(vehicles: impl Iterator<Item = V>) -> Self {
-        let (mut count, mut mean, mut standard_deviation) = (0.0, 0.0, 0.0);
-        for values in vehicles {
-            let length = values.clone().count() as f64;
-            let own_mean = values.clone().sum::<f64>() / length;
-            let variance = values.map(|value| (value - own_mean).powi(2)).sum::<f64>() / length;
-            count += 1.0;
-            mean += own_mean;
-            standard_deviation += variance.sqrt();
-        }
-        Self { mean: finite(mean / count), standard_deviation: finite(standard_deviation / count) }
-    }
 }

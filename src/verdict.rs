@@ -5,25 +5,24 @@
 mod arrival;
 mod bernstein;
 mod blocks;
-mod clearance;
+pub mod case;
 mod closest;
 mod compare;
 mod conditions;
-mod dynamics;
+mod evidence;
+pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
 mod integration;
 mod integrity;
 mod judge;
-mod limits;
 mod motion;
 pub mod multirotor;
 mod on_the_map;
 mod physics;
-mod planned;
 mod provenance;
-mod question;
+
 #[cfg(test)]
 mod random;
 mod rotors;
@@ -39,14 +38,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use arrival::duration_s as flown_duration_s;
-pub use clearance::at_nodes as clearance_at_nodes;
 pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
 pub use flown::{Flown, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
 pub use judge::{judge, judge_imported, judge_with};
 pub use motion::{Knot, Motion};
-pub use planned::Planned;
 pub use provenance::{Provenance, Reconstruction};
 pub use separation::at_nodes as separation_at_nodes;
 pub use tracking::{

@@ -1,7 +1,8 @@
 use rayon::prelude::*;
-use scenarios::Cylinder;
+use scenarios::{Cylinder, Scenario};
 
 use crate::verdict::Motion;
+use crate::verdict::multirotor::Clearances;
 
 /// The smallest distance at one instant, and between whom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +41,17 @@ pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f
             for (m, cylinder) in cylinders.iter().enumerate() {
                 nearest.consider(cylinder.signed_distance_m(position_m[0], position_m[1]), [*i, m]);
             }
+        }
+    })
+}
+
+/// Smallest distance in space from the surface of any multirotor to anything at all, every `step_s` from 0 s on. `who` holds
+/// the vehicle twice.
+pub fn clearance_in_space_over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<Nearest> {
+    let clearances = Clearances::new(scenario);
+    at_instants(motions, step_s, |present, nearest| {
+        for (i, position_m) in present.iter() {
+            nearest.consider(clearances.at(*i, nearest.t_s, *position_m).0, [*i, *i]);
         }
     })
 }

@@ -1,3 +1,5 @@
+//! Figures of a quadrotor with a slung load.
+
 use scenarios::slung_load::Cable;
 use scenarios::{Plan, Scenario};
 use schemars::JsonSchema;
@@ -5,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use sim::slung_load::{Body, Parts};
 use sim::{EventKind, Flight};
 
-use super::finite;
+use super::{Metrics, finite};
 use crate::verdict::slung_load::{Flown, Planned};
 use crate::verdict::{Flown as Tracked, largest_tracking_error, root_mean_square_tracking_error, saturation};
 
@@ -51,7 +53,11 @@ pub struct CableSwitch {
 }
 
 /// Measures a flyable plan and, if there is one, its flight.
-pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> SlungLoadMetrics {
+pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Metrics {
+    Metrics { slung_load: Some(slung_load(scenario, plan, flight)), ..Metrics::default() }
+}
+
+fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> SlungLoadMetrics {
     let mut metrics = SlungLoadMetrics { flight_time_s: plan.flight_time_s().and_then(finite), ..Default::default() };
     if let Ok(planned) = Planned::new(scenario, plan) {
         of_plan(scenario, &planned, &mut metrics);

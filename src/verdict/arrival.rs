@@ -4,17 +4,17 @@
 //! planned arrival to the end of the log. The simulator coasts beyond the plan's end, so that a late arrival can be
 //! seen; a vehicle that is closest at the very end of its log has not arrived.
 
-use scenarios::{Plan, Scenario};
+use scenarios::{CheckSpec, Plan, Scenario};
 
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::flown::{Flown, FlownVehicle};
 use crate::verdict::motion::Motion;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Largest distance from a goal to the last node.
-pub fn check_node_goals(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    goal_answer(Group::Nodes, scenario, plan, |plan| {
+pub fn check_node_goals(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    goal_answer(spec, scenario, plan, |plan| {
         let last = |index: usize| {
             let trajectory = &plan.trajectories[index];
             let last = trajectory.times_s().len().checked_sub(1)?;
@@ -25,20 +25,20 @@ pub fn check_node_goals(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check 
 }
 
 /// Largest distance from a goal to the end of the continuous plan.
-pub fn check_planned_goals(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    goal_answer(Group::Plan, scenario, motions, |motions| {
+pub fn check_planned_goals(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    goal_answer(spec, scenario, motions, |motions| {
         farthest_end(scenario, |index| motions[index].knots().last().map(|knot| (knot.position_m, knot.t_s)))
     })
 }
 
 /// Largest distance from a goal at the closest approach in flight.
-pub fn check_flown_goals(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    goal_answer(Group::Flight, scenario, flown, |flown| {
-        let mut farthest: Option<(f64, Measured)> = None;
+pub fn check_flown_goals(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    goal_answer(spec, scenario, flown, |flown| {
+        let mut farthest: Option<(f64, Measurement)> = None;
         for vehicle in &flown.vehicles {
             let approach = vehicle.approach.ok_or_else(|| never_near(vehicle))?;
             if farthest.as_ref().is_none_or(|(distance_m, _)| is_larger(approach.upper_m, *distance_m)) {
-                farthest = Some((approach.upper_m, Measured::approach(&approach).with(vehicle.name)));
+                farthest = Some((approach.upper_m, Measurement::approach(&approach).with(vehicle.name)));
             }
         }
         farthest.map(|(_, measured)| measured).ok_or_else(|| "there is no vehicle".to_owned())
@@ -46,8 +46,8 @@ pub fn check_flown_goals(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) ->
 }
 
 /// Difference between the earliest and the latest end of a trajectory.
-pub fn check_planned_arrival(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    arrival_answer(Group::Plan, scenario, plan, |plan| {
+pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    arrival_answer(spec, scenario, plan, |plan| {
         let ends = plan
             .trajectories
             .iter()
@@ -57,8 +57,8 @@ pub fn check_planned_arrival(scenario: &Scenario, plan: Evidence<'_, Plan>) -> C
 }
 
 /// Difference between the earliest and the latest arrival in flight.
-pub fn check_flown_arrival(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    arrival_answer(Group::Flight, scenario, flown, |flown| {
+pub fn check_flown_arrival(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    arrival_answer(spec, scenario, flown, |flown| {
         spread(flown.vehicles.iter().map(|vehicle| {
             let arrival_s = vehicle.arrival_s().ok_or_else(|| never_near(vehicle))?;
             Ok((arrival_s, vehicle.name))
@@ -67,21 +67,19 @@ pub fn check_flown_arrival(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) 
 }
 
 /// Time that the plan takes.
-pub fn check_planned_duration(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    let question = Question::new(Group::Plan, "duration", "s");
+pub fn check_planned_duration(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
     match plan.map(Plan::flight_time_s) {
-        Err(reason) => question.fail(reason),
-        Ok(None) => question.fail("the plan has no trajectory"),
-        Ok(Some(duration_s)) => question.at_most(Measured::value(duration_s), scenario.simulation.max_duration_s),
+        Err(reason) => spec.fail(reason),
+        Ok(None) => spec.fail("the plan has no trajectory"),
+        Ok(Some(duration_s)) => spec.at_most(Measurement::value(duration_s), scenario.simulation.max_duration_s),
     }
 }
 
 /// Time until the last vehicle has arrived; to the end of its log for one that does not arrive.
-pub fn check_flown_duration(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    let question = Question::new(Group::Flight, "duration", "s");
+pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
     match flown {
-        Err(reason) => question.fail(reason),
-        Ok(flown) => question.at_most(Measured::value(duration_s(flown)), scenario.simulation.max_duration_s),
+        Err(reason) => spec.fail(reason),
+        Ok(flown) => spec.at_most(Measurement::value(duration_s(flown)), scenario.simulation.max_duration_s),
     }
 }
 
@@ -91,37 +89,35 @@ pub fn duration_s(flown: &Flown<'_>) -> f64 {
 }
 
 fn goal_answer<T: ?Sized>(
-    group: Group,
+    spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Result<Measured, String>,
+    measure: impl Fn(&T) -> Result<Measurement, String>,
 ) -> Check {
-    let question = Question::new(group, "goal", "m");
     match evidence.map(measure) {
-        Err(reason) => question.fail(reason),
-        Ok(Err(reason)) => question.fail(reason),
-        Ok(Ok(measured)) => question.at_most(measured, scenario.limits().goal_m),
+        Err(reason) => spec.fail(reason),
+        Ok(Err(reason)) => spec.fail(reason),
+        Ok(Ok(measured)) => spec.at_most(measured, scenario.limits().goal_m),
     }
 }
 
 fn arrival_answer<T: ?Sized>(
-    group: Group,
+    spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Result<Measured, String>,
+    measure: impl Fn(&T) -> Result<Measurement, String>,
 ) -> Check {
-    let question = Question::new(group, "arrival", "s");
     if !scenario.fleet.simultaneous_arrival {
-        return question.skip("the vehicles may arrive at different times");
+        return spec.skip("the vehicles may arrive at different times");
     }
     match evidence.map(measure) {
-        Err(reason) => question.fail(reason),
-        Ok(Err(reason)) => question.fail(reason),
-        Ok(Ok(measured)) => question.at_most(measured, scenario.limits().arrival_spread_s),
+        Err(reason) => spec.fail(reason),
+        Ok(Err(reason)) => spec.fail(reason),
+        Ok(Ok(measured)) => spec.at_most(measured, scenario.limits().arrival_spread_s),
     }
 }
 
-fn farthest_end(scenario: &Scenario, end: impl Fn(usize) -> Option<([f64; 3], f64)>) -> Result<Measured, String> {
+fn farthest_end(scenario: &Scenario, end: impl Fn(usize) -> Option<([f64; 3], f64)>) -> Result<Measurement, String> {
     let mut farthest: Option<(f64, f64, &str)> = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let (position_m, t_s) = end(index).ok_or_else(|| format!("the trajectory of {} has no end", vehicle.name))?;
@@ -132,14 +128,14 @@ fn farthest_end(scenario: &Scenario, end: impl Fn(usize) -> Option<([f64; 3], f6
         }
     }
     let (distance_m, t_s, vehicle) = farthest.ok_or("there is no vehicle")?;
-    Ok(Measured::value(distance_m).at(t_s).with(vehicle))
+    Ok(Measurement::value(distance_m).at(t_s).with(vehicle))
 }
 
-fn spread<'a>(arrivals: impl Iterator<Item = Result<(f64, &'a str), String>>) -> Result<Measured, String> {
+fn spread<'a>(arrivals: impl Iterator<Item = Result<(f64, &'a str), String>>) -> Result<Measurement, String> {
     let arrivals: Vec<(f64, &str)> = arrivals.collect::<Result<_, _>>()?;
     let earliest = arrivals.iter().min_by(|a, b| a.0.total_cmp(&b.0)).ok_or("there is no vehicle")?;
     let latest = arrivals.iter().max_by(|a, b| a.0.total_cmp(&b.0)).ok_or("there is no vehicle")?;
-    Ok(Measured::value(latest.0 - earliest.0).at(latest.0).with(earliest.1).with(latest.1))
+    Ok(Measurement::value(latest.0 - earliest.0).at(latest.0).with(earliest.1).with(latest.1))
 }
 
 fn never_near(vehicle: &FlownVehicle<'_>) -> String {

@@ -4,14 +4,13 @@
 //! about its log is in order.
 
 use nalgebra::Vector3;
-use scenarios::{GustPulse, Gusts, Plan, Scenario, Wind};
+use scenarios::{CheckSpec, GustPulse, Gusts, Plan, Scenario, Wind};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
 use crate::verdict::integrity::none_of;
 use crate::verdict::multirotor::planning;
-use crate::verdict::question::{Group, Question};
 
 /// Air without gusts is known to this, m/s: what rounding leaves.
 const AIR_MPS: f64 = 1e-6;
@@ -29,8 +28,7 @@ const WILDEST_ESTIMATE: f64 = 6.0;
 /// loop is not.
 ///
 /// - `plan`: what was flown; of one who plans in the loop what was followed
-pub fn check(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
-    let question = Question::new(Group::Flight, "conditions", "vehicles");
+pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let odd = |log: &VehicleLog| {
         let empty = log.samples.is_empty().then(|| "the log is empty".to_owned());
         let defect = empty
@@ -40,7 +38,7 @@ pub fn check(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     };
     let defects = flight.vehicles.iter().filter_map(odd).chain(planning::defect(scenario, plan, flight));
     let defects: Vec<String> = defects.collect();
-    none_of(&question, defects.len(), &[], defects.first())
+    none_of(spec, defects.len(), &[], defects.first())
 }
 
 fn air_defect(wind: Option<&Wind>, log: &VehicleLog) -> Option<String> {

@@ -1,22 +1,22 @@
 //! Is the flight log whole, is everything in it a number, and did nobody crash?
 
-use scenarios::{Plan, Scenario, Vehicle};
+use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
 use sim::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::flown::Flown;
 use crate::verdict::flown_reference;
 use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
 use crate::verdict::multirotor::planning;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 use crate::verdict::touch;
 
 /// Longest distance between two samples, in steps of the simulator: what rounding leaves above 1.
 const LONGEST_GAP_STEPS: f64 = 1.001;
 
 /// Number of numbers in the log that are not finite.
-pub fn check_finite(flight: &Flight) -> Check {
+pub fn check_finite(spec: &CheckSpec, flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
     let amounts = flight.events.iter().filter_map(|event| amount(&event.kind));
     let planning = flight.planning.iter().flat_map(planning::numbers);
@@ -31,7 +31,7 @@ pub fn check_finite(flight: &Flight) -> Check {
         }
         count += here;
     }
-    none_of(&Question::new(Group::Flight, "finite", "numbers"), count, &odd, None)
+    none_of(spec, count, &odd, None)
 }
 
 /// Number of vehicles whose log is missing, misnamed, empty, with gaps, out of order in time, not from the vehicle's
@@ -39,7 +39,7 @@ pub fn check_finite(flight: &Flight) -> Check {
 /// off by as much as the tracking: a disturbed start is a matter for the tracker.
 ///
 /// - `plan`: one that is flyable
-pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
+pub fn check_complete(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let of_vehicle = |(index, vehicle): (usize, &Vehicle)| {
         let trajectory = &plan.trajectories[index];
         let planned_end_s = trajectory.end_s().unwrap_or(f64::NAN);
@@ -53,25 +53,24 @@ pub fn check_complete(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Chec
     let surplus = flight.vehicles.iter().skip(scenario.vehicles.len());
     let no_vehicle = surplus.map(|log| format!("{}: no such vehicle, or twice", log.vehicle));
     let defects: Vec<String> = scenario.vehicles.iter().enumerate().filter_map(of_vehicle).chain(no_vehicle).collect();
-    none_of(&Question::new(Group::Flight, "complete", "vehicles"), defects.len(), &[], defects.first())
+    none_of(spec, defects.len(), &[], defects.first())
 }
 
 /// Number of crashes. A flight that goes through something without a word of it in its log has crashed too.
 ///
 /// `flown`: the same flight, to look for oneself
-pub fn check_crash(scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flown<'_>>) -> Check {
-    let question = Question::new(Group::Flight, "crash", "crashes");
+pub fn check_crash(spec: &CheckSpec, scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flown<'_>>) -> Check {
     let mut crashes = flight.events.iter().filter_map(crash);
     let Some((t_s, concerned)) = crashes.next() else {
         let unlogged = flown.ok().and_then(|flown| touch::deepest(scenario, &flown.motions));
         return match unlogged {
-            None => question.at_most(Measured::value(0.0), 0.0),
-            Some(touch) => question.at_most(touch.because("they touch, although the log tells of no crash"), 0.0),
+            None => spec.at_most(Measurement::value(0.0), 0.0),
+            Some(touch) => spec.at_most(touch.with_reason("they touch, although the log tells of no crash"), 0.0),
         };
     };
     let count = 1 + crashes.count();
-    let measured = concerned.fold(Measured::value(count as f64).at(t_s), |measured, name| measured.with(name));
-    question.at_most(measured, 0.0)
+    let measured = concerned.fold(Measurement::value(count as f64).at(t_s), |measured, name| measured.with(name));
+    spec.at_most(measured, 0.0)
 }
 
 /// The number that an event tells of, if it tells of one.

@@ -100,11 +100,13 @@ fn log_distance_m(one: &VehicleLog, other: &VehicleLog) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::{Integration, Method};
-    use crate::verdict::question::{Group, Measured, Question};
+    use scenarios::check_spec;
+
+    use crate::verdict::evidence::{Decide, Measurement};
     use crate::verdict::{Check, Status};
 
     fn clearance(value_m: f64) -> Check {
-        Question::new(Group::Flight, "clearance", "m").at_least(Measured::value(value_m), 0.0)
+        check_spec("flight.clearance").unwrap().at_least(Measurement::value(value_m), 0.0)
     }
 
     fn doubted(disagreement_m: Option<f64>, mut check: Check) -> Status {
@@ -126,11 +128,11 @@ mod tests {
 
     #[test]
     fn what_was_not_flown_or_is_not_a_distance_is_not_doubted() {
-        let planned = Question::new(Group::Plan, "clearance", "m").at_least(Measured::value(1e-9), 0.0);
+        let planned = check_spec("plan.clearance").unwrap().at_least(Measurement::value(1e-9), 0.0);
         assert_eq!(doubted(Some(1.0), planned), Status::Pass);
-        let late = Question::new(Group::Flight, "duration", "s").at_most(Measured::value(1.0), 1.0);
+        let late = check_spec("flight.duration").unwrap().at_most(Measurement::value(1.0), 1.0);
         assert_eq!(doubted(Some(1.0), late), Status::Pass);
-        let failed = Question::new(Group::Flight, "separation", "m").fail("no log");
+        let failed = check_spec("flight.separation").unwrap().fail("no log");
         assert_eq!(doubted(Some(1.0), failed), Status::Fail);
     }
 }

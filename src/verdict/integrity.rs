@@ -3,11 +3,11 @@
 use std::cmp::Ordering;
 
 use scenarios::slung_load::{Model, State};
-use scenarios::{Plan, Scenario, Trajectory, Vehicle};
+use scenarios::{CheckSpec, Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
-use crate::verdict::question::{Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Measurement};
 
 /// A first node may differ from the vehicle's start by this much, which is what a file's decimals leave, m and m/s.
 const START_TOLERANCE: f64 = 0.01;
@@ -35,10 +35,9 @@ pub fn is_flyable(scenario: &Scenario, plan: &Plan) -> Result<(), String> {
 }
 
 /// Number of numbers in the plan that are not finite, in its trajectories and in what it says of itself.
-pub fn check_plan_finite(plan: &Plan) -> Check {
-    let question = Question::new(Group::Plan, "finite", "numbers");
+pub fn check_plan_finite(spec: &CheckSpec, plan: &Plan) -> Check {
     if plan.trajectories.is_empty() {
-        return question.fail("there is no plan");
+        return spec.fail("there is no plan");
     }
     let mut count = plan_numbers(plan).filter(|value| !value.is_finite()).count();
     let mut odd = Vec::new();
@@ -49,23 +48,23 @@ pub fn check_plan_finite(plan: &Plan) -> Check {
         }
         count += here;
     }
-    none_of(&question, count, &odd, None)
+    none_of(spec, count, &odd, None)
 }
 
 /// Number of vehicles whose trajectory is missing, misnamed, too short, of unequal lengths, not forward in time, or not
 /// from the vehicle's start; and of trajectories without a vehicle.
-pub fn check_plan_complete(scenario: &Scenario, plan: &Plan) -> Check {
+pub fn check_plan_complete(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> Check {
     let defects = trajectory_defects(scenario, plan);
-    none_of(&Question::new(Group::Plan, "complete", "vehicles"), defects.len(), &[], defects.first())
+    none_of(spec, defects.len(), &[], defects.first())
 }
 
 /// Passes if `count` is 0.
-pub fn none_of(question: &Question, count: usize, between: &[&str], reason: Option<&String>) -> Check {
-    let mut measured = between.iter().fold(Measured::value(count as f64), |measured, name| measured.with(name));
+pub fn none_of(spec: &CheckSpec, count: usize, between: &[&str], reason: Option<&String>) -> Check {
+    let mut measured = between.iter().fold(Measurement::value(count as f64), |measured, name| measured.with(name));
     if let Some(reason) = reason {
-        measured = measured.because(reason);
+        measured = measured.with_reason(reason);
     }
-    question.at_most(measured, 0.0)
+    spec.at_most(measured, 0.0)
 }
 
 /// What is wrong with each vehicle's trajectory, in words, one entry for each that is not in order.

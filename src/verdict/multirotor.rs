@@ -6,98 +6,54 @@ mod physics;
 pub mod planning;
 mod rest;
 
-use scenarios::{Plan, Scenario};
-use sim::Flight;
+use scenarios::{CheckSpec, Family, Plan};
 
-pub use clearance::{Closest, closest, over_time as clearance_over_time};
+pub use clearance::{Clearances, Closest, closest};
 
-use self::clearance::check as check_clearance;
+use crate::verdict::case::Case;
+use crate::verdict::evidence::{Decide, Evidence};
 use crate::verdict::motion::{Knot, Motion};
-use crate::verdict::question::{Evidence, Group, Question};
-use crate::verdict::{Check, Flown, arrival, integrity, separation, tracking};
+use crate::verdict::{Check, arrival, separation};
 
-/// Why nothing is asked of a plan that came into being during the flight.
-const IN_THE_LOOP: &str = "planned in the loop: before the flight there was no plan";
+/// Why a plan of positions and velocities has no defects of its own.
+const NO_DYNAMICS: &str =
+    "positions and velocities name the accelerations that lead from one to the next: see control_limits";
+/// Why a plan is not flown open loop.
+const NO_ROLLOUT: &str = "without feedback a double integrator drifts, whatever its plan";
 
-/// What is asked of nodes and plan, with the units.
-const NODES: [(&str, &str); 5] =
-    [("separation", "m"), ("clearance", "m"), ("state_limits", "-"), ("control_limits", "-"), ("goal", "m")];
-const PLAN: [(&str, &str); 12] = [
-    ("finite", "numbers"),
-    ("complete", "vehicles"),
-    ("separation", "m"),
-    ("clearance", "m"),
-    ("state_limits", "-"),
-    ("control_limits", "-"),
-    ("dynamics", "m"),
-    ("rollout", "m"),
-    ("goal", "m"),
-    ("rest", "m/s"),
-    ("arrival", "s"),
-    ("duration", "s"),
-];
-
-/// The groups `nodes` and `plan`.
-///
-/// - `in_the_loop`: was the plan made during the flight? Then neither is asked
-pub fn plan_checks(scenario: &Scenario, plan: &Plan, flyable: Evidence<'_, ()>, in_the_loop: bool) -> Vec<Check> {
-    if in_the_loop {
-        let skipped = |group: Group, (name, unit): (&'static str, &'static str)| {
-            Question::new(group, name, unit).skip(IN_THE_LOOP)
-        };
-        let nodes = NODES.into_iter().map(|asked| skipped(Group::Nodes, asked));
-        return nodes.chain(PLAN.into_iter().map(|asked| skipped(Group::Plan, asked))).collect();
-    }
-    let nodes = flyable.map(|()| plan);
-    let planned = flyable.map_err(str::to_owned).and_then(|()| planned_motions(plan));
-    let motions = planned.as_deref().map_err(String::as_str);
-    let node_motions = motions;
-    let no_dynamics =
-        "positions and velocities name the accelerations that lead from one to the next: see control_limits";
-    let skip = |name, unit, why: &str| Question::new(Group::Plan, name, unit).skip(why);
-    vec![
-        separation::check_nodes(scenario, nodes),
-        clearance::check_nodes(scenario, node_motions),
-        limits::check_node_states(scenario, node_motions),
-        limits::check_accelerations(Group::Nodes, scenario, motions),
-        arrival::check_node_goals(scenario, nodes),
-        integrity::check_plan_finite(plan),
-        integrity::check_plan_complete(scenario, plan),
-        separation::check(Group::Plan, scenario, motions),
-        check_clearance(Group::Plan, scenario, motions),
-        limits::check_planned_states(scenario, motions),
-        limits::check_accelerations(Group::Plan, scenario, motions),
-        skip("dynamics", "m", no_dynamics),
-        skip("rollout", "m", "without feedback a double integrator drifts, whatever its plan"),
-        arrival::check_planned_goals(scenario, motions),
-        rest::check_planned(scenario, motions),
-        arrival::check_planned_arrival(scenario, nodes),
-        arrival::check_planned_duration(scenario, nodes),
-    ]
+/// Every check of multirotors.
+pub fn checks(case: &Case<'_>) -> Vec<Check> {
+    let planned = case.flyable().map_err(str::to_owned).and_then(planned_motions);
+    let planned = planned.as_deref().map_err(String::as_str);
+    case.checks(Family::Multirotor, |spec| check(spec, case, planned))
 }
 
-/// The group `flight`, what concerns the log itself aside.
-pub fn flight_checks(
-    scenario: &Scenario,
-    plan: &Plan,
-    flight: Evidence<'_, Flight>,
-    flown: Evidence<'_, Flown<'_>>,
-) -> Vec<Check> {
-    let motions = flown.map(|flown| flown.motions.as_slice());
-    vec![
-        separation::check(Group::Flight, scenario, motions),
-        check_clearance(Group::Flight, scenario, motions),
-        limits::check_flown_states(scenario, flown),
-        limits::check_flown_controls(scenario, flown),
-        physics::check(scenario, flight),
-        arrival::check_flown_goals(scenario, flown),
-        rest::check_flown(scenario, plan, flown),
-        arrival::check_flown_arrival(scenario, flown),
-        arrival::check_flown_duration(scenario, flown),
-        tracking::check_root_mean_square(scenario, flown),
-        tracking::check_largest(scenario, flown),
-        tracking::check_saturation(scenario, flown),
-    ]
+fn check(spec: &CheckSpec, case: &Case<'_>, planned: Evidence<'_, [Motion]>) -> Check {
+    let (scenario, flyable, flown) = (case.scenario, case.flyable(), case.flown());
+    let flown_motions = flown.map(|flown| flown.motions.as_slice());
+    match spec.name {
+        "nodes.separation" => separation::check_nodes(spec, scenario, flyable),
+        "nodes.clearance" => clearance::check_nodes(spec, scenario, planned),
+        "nodes.state_limits" => limits::check_node_states(spec, scenario, planned),
+        "nodes.control_limits" | "plan.control_limits" => limits::check_accelerations(spec, scenario, planned),
+        "nodes.goal" => arrival::check_node_goals(spec, scenario, flyable),
+        "plan.separation" => separation::check(spec, scenario, planned),
+        "plan.clearance" => clearance::check(spec, scenario, planned),
+        "plan.state_limits" => limits::check_planned_states(spec, scenario, planned),
+        "plan.dynamics" => spec.skip(NO_DYNAMICS),
+        "plan.rollout" => spec.skip(NO_ROLLOUT),
+        "plan.goal" => arrival::check_planned_goals(spec, scenario, planned),
+        "plan.rest" => rest::check_planned(spec, scenario, planned),
+        "flight.crash" => case.crash(spec, flown),
+        "flight.separation" => separation::check(spec, scenario, flown_motions),
+        "flight.clearance" => clearance::check(spec, scenario, flown_motions),
+        "flight.state_limits" => limits::check_flown_states(spec, scenario, flown),
+        "flight.control_limits" => limits::check_flown_controls(spec, scenario, flown),
+        "flight.dynamics" => physics::check(spec, scenario, case.flight()),
+        "flight.goal" => arrival::check_flown_goals(spec, scenario, flown),
+        "flight.rest" => rest::check_flown(spec, scenario, case.plan, flown),
+        _ => case.shared(spec),
+    }
 }
 
 /// The plan as continuous motions: its own cubics between its nodes.

@@ -111,7 +111,9 @@ fn skip(check: &mut Check, reason: &str) {
 #[cfg(test)]
 mod tests {
     use super::{Provenance, Reconstruction};
-    use crate::verdict::question::{Group, Measured, Question};
+    use scenarios::check_spec;
+
+    use crate::verdict::evidence::{Decide, Measurement};
     use crate::verdict::{Check, Status};
 
     fn given(velocities: bool) -> Provenance {
@@ -127,7 +129,7 @@ mod tests {
     }
 
     fn separation(value_m: f64) -> Check {
-        Question::new(Group::Plan, "separation", "m").at_least(Measured::value(value_m), 100.0)
+        check_spec("plan.separation").unwrap().at_least(Measurement::value(value_m), 100.0)
     }
 
     #[test]
@@ -151,12 +153,12 @@ mod tests {
 
     #[test]
     fn what_was_not_given_is_not_asked() {
-        let node_check = |name| Question::new(Group::Nodes, name, "-").at_most(Measured::value(0.0), 1.0);
-        let rollout = Question::new(Group::Plan, "rollout", "m").at_most(Measured::value(0.0), 1.0);
+        let node_check = |name| check_spec(name).unwrap().at_most(Measurement::value(0.0), 1.0);
+        let rollout = check_spec("plan.rollout").unwrap().at_most(Measurement::value(0.0), 1.0);
         for (velocities, check, status) in [
-            (false, node_check("control_limits"), Status::Skip),
-            (false, node_check("state_limits"), Status::Pass),
-            (true, node_check("state_limits"), Status::Skip),
+            (false, node_check("nodes.control_limits"), Status::Skip),
+            (false, node_check("nodes.state_limits"), Status::Pass),
+            (true, node_check("nodes.state_limits"), Status::Skip),
             (false, rollout, Status::Skip),
         ] {
             let answer = qualified(&given(velocities), check);
@@ -166,7 +168,7 @@ mod tests {
 
     #[test]
     fn what_was_flown_is_not_doubted() {
-        let flown = Question::new(Group::Flight, "separation", "m").at_least(Measured::value(100.1), 100.0);
+        let flown = check_spec("flight.separation").unwrap().at_least(Measurement::value(100.1), 100.0);
         assert_eq!(qualified(&given(true), flown).status, Status::Pass);
     }
 }

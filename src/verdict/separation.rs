@@ -3,48 +3,46 @@
 //! The smallest horizontal distance between any two vehicles, over continuous time, against the fleet's rule. A vehicle
 //! counts until it has arrived: beyond the end of its trajectory it no longer exists for the others.
 
-use scenarios::{Plan, Scenario};
+use scenarios::{CheckSpec, Plan, Scenario};
 
 use crate::verdict::Check;
 use crate::verdict::closest::{self, Approach};
 use crate::verdict::compare::{exceeds, is_smaller};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Nodes of two vehicles are compared when their times agree within this, s.
 const SAME_TIME_S: f64 = 1e-6;
 
 /// Over continuous time.
-pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    let question = Question::new(group, "separation", "m");
-    answer(&question, scenario, motions, closest::between_vehicles)
+pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(spec, scenario, motions, closest::between_vehicles)
 }
 
 /// At the planner's own nodes, which all vehicles must share: otherwise it is skipped.
-pub fn check_nodes(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    let question = Question::new(Group::Nodes, "separation", "m");
+pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
     match plan.ok().and_then(odd_node_time) {
-        Some(reason) if scenario.fleet.separation_m.is_some() => question.skip(reason),
-        _ => answer(&question, scenario, plan, at_nodes),
+        Some(reason) if scenario.fleet.separation_m.is_some() => spec.skip(reason),
+        _ => answer(spec, scenario, plan, at_nodes),
     }
 }
 
 fn answer<T: ?Sized>(
-    question: &Question,
+    spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
     measure: impl Fn(&T) -> Option<Approach>,
 ) -> Check {
-    let Some(limit_m) = scenario.fleet.separation_m else { return question.skip("the fleet has no rule for it") };
+    let Some(limit_m) = scenario.fleet.separation_m else { return spec.skip("the fleet has no rule for it") };
     if scenario.vehicles.len() < 2 {
-        return question.skip("there is one vehicle only");
+        return spec.skip("there is one vehicle only");
     }
     match evidence.map(measure) {
-        Err(reason) => question.fail(reason),
-        Ok(None) => question.fail("no two vehicles could be compared at any time"),
+        Err(reason) => spec.fail(reason),
+        Ok(None) => spec.fail("no two vehicles could be compared at any time"),
         Ok(Some(nearest)) => {
             let [i, j] = nearest.who.map(|index| scenario.vehicles[index].name.as_str());
-            question.at_least(Measured::approach(&nearest).with(i).with(j), limit_m)
+            spec.at_least(Measurement::approach(&nearest).with(i).with(j), limit_m)
         }
     }
 }

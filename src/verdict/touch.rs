@@ -4,8 +4,8 @@ use scenarios::{Family, Scenario};
 use sim::multirotor::Surroundings;
 
 use crate::verdict::closest::{self, Approach};
+use crate::verdict::evidence::Measurement;
 use crate::verdict::motion::Motion;
-use crate::verdict::question::Measured;
 
 /// Overlaps below this are none, m: the simulator looks along straight lines between its steps, the judge along curves.
 const GRAZE_M: f64 = 1e-3;
@@ -13,11 +13,11 @@ const GRAZE_M: f64 = 1e-3;
 /// One crash, where airframes overlap each other or an obstacle most; `None` if nothing touches.
 ///
 /// - `motions`: one per vehicle, of their centres
-pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
+pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
     let radii_m: Vec<f64> = scenario.vehicles.iter().map(|vehicle| scenario.model(vehicle).body_radius_m()).collect();
     let name = |vehicle: usize| scenario.vehicles[vehicle].name.as_str();
     let is_touch = |approach: &Approach| approach.upper_m < -GRAZE_M;
-    let crash = |approach: &Approach| Measured::value(1.0).at(approach.at_s).with(name(approach.who[0]));
+    let crash = |approach: &Approach| Measurement::value(1.0).at(approach.at_s).with(name(approach.who[0]));
     if let Some(touch) = closest::overlap(motions, &radii_m).filter(is_touch) {
         return Some(crash(&touch).with(name(touch.who[1])));
     }
@@ -35,14 +35,14 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
 
 /// The first sample of a multirotor inside an obstacle, one that moves included. What lies between two samples is a matter
 /// for the clearance.
-fn sampled(scenario: &Scenario, motions: &[Motion]) -> Option<Measured> {
+fn sampled(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
     let surroundings = Surroundings::of(&scenario.world);
     scenario.vehicles.iter().zip(motions).find_map(|(vehicle, motion)| {
         let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
         motion.knots().iter().find_map(|knot| {
             let distance_m = |obstacle| surroundings.distance_m(obstacle, knot.t_s, knot.position_m) - radius_m;
             let entered = (0..surroundings.count()).find(|obstacle| distance_m(*obstacle) < -GRAZE_M)?;
-            Some(Measured::value(1.0).at(knot.t_s).with(&vehicle.name).with(surroundings.name(entered)))
+            Some(Measurement::value(1.0).at(knot.t_s).with(&vehicle.name).with(surroundings.name(entered)))
         })
     })
 }

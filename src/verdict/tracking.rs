@@ -4,30 +4,27 @@
 //! tracker's command was cut off at the vehicle's limits, both while the vehicle's own trajectory lasts. The root mean
 //! square is over time, of the worst vehicle.
 
-use scenarios::Scenario;
+use scenarios::{CheckSpec, Scenario};
 use sim::Sample;
 
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::flown::Flown;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Largest distance from the plan.
-pub fn check_largest(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    let question = Question::new(Group::Flight, "tracking_max", "m");
-    answer(&question, flown, largest, scenario.limits().tracking_max_m)
+pub fn check_largest(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(spec, flown, largest, scenario.limits().tracking_max_m)
 }
 
 /// Largest root mean square of the distance from the plan.
-pub fn check_root_mean_square(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    let question = Question::new(Group::Flight, "tracking_rms", "m");
-    answer(&question, flown, |samples| (root_mean_square(samples), None), scenario.limits().tracking_rms_m)
+pub fn check_root_mean_square(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(spec, flown, |samples| (root_mean_square(samples), None), scenario.limits().tracking_rms_m)
 }
 
 /// Largest share of the steps in which the command was cut off, in [0, 1].
-pub fn check_saturation(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    let question = Question::new(Group::Flight, "saturation", "-");
-    answer(&question, flown, |samples| (saturation(samples), None), scenario.limits().saturation)
+pub fn check_saturation(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(spec, flown, |samples| (saturation(samples), None), scenario.limits().saturation)
 }
 
 /// Largest distance from the plan, m, and when, s. NaN is larger than anything.
@@ -57,13 +54,13 @@ fn squared_error_m2(sample: &Sample) -> f64 {
 }
 
 fn answer(
-    question: &Question,
+    spec: &CheckSpec,
     flown: Evidence<'_, Flown<'_>>,
     measure: impl Fn(&[Sample]) -> (f64, Option<f64>),
     limit: f64,
 ) -> Check {
     let flown = match flown {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(flown) => flown,
     };
     let mut worst: Option<(f64, Option<f64>, &str)> = None;
@@ -74,10 +71,10 @@ fn answer(
         }
     }
     match worst {
-        None => question.fail("there is no vehicle"),
+        None => spec.fail("there is no vehicle"),
         Some((value, at_s, vehicle)) => {
-            let measured = Measured::value(value).with(vehicle);
-            question.at_most(at_s.map_or(measured.clone(), |at_s| measured.at(at_s)), limit)
+            let measured = Measurement::value(value).with(vehicle);
+            spec.at_most(at_s.map_or(measured.clone(), |at_s| measured.at(at_s)), limit)
         }
     }
 }

@@ -1,10 +1,14 @@
 //! Of all limited quantities, the one that uses most of its range.
 
-use scenarios::Range;
+use scenarios::{CheckSpec, Range};
 
 use crate::number_format::given_range;
 use crate::verdict::Check;
-use crate::verdict::question::{Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
+
+/// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
+/// The limit that the check reports includes it. The physical limits know no such mercy.
+pub const SOLVER_TOLERANCE: f64 = 1e-6;
 
 /// Something limited to a range.
 #[derive(Clone, Copy)]
@@ -54,13 +58,32 @@ impl<'a> Worst<'a> {
 
 impl Found<'_> {
     /// The check of the value found.
-    pub fn into_check(self, group: Group, name: &'static str) -> Check {
+    pub fn into_check(self, spec: &CheckSpec) -> Check {
         let Self { vehicle, quantity: Quantity { name: what, unit, range }, value, t_s } = self;
         let limit = if value - range.min < range.max - value { range.min } else { range.max };
         let margin = range.margin(value);
         let place = if margin >= 0.0 { "inside" } else { "outside" };
         let remark = format!("{what} {place} {}", given_range(range, unit));
-        let measured = Measured::value(value).at(t_s).with(vehicle).because(remark);
-        Question::new(group, name, unit).inside(measured, limit, margin)
+        let measured = Measurement::value(value).at(t_s).with(vehicle).with_reason(remark);
+        Check { unit: unit.to_owned(), ..spec.inside(measured, limit, margin) }
+    }
+}
+
+/// The check of whichever limited quantity uses most of its range; `look` considers them all.
+pub fn check_limits<'a, T: ?Sized>(
+    spec: &CheckSpec,
+    evidence: Evidence<'_, T>,
+    look: impl Fn(&T, &mut Worst<'a>),
+) -> Check {
+    let mut worst = Worst::new();
+    match evidence {
+        Err(reason) => spec.fail(reason),
+        Ok(evidence) => {
+            look(evidence, &mut worst);
+            match worst.found {
+                None => spec.fail("there was nothing to hold against a limit"),
+                Some(found) => found.into_check(spec),
+            }
+        }
     }
 }

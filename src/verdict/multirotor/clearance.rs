@@ -6,15 +6,14 @@
 //! coordinate. A flight is known at samples only: what it may [deviate](Motion::deviation_m) from the curve through them
 //! makes a vehicle larger in the search, and widens the bounds.
 
-use scenarios::Scenario;
+use scenarios::{CheckSpec, Scenario};
 use sim::multirotor::Surroundings;
 
-use crate::metrics::Nearest;
 use crate::verdict::Check;
 use crate::verdict::compare::is_smaller;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::on_the_map::extremes_m;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-4;
@@ -39,21 +38,21 @@ pub struct Closest {
 }
 
 /// Over continuous time; the limit is 0.
-pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(group, scenario, motions.map(|motions| closest(scenario, motions)))
+pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(spec, scenario, motions.map(|motions| closest(scenario, motions)))
 }
 
 /// At the planner's own nodes.
-pub fn check_nodes(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    let surroundings = Surroundings::of(&scenario.world);
+pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    let clearances = Clearances::new(scenario);
     answer(
-        Group::Nodes,
+        spec,
         scenario,
         motions.map(|motions| {
             let mut best = None;
             for (vehicle, motion) in motions.iter().enumerate() {
                 for knot in motion.knots() {
-                    let (distance_m, obstacle) = at(scenario, &surroundings, vehicle, knot.t_s, knot.position_m);
+                    let (distance_m, obstacle) = clearances.at(vehicle, knot.t_s, knot.position_m);
                     consider(&mut best, distance_m, || Closest {
                         lower_m: distance_m,
                         upper_m: distance_m,
@@ -97,29 +96,13 @@ pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
     })
 }
 
-/// Of the vehicle that is closest to anything, how close, at instants `step_s` apart, for a plot.
-pub fn over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<Nearest> {
-    let surroundings = Surroundings::of(&scenario.world);
-    let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
-    let steps = (end_s / step_s) as usize;
-    let instant = |step: usize| {
-        let t_s = step as f64 * step_s;
-        let placed = motions.iter().enumerate().filter_map(|(i, motion)| Some((i, motion.position_m(t_s)?)));
-        let distances = placed.map(|(i, position_m)| (at(scenario, &surroundings, i, t_s, position_m).0, i));
-        let (distance_m, vehicle) = distances.reduce(|a, b| if is_smaller(b.0, a.0) { b } else { a })?;
-        Some(Nearest { t_s, distance_m, who: [vehicle, vehicle] })
-    };
-    (0..=steps).filter_map(instant).collect()
-}
-
-fn answer(group: Group, scenario: &Scenario, closest: Result<Option<Closest>, &str>) -> Check {
-    let question = Question::new(group, "clearance", "m");
+fn answer(spec: &CheckSpec, scenario: &Scenario, closest: Result<Option<Closest>, &str>) -> Check {
     match closest {
-        Err(reason) => question.fail(reason),
-        Ok(None) => question.fail("no vehicle could be compared with an obstacle at any time"),
+        Err(reason) => spec.fail(reason),
+        Ok(None) => spec.fail("no vehicle could be compared with an obstacle at any time"),
         Ok(Some(closest)) => {
-            let measured = Measured::bounds(closest.lower_m, closest.upper_m).at(closest.at_s);
-            question.at_least(measured.with(&scenario.vehicles[closest.vehicle].name).with(&closest.obstacle), 0.0)
+            let measured = Measurement::bounds(closest.lower_m, closest.upper_m).at(closest.at_s);
+            spec.at_least(measured.with(&scenario.vehicles[closest.vehicle].name).with(&closest.obstacle), 0.0)
         }
     }
 }
@@ -130,24 +113,32 @@ fn consider(best: &mut Option<Closest>, distance_m: f64, found: impl FnOnce() ->
     }
 }
 
-/// Distance of a vehicle at a place from what is nearest, and what that is.
-fn at<'s>(
-    scenario: &Scenario,
-    surroundings: &'s Surroundings,
-    vehicle: usize,
-    t_s: f64,
-    position_m: [f64; 3],
-) -> (f64, &'s str) {
-    let radius_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m;
-    let margins = scenario.world.map.axes().into_iter().zip(position_m).map(|(range, value)| range.margin(value));
-    let mut nearest = (margins.fold(f64::INFINITY, f64::min), FRAME);
-    for obstacle in 0..surroundings.count() {
-        let distance_m = surroundings.distance_m(obstacle, t_s, position_m);
-        if is_smaller(distance_m, nearest.0) {
-            nearest = (distance_m, surroundings.name(obstacle));
-        }
+/// Distances at single instants.
+pub struct Clearances<'a> {
+    scenario: &'a Scenario,
+    surroundings: Surroundings,
+}
+
+impl<'a> Clearances<'a> {
+    /// In the world of a scenario.
+    pub fn new(scenario: &'a Scenario) -> Self {
+        Self { scenario, surroundings: Surroundings::of(&scenario.world) }
     }
-    (nearest.0 - radius_m, nearest.1)
+
+    /// Distance of the surface of a vehicle at a place from what is nearest, m, and the name of that.
+    pub fn at(&self, vehicle: usize, t_s: f64, position_m: [f64; 3]) -> (f64, &str) {
+        let Self { scenario, surroundings } = self;
+        let radius_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m;
+        let margins = scenario.world.map.axes().into_iter().zip(position_m).map(|(range, value)| range.margin(value));
+        let mut nearest = (margins.fold(f64::INFINITY, f64::min), FRAME);
+        for obstacle in 0..surroundings.count() {
+            let distance_m = surroundings.distance_m(obstacle, t_s, position_m);
+            if is_smaller(distance_m, nearest.0) {
+                nearest = (distance_m, surroundings.name(obstacle));
+            }
+        }
+        (nearest.0 - radius_m, nearest.1)
+    }
 }
 
 fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<Closest>) {

@@ -6,16 +6,15 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use scenarios::multirotor::{Airframe, Limits, Model, Plant};
-use scenarios::{Range, Scenario};
+use scenarios::{CheckSpec, Group, Range, Scenario};
 use sim::{Actuation, Commanded, Sample};
 
 use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
-use crate::verdict::limits::{SOLVER_TOLERANCE, answer};
+use crate::verdict::evidence::Evidence;
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::on_the_map::OnTheMap;
-use crate::verdict::question::{Evidence, Group};
-use crate::verdict::worst::{Quantity, Worst};
+use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 use crate::verdict::{Check, Flown};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
@@ -24,8 +23,8 @@ const ROTATION_TOLERANCE: f64 = 1e-6;
 const RESOLUTION_M2PS2: f64 = 1e-9;
 
 /// States at the nodes against the planning limits.
-pub fn check_node_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(Group::Nodes, "state_limits", motions, |motions, worst| {
+pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    check_limits(spec, motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             for knot in motion.knots() {
                 limited.map.place(worst, knot.position_m, knot.t_s);
@@ -36,8 +35,8 @@ pub fn check_node_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(Group::Plan, "state_limits", motions, |motions, worst| {
+pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    check_limits(spec, motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             limited.map.path(worst, motion);
             for segment in motion.segments().filter(Segment::lasts) {
@@ -49,8 +48,8 @@ pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>
 }
 
 /// Flown states against the physical limits.
-pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    answer(Group::Flight, "state_limits", flown, |flown, worst| {
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    check_limits(spec, flown, |flown, worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
             limited.map.path(worst, motion);
@@ -64,10 +63,10 @@ pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -
 
 /// Planned accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
 /// limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
-pub fn check_accelerations(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(group, "control_limits", motions, |motions, worst| {
+pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    check_limits(spec, motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
-            let limits = if group == Group::Nodes { limited.promised } else { *limited.physical() };
+            let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
             for segment in motion.segments().filter(Segment::lasts) {
                 for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
                     limited.acceleration(worst, norm(value), limits.acceleration_mps2, t_s);
@@ -78,8 +77,8 @@ pub fn check_accelerations(group: Group, scenario: &Scenario, motions: Evidence<
 }
 
 /// What acted in flight against the physical limits.
-pub fn check_flown_controls(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    answer(Group::Flight, "control_limits", flown, |flown, worst| {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    check_limits(spec, flown, |flown, worst| {
         for (limited, vehicle) in limited_vehicles(scenario).zip(&flown.vehicles) {
             for sample in vehicle.judged {
                 limited.control(worst, sample);

@@ -3,21 +3,21 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::multirotor::Model;
-use scenarios::{GRAVITY_MPS2, Scenario};
+use scenarios::{CheckSpec, GRAVITY_MPS2, Scenario};
 use sim::multirotor::{Lift, Replay};
 use sim::{Actuation, Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
+use crate::verdict::evidence::Evidence;
 use crate::verdict::physics::{self, Defect, difference_m};
-use crate::verdict::question::Evidence;
 use crate::verdict::rotors::Rotors;
 
 /// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
 const WINDOW_S: f64 = 0.2;
 
 /// Largest distance between a log and where its forces lead, restarted at the beginning of every window.
-pub fn check(scenario: &Scenario, flight: Evidence<'_, Flight>) -> Check {
-    physics::answer(scenario, flight, physics::LIMIT_M, |vehicle, log| {
+pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: Evidence<'_, Flight>) -> Check {
+    physics::answer(spec, scenario, flight, physics::LIMIT_M, |vehicle, log| {
         Ok(largest_defect(scenario.multirotor_model(vehicle), scenario.simulation.mismatch.mass_ratio, log))
     })
 }

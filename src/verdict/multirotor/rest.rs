@@ -1,23 +1,23 @@
 //! Do the vehicles come to rest where they end?
 
-use scenarios::{Plan, Scenario};
+use scenarios::{CheckSpec, Plan, Scenario};
 
 use crate::verdict::compare::is_larger;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 use crate::verdict::{Check, Flown};
 
 /// Speed at the end of the plan.
-pub fn check_planned(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(Group::Plan, scenario, motions, |motions, index| {
+pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(spec, scenario, motions, |motions, index| {
         let last = motions.get(index)?.knots().last()?;
         Some((last.velocity_mps, last.t_s))
     })
 }
 
 /// Speed in flight when the plan ends.
-pub fn check_flown(scenario: &Scenario, plan: &Plan, flown: Evidence<'_, Flown<'_>>) -> Check {
-    answer(Group::Flight, scenario, flown, |flown, index| {
+pub fn check_flown(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flown: Evidence<'_, Flown<'_>>) -> Check {
+    answer(spec, scenario, flown, |flown, index| {
         let end_s = plan.trajectories.get(index)?.end_s()?;
         // A thousandth of a millisecond is rounding, not time.
         let sample = flown.vehicles.get(index)?.judged.iter().find(|sample| sample.t_s >= end_s - 1e-6)?;
@@ -26,20 +26,19 @@ pub fn check_flown(scenario: &Scenario, plan: &Plan, flown: Evidence<'_, Flown<'
 }
 
 fn answer<T: ?Sized>(
-    group: Group,
+    spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
     end: impl Fn(&T, usize) -> Option<([f64; 3], f64)>,
 ) -> Check {
-    let question = Question::new(group, "rest", "m/s");
     let evidence = match evidence {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(evidence) => evidence,
     };
     let mut fastest: Option<(f64, f64, &str)> = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let Some((velocity_mps, t_s)) = end(evidence, index) else {
-            return question.fail(format!("the motion of {} ends before its plan does", vehicle.name));
+            return spec.fail(format!("the motion of {} ends before its plan does", vehicle.name));
         };
         let speed_mps = velocity_mps.iter().map(|component| component * component).sum::<f64>().sqrt();
         if fastest.is_none_or(|(worst_mps, ..)| is_larger(speed_mps, worst_mps)) {
@@ -47,9 +46,9 @@ fn answer<T: ?Sized>(
         }
     }
     match fastest {
-        None => question.fail("there is no vehicle"),
+        None => spec.fail("there is no vehicle"),
         Some((speed_mps, t_s, vehicle)) => {
-            question.at_most(Measured::value(speed_mps).at(t_s).with(vehicle), scenario.limits().rest_mps)
+            spec.at_most(Measurement::value(speed_mps).at(t_s).with(vehicle), scenario.limits().rest_mps)
         }
     }
 }

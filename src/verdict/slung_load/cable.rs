@@ -7,7 +7,8 @@ use sim::{EventKind, Flight, VehicleLog};
 use super::planned::Planned;
 use crate::verdict::Check;
 use crate::verdict::compare::{exceeds, is_larger, is_smaller};
-use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use scenarios::CheckSpec;
 
 /// Tension is judged by its mean over this time, s: a stiff cable has no finite peak at an impact, but an impulse.
 pub const TENSION_WINDOW_S: f64 = 0.02;
@@ -16,13 +17,12 @@ const PUSH_N: f64 = 1e-3;
 
 /// The plan's tension: never below 0 in a taut cable, which cannot push, and its mean, impacts included, below what the
 /// cable bears.
-pub fn check_planned_tension(model: &Model, vehicle: &str, planned: Evidence<'_, Planned>) -> Check {
-    let question = Question::new(Group::Plan, "tension", "N");
+pub fn check_planned_tension(spec: &CheckSpec, model: &Model, vehicle: &str, planned: Evidence<'_, Planned>) -> Check {
     let planned = match planned {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,
     };
-    if let Some(push) = push(&question, vehicle, planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n))) {
+    if let Some(push) = push(spec, vehicle, planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n))) {
         return push;
     }
     let mut impulses: Vec<(f64, f64)> = planned.impacts.clone();
@@ -31,38 +31,37 @@ pub fn check_planned_tension(model: &Model, vehicle: &str, planned: Evidence<'_,
         let mean_n = f64::midpoint(pair[0].tension_n, pair[1].tension_n);
         (pair[1].t_s, mean_n * (pair[1].t_s - pair[0].t_s))
     }));
-    highest_mean(&question, vehicle, impulses, model.limits.tension_n)
+    highest_mean(spec, vehicle, impulses, model.limits.tension_n)
 }
 
 /// The flown tension: never below 0 either, and its mean below what the cable bears.
-pub fn check_flown_tension(model: &Model, log: Evidence<'_, VehicleLog>) -> Check {
-    let question = Question::new(Group::Flight, "tension", "N");
+pub fn check_flown_tension(spec: &CheckSpec, model: &Model, log: Evidence<'_, VehicleLog>) -> Check {
     match log {
-        Err(reason) => question.fail(reason),
+        Err(reason) => spec.fail(reason),
         Ok(log) => {
             let tensions = log.samples.iter().zip(&log.loads).map(|(sample, load)| (sample.t_s, load.tension_n));
-            if let Some(push) = push(&question, &log.vehicle, tensions) {
+            if let Some(push) = push(spec, &log.vehicle, tensions) {
                 return push;
             }
             let steps = log.samples.windows(2).zip(log.loads.iter().skip(1));
             let impulses = steps.map(|(pair, load)| (pair[1].t_s, load.tension_n * (pair[1].t_s - pair[0].t_s)));
-            highest_mean(&question, &log.vehicle, impulses.collect(), model.limits.tension_n)
+            highest_mean(spec, &log.vehicle, impulses.collect(), model.limits.tension_n)
         }
     }
 }
 
 /// The failed check of a cable that would have to push, by tensions, N, at their times, s; `None` if it never does.
-fn push(question: &Question, vehicle: &str, tensions: impl Iterator<Item = (f64, f64)>) -> Option<Check> {
+fn push(spec: &CheckSpec, vehicle: &str, tensions: impl Iterator<Item = (f64, f64)>) -> Option<Check> {
     let (at_s, lowest_n) = tensions.reduce(|a, b| if is_smaller(b.1, a.1) { b } else { a })?;
     if !exceeds(-PUSH_N, lowest_n) {
         return None;
     }
-    let measured = Measured::value(lowest_n).at(at_s).with(vehicle);
-    Some(question.at_least(measured.because("a cable that is taut would have to push"), -PUSH_N))
+    let measured = Measurement::value(lowest_n).at(at_s).with(vehicle);
+    Some(spec.at_least(measured.with_reason("a cable that is taut would have to push"), -PUSH_N))
 }
 
 /// The highest mean over the window, of impulses, N s, and the times until which they came, s.
-fn highest_mean(question: &Question, vehicle: &str, mut impulses: Vec<(f64, f64)>, limit_n: f64) -> Check {
+fn highest_mean(spec: &CheckSpec, vehicle: &str, mut impulses: Vec<(f64, f64)>, limit_n: f64) -> Check {
     impulses.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut highest: Option<(f64, f64)> = None;
     let mut first = 0;
@@ -76,22 +75,22 @@ fn highest_mean(question: &Question, vehicle: &str, mut impulses: Vec<(f64, f64)
         }
     }
     match highest {
-        None => question.fail("there is no motion"),
-        Some((mean_n, at_s)) => question.at_most(Measured::value(mean_n).at(at_s).with(vehicle), limit_n),
+        None => spec.fail("there is no motion"),
+        Some((mean_n, at_s)) => spec.at_most(Measurement::value(mean_n).at(at_s).with(vehicle), limit_n),
     }
 }
 
 /// Largest difference between the cable's length and what the plan says of it: a taut one has its full length, a slack one
 /// is not longer.
 pub fn check_planned_cable(
+    spec: &CheckSpec,
     model: &Model,
     trajectory: Evidence<'_, Trajectory>,
     planned: Evidence<'_, Planned>,
     limit_m: f64,
 ) -> Check {
-    let question = Question::new(Group::Plan, "slack", "m");
     let (trajectory, planned) = match trajectory.and_then(|trajectory| Ok((trajectory, planned?))) {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(both) => both,
     };
     let taut = trajectory.states.iter().enumerate().map(|(node, state)| {
@@ -102,23 +101,27 @@ pub fn check_planned_cable(
     let slack =
         planned.knots.iter().map(|knot| (knot.t_s, (knot.body.cable_m().norm() - model.cable_length_m).max(0.0)));
     match taut.chain(slack).reduce(|worst, next| if is_larger(next.1, worst.1) { next } else { worst }) {
-        None => question.fail("the plan has no node"),
+        None => spec.fail("the plan has no node"),
         Some((at_s, beyond_m)) => {
-            question.at_most(Measured::value(beyond_m).at(at_s).with(&trajectory.vehicle), limit_m)
+            spec.at_most(Measurement::value(beyond_m).at(at_s).with(&trajectory.vehicle), limit_m)
         }
     }
 }
 
 /// Largest difference between the instants at which the planned and the flown cable become taut or slack. Phases shorter
 /// than 10 ms do not count; one that has no counterpart fails.
-pub fn check_flown_cable(trajectory: Evidence<'_, Trajectory>, flight: Evidence<'_, Flight>, limit_s: f64) -> Check {
-    let question = Question::new(Group::Flight, "slack", "s");
+pub fn check_flown_cable(
+    spec: &CheckSpec,
+    trajectory: Evidence<'_, Trajectory>,
+    flight: Evidence<'_, Flight>,
+    limit_s: f64,
+) -> Check {
     let (trajectory, flight) = match trajectory.and_then(|trajectory| Ok((trajectory, flight?))) {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(both) => both,
     };
     if let Some(contradiction) = flight.vehicles.iter().find_map(contradiction) {
-        return question.fail(contradiction);
+        return spec.fail(contradiction);
     }
     let planned = planned_switches(trajectory);
     let flown: Vec<(f64, Cable)> =
@@ -126,13 +129,13 @@ pub fn check_flown_cable(trajectory: Evidence<'_, Trajectory>, flight: Evidence<
     let kinds = |switches: &[(f64, Cable)]| switches.iter().map(|(_, cable)| *cable).collect::<Vec<_>>();
     if kinds(&planned) != kinds(&flown) {
         let reason = format!("planned: {}; flown: {}", in_words(&planned), in_words(&flown));
-        return question.fail(reason);
+        return spec.fail(reason);
     }
     let differences =
         planned.iter().zip(&flown).map(|((planned_s, _), (flown_s, _))| (*planned_s, (planned_s - flown_s).abs()));
     match differences.reduce(|worst, next| if is_larger(next.1, worst.1) { next } else { worst }) {
-        None => question.at_most(Measured::value(0.0).with(&trajectory.vehicle), limit_s),
-        Some((at_s, late_s)) => question.at_most(Measured::value(late_s).at(at_s).with(&trajectory.vehicle), limit_s),
+        None => spec.at_most(Measurement::value(0.0).with(&trajectory.vehicle), limit_s),
+        Some((at_s, late_s)) => spec.at_most(Measurement::value(late_s).at(at_s).with(&trajectory.vehicle), limit_s),
     }
 }
 

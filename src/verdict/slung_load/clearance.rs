@@ -7,51 +7,55 @@ use super::closest::Closest;
 use super::course::Course;
 use super::surroundings::{Shape, Surroundings};
 use crate::verdict::Check;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use scenarios::CheckSpec;
 
 impl Surroundings<'_> {
     /// Body, cable and load against every obstacle, the body against the ground as well; the limit is 0.
-    pub fn check(&self, group: Group, course: Evidence<'_, Course>) -> Check {
+    pub fn check(&self, spec: &CheckSpec, course: Evidence<'_, Course>) -> Check {
         let shapes = self.parts();
-        self.answer(group, "clearance", &shapes, course.map(|course| self.closest(course, &shapes)), 0.0)
+        self.answer(spec, &shapes, course.map(|course| self.closest(course, &shapes)), 0.0)
     }
 
     /// The same at the planner's own nodes.
-    pub fn check_nodes(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
+    pub fn check_nodes(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
         let shapes = self.parts();
         let closest = trajectory.map(|trajectory| self.closest_node(trajectory, &shapes));
-        self.answer(Group::Nodes, "clearance", &shapes, closest, 0.0)
+        self.answer(spec, &shapes, closest, 0.0)
     }
 
     /// The envelope circle against every obstacle, if the scenario asks for it.
-    pub fn check_envelope(&self, group: Group, course: Evidence<'_, Course>, limit_m: Option<f64>) -> Check {
+    pub fn check_envelope(&self, spec: &CheckSpec, course: Evidence<'_, Course>, limit_m: Option<f64>) -> Check {
         let shapes = self.envelopes();
         let closest = course.map(|course| self.closest(course, &shapes));
-        limit_m.map_or_else(|| no_envelope(group), |limit_m| self.answer(group, "envelope", &shapes, closest, limit_m))
+        limit_m.map_or_else(|| no_envelope(spec), |limit_m| self.answer(spec, &shapes, closest, limit_m))
     }
 
     /// The same at the planner's own nodes.
-    pub fn check_envelope_nodes(&self, trajectory: Evidence<'_, Trajectory>, limit_m: Option<f64>) -> Check {
-        let (group, shapes) = (Group::Nodes, self.envelopes());
+    pub fn check_envelope_nodes(
+        &self,
+        spec: &CheckSpec,
+        trajectory: Evidence<'_, Trajectory>,
+        limit_m: Option<f64>,
+    ) -> Check {
+        let shapes = self.envelopes();
         let closest = trajectory.map(|trajectory| self.closest_node(trajectory, &shapes));
-        limit_m.map_or_else(|| no_envelope(group), |limit_m| self.answer(group, "envelope", &shapes, closest, limit_m))
+        limit_m.map_or_else(|| no_envelope(spec), |limit_m| self.answer(spec, &shapes, closest, limit_m))
     }
 
     fn answer(
         &self,
-        group: Group,
-        name: &'static str,
+        spec: &CheckSpec,
         shapes: &[Shape],
         closest: Result<Option<Closest>, &str>,
         limit_m: f64,
     ) -> Check {
-        let question = Question::new(group, name, "m");
         if shapes.is_empty() {
-            return question.skip("there are no obstacles");
+            return spec.skip("there are no obstacles");
         }
         match closest {
-            Err(reason) => question.fail(reason),
-            Ok(None) => question.fail("there was no time at which the vehicle could be compared with an obstacle"),
+            Err(reason) => spec.fail(reason),
+            Ok(None) => spec.fail("there was no time at which the vehicle could be compared with an obstacle"),
             Ok(Some(closest)) => {
                 let (what, with) = match closest.shape {
                     Shape::Part(part, obstacle) => (part.name(), self.obstacles[obstacle].name.as_str()),
@@ -59,14 +63,14 @@ impl Surroundings<'_> {
                     Shape::AboveGround => (Part::Body.name(), GROUND),
                 };
                 let upper_m = closest.upper_m + 2.0 * closest.deviation_m;
-                let measured = Measured::bounds(closest.lower_m, upper_m).at(closest.at_s);
-                let measured = measured.with(self.vehicle).with(with).because(format!("it is the {what}"));
-                question.at_least(measured, limit_m)
+                let measured = Measurement::bounds(closest.lower_m, upper_m).at(closest.at_s);
+                let measured = measured.with(self.vehicle).with(with).with_reason(format!("it is the {what}"));
+                spec.at_least(measured, limit_m)
             }
         }
     }
 }
 
-fn no_envelope(group: Group) -> Check {
-    Question::new(group, "envelope", "m").skip("the scenario asks for the true shapes only")
+fn no_envelope(spec: &CheckSpec) -> Check {
+    spec.skip("the scenario asks for the true shapes only")
 }

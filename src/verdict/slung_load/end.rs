@@ -1,13 +1,13 @@
 //! Do quadrotor and load reach their goal, and come to rest there?
 
 use scenarios::slung_load::{State, Trajectory};
-use scenarios::{Scenario, Vehicle};
+use scenarios::{CheckSpec, Scenario, Vehicle};
 use sim::slung_load::Body;
 
 use super::Flown;
 use super::planned::Planned;
 use crate::verdict::Check;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 
 /// A vehicle and where its motion should end.
 pub struct End<'a> {
@@ -30,9 +30,9 @@ impl<'a> End<'a> {
     }
 
     /// Distance of the last node from the goal, of quadrotor or load, whichever is larger.
-    pub fn check_node_goal(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
+    pub fn check_node_goal(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
         self.goal(
-            Group::Nodes,
+            spec,
             trajectory.map(|trajectory| {
                 let last = trajectory.states.len().checked_sub(1)?;
                 Some((Body::from(&trajectory.states[last]), trajectory.times_s[last]))
@@ -41,58 +41,59 @@ impl<'a> End<'a> {
     }
 
     /// The same at the end of the continuous plan.
-    pub fn check_planned_goal(&self, planned: Evidence<'_, Planned>) -> Check {
-        self.goal(Group::Plan, planned.map(planned_end))
+    pub fn check_planned_goal(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+        self.goal(spec, planned.map(planned_end))
     }
 
     /// The same in flight, when the plan ends.
-    pub fn check_flown_goal(&self, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
-        self.goal(Group::Flight, flown.map(|flown| flown_end(flown, end_s)))
+    pub fn check_flown_goal(&self, spec: &CheckSpec, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
+        self.goal(spec, flown.map(|flown| flown_end(flown, end_s)))
     }
 
     /// Speed at the end of the continuous plan, relative to the goal's.
-    pub fn check_planned_rest(&self, planned: Evidence<'_, Planned>) -> Check {
-        self.rest(Group::Plan, planned.map(planned_end))
+    pub fn check_planned_rest(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+        self.rest(spec, planned.map(planned_end))
     }
 
     /// The same in flight, when the plan ends.
-    pub fn check_flown_rest(&self, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
-        self.rest(Group::Flight, flown.map(|flown| flown_end(flown, end_s)))
+    pub fn check_flown_rest(&self, spec: &CheckSpec, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
+        self.rest(spec, flown.map(|flown| flown_end(flown, end_s)))
     }
 
-    fn goal(&self, group: Group, end: Result<Option<(Body, f64)>, &str>) -> Check {
+    fn goal(&self, spec: &CheckSpec, end: Result<Option<(Body, f64)>, &str>) -> Check {
         let distance_m = |body: &Body| {
             [body.position_m - self.goal.position_m, body.load_position_m - self.goal.load_position_m]
                 .map(|difference| difference.norm())
         };
-        self.answer(&Question::new(group, "goal", "m"), end, distance_m, self.goal_m)
+        self.answer(spec, end, distance_m, self.goal_m)
     }
 
-    fn rest(&self, group: Group, end: Result<Option<(Body, f64)>, &str>) -> Check {
+    fn rest(&self, spec: &CheckSpec, end: Result<Option<(Body, f64)>, &str>) -> Check {
         let speed_mps = |body: &Body| {
             [body.velocity_mps - self.goal.velocity_mps, body.load_velocity_mps - self.goal.load_velocity_mps]
                 .map(|difference| difference.norm())
         };
-        self.answer(&Question::new(group, "rest", "m/s"), end, speed_mps, self.rest_mps)
+        self.answer(spec, end, speed_mps, self.rest_mps)
     }
 
     fn answer(
         &self,
-        question: &Question,
+        spec: &CheckSpec,
         end: Result<Option<(Body, f64)>, &str>,
         measure: impl Fn(&Body) -> [f64; 2],
         limit: f64,
     ) -> Check {
         match end {
-            Err(reason) => question.fail(reason),
-            Ok(None) => question.fail("the motion ends before the plan does"),
+            Err(reason) => spec.fail(reason),
+            Ok(None) => spec.fail("the motion ends before the plan does"),
             Ok(Some((body, t_s))) => {
                 let [quadrotor, load] = measure(&body);
                 let (value, who) = if quadrotor >= load { (quadrotor, "quadrotor") } else { (load, "load") };
                 // Of two numbers of which one is none, none is the larger.
                 let value = if quadrotor.is_nan() { quadrotor } else { value };
-                let measured = Measured::value(value).at(t_s).with(self.vehicle).because(format!("it is the {who}"));
-                question.at_most(measured, limit)
+                let measured =
+                    Measurement::value(value).at(t_s).with(self.vehicle).with_reason(format!("it is the {who}"));
+                spec.at_most(measured, limit)
             }
         }
     }

@@ -6,14 +6,14 @@
 use std::collections::BinaryHeap;
 
 use scenarios::slung_load::Trajectory;
-use scenarios::{Gate, Scenario, Vehicle};
+use scenarios::{CheckSpec, Gate, Scenario, Vehicle};
 use sim::slung_load::Body;
 
 use super::course::Course;
 use super::span::Span;
 use crate::verdict::Check;
 use crate::verdict::compare::{is_larger, is_smaller};
-use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-6;
@@ -43,37 +43,42 @@ impl<'a> Gates<'a> {
     }
 
     /// At the planner's own nodes.
-    pub fn check_nodes(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
-        self.answer(Group::Nodes, trajectory, deepest_node)
+    pub fn check_nodes(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
+        self.answer(spec, trajectory, deepest_node)
     }
 
     /// Over continuous time.
-    pub fn check(&self, group: Group, course: Evidence<'_, Course>) -> Check {
-        self.answer(group, course, deepest)
+    pub fn check(&self, spec: &CheckSpec, course: Evidence<'_, Course>) -> Check {
+        self.answer(spec, course, deepest)
     }
 
     /// The gate in which they are least deep decides.
-    fn answer<T>(&self, group: Group, evidence: Evidence<'_, T>, deepest: fn(&Gate, &T) -> Option<Deepest>) -> Check {
-        let question = Question::new(group, "gates", "m");
+    fn answer<T>(
+        &self,
+        spec: &CheckSpec,
+        evidence: Evidence<'_, T>,
+        deepest: fn(&Gate, &T) -> Option<Deepest>,
+    ) -> Check {
         if self.gates.is_empty() {
-            return question.skip("there are no gates");
+            return spec.skip("there are no gates");
         }
         let evidence = match evidence {
-            Err(reason) => return question.fail(reason),
+            Err(reason) => return spec.fail(reason),
             Ok(evidence) => evidence,
         };
         let mut worst: Option<(Deepest, &str)> = None;
         for gate in self.gates {
             let Some(deepest) = deepest(gate, evidence) else {
-                return question.fail(format!("there was no time at which gate {} could have been passed", gate.name));
+                return spec.fail(format!("there was no time at which gate {} could have been passed", gate.name));
             };
             if worst.is_none_or(|(worst, _)| is_smaller(deepest.lower_m, worst.lower_m)) {
                 worst = Some((deepest, &gate.name));
             }
         }
         let (deepest, gate) = worst.expect("a gate");
-        let measured = Measured::bounds(deepest.lower_m, deepest.upper_m + 2.0 * deepest.deviation_m).at(deepest.at_s);
-        question.at_least(measured.with(self.vehicle).with(gate), 0.0)
+        let measured =
+            Measurement::bounds(deepest.lower_m, deepest.upper_m + 2.0 * deepest.deviation_m).at(deepest.at_s);
+        spec.at_least(measured.with(self.vehicle).with(gate), 0.0)
     }
 }
 

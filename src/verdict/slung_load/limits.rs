@@ -7,16 +7,15 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::slung_load::{Limits, Trajectory};
-use scenarios::{Range, Scenario, Vehicle};
+use scenarios::{CheckSpec, Range, Scenario, Vehicle};
 use sim::slung_load::Body;
 use sim::{Actuation, VehicleLog};
 
 use super::planned::Planned;
 use crate::verdict::Check;
-use crate::verdict::limits::{SOLVER_TOLERANCE, answer};
+use crate::verdict::evidence::Evidence;
 use crate::verdict::on_the_map::OnTheMap;
-use crate::verdict::question::{Evidence, Group};
-use crate::verdict::worst::{Quantity, Worst};
+use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 
 /// A vehicle and what it has to stay inside.
 pub struct Limited<'a> {
@@ -49,8 +48,8 @@ impl<'a> Limited<'a> {
     }
 
     /// States at the planner's nodes against the planning limits.
-    pub fn check_node_states(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
-        answer(Group::Nodes, "state_limits", trajectory, |trajectory, worst| {
+    pub fn check_node_states(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
+        check_limits(spec, trajectory, |trajectory, worst| {
             for node in trajectory.planner_nodes() {
                 let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
                 for position_m in [state.position_m, state.load_position_m] {
@@ -63,8 +62,8 @@ impl<'a> Limited<'a> {
     }
 
     /// States of the continuous plan against the physical limits.
-    pub fn check_planned_states(&self, planned: Evidence<'_, Planned>) -> Check {
-        answer(Group::Plan, "state_limits", planned, |planned, worst| {
+    pub fn check_planned_states(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+        check_limits(spec, planned, |planned, worst| {
             for motion in &planned.motions {
                 self.map.path(worst, motion);
             }
@@ -75,8 +74,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Flown states against the physical limits.
-    pub fn check_flown_states(&self, flown: Evidence<'_, super::Flown<'_>>) -> Check {
-        answer(Group::Flight, "state_limits", flown, |flown, worst| {
+    pub fn check_flown_states(&self, spec: &CheckSpec, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+        check_limits(spec, flown, |flown, worst| {
             for motion in &flown.motions {
                 self.map.path(worst, motion);
             }
@@ -88,8 +87,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Thrusts at the planner's nodes against the planning limits.
-    pub fn check_node_thrusts(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
-        answer(Group::Nodes, "control_limits", trajectory, |trajectory, worst| {
+    pub fn check_node_thrusts(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
+        check_limits(spec, trajectory, |trajectory, worst| {
             for node in trajectory.planner_nodes() {
                 let thrust_n = trajectory.controls[node].thrust_n;
                 self.thrusts(worst, thrust_n, self.promised.thrust_n, trajectory.times_s[node]);
@@ -98,8 +97,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Thrusts of the continuous plan against the physical limits.
-    pub fn check_planned_thrusts(&self, trajectory: Evidence<'_, Trajectory>) -> Check {
-        answer(Group::Plan, "control_limits", trajectory, |trajectory, worst| {
+    pub fn check_planned_thrusts(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
+        check_limits(spec, trajectory, |trajectory, worst| {
             for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
                 self.thrusts(worst, control.thrust_n, self.physical.thrust_n, t_s);
             }
@@ -107,8 +106,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Thrusts that acted in flight against the physical limits.
-    pub fn check_flown_thrusts(&self, log: Evidence<'_, VehicleLog>) -> Check {
-        answer(Group::Flight, "control_limits", log, |log, worst| {
+    pub fn check_flown_thrusts(&self, spec: &CheckSpec, log: Evidence<'_, VehicleLog>) -> Check {
+        check_limits(spec, log, |log, worst| {
             for sample in &log.samples {
                 let thrust_n = match &sample.actuation {
                     Actuation::Thrusts(thrusts) => thrusts.control.thrust_n,
@@ -121,8 +120,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Cable angles of the continuous plan against the physical limits.
-    pub fn check_planned_swing(&self, planned: Evidence<'_, Planned>) -> Check {
-        answer(Group::Plan, "swing", planned, |planned, worst| {
+    pub fn check_planned_swing(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+        check_limits(spec, planned, |planned, worst| {
             for knot in &planned.knots {
                 self.cable(worst, &knot.body, self.physical.cable_deg, knot.t_s);
             }
@@ -130,8 +129,8 @@ impl<'a> Limited<'a> {
     }
 
     /// Cable angles in flight against the physical limits.
-    pub fn check_flown_swing(&self, flown: Evidence<'_, super::Flown<'_>>) -> Check {
-        answer(Group::Flight, "swing", flown, |flown, worst| {
+    pub fn check_flown_swing(&self, spec: &CheckSpec, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+        check_limits(spec, flown, |flown, worst| {
             for instant in flown.course.instants() {
                 self.cable(worst, &instant.body, self.physical.cable_deg, instant.t_s);
             }

@@ -4,13 +4,15 @@
 //! cable: it is never longer than it is, never pushes, and pulls only at its full length.
 
 use scenarios::slung_load::Trajectory;
-use scenarios::{Scenario, Vehicle};
+use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
 use sim::slung_load::{Acting, Body, Plant, Replay};
-use sim::{Actuation, VehicleLog};
+use sim::{Actuation, Flight, VehicleLog};
 
 use super::flown::instant;
+use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
-use crate::verdict::physics::{Defect, difference_m};
+use crate::verdict::evidence::Evidence;
+use crate::verdict::physics::{self, Defect, LIMIT_M, difference_m};
 use crate::verdict::rotors::Rotors;
 
 /// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
@@ -19,6 +21,13 @@ const WINDOW_S: f64 = 0.1;
 const NEAR_GROUND_M: f64 = 1e-3;
 /// Tension below which a cable does not pull, N: rounding.
 const PULL_N: f64 = 1e-6;
+
+/// Largest distance between the log and where its thrusts, tension and air lead, restarted at the beginning of every window.
+pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Check {
+    physics::answer(spec, scenario, flight, LIMIT_M, |vehicle, log| {
+        Physics::of(scenario, vehicle, plan.trajectories[0].slung_load()).largest_defect(log)
+    })
+}
 
 /// A vehicle, and what its log is held against.
 pub struct Physics<'a> {

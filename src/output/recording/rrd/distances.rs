@@ -2,8 +2,8 @@
 
 use scenarios::Family;
 
-use crate::metrics::{Nearest, clearance_over_time, separation_over_time};
-use crate::verdict::{Flown, is_flyable, multirotor};
+use crate::metrics::{Nearest, clearance_in_space_over_time, clearance_over_time, separation_over_time};
+use crate::verdict::{Flown, is_flyable};
 
 use super::Run;
 use super::decimation::Curve;
@@ -29,7 +29,7 @@ impl Distances {
         };
         let cylinders = &run.scenario.world.cylinders;
         let clearance = match run.scenario.family() {
-            Family::Multirotor => multirotor::clearance_over_time(run.scenario, &flown.motions, STEP_S),
+            Family::Multirotor => clearance_in_space_over_time(run.scenario, &flown.motions, STEP_S),
             _ => clearance_over_time(&flown.motions, cylinders, STEP_S),
         };
         let separation = match run.scenario.fleet.separation_m {

@@ -3,19 +3,18 @@
 //! The planned controls go through the simulator's nonlinear equations, never through the planner's model: once
 //! restarted at every node, once open loop over the whole horizon.
 
-use scenarios::{Plan, Scenario};
+use scenarios::{CheckSpec, Plan, Scenario};
 
+use super::planned::Planned;
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
-use crate::verdict::planned::Planned;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 
 /// Largest distance between the end of an interval and the next node: the larger of |Δp| and |Δv| times the interval's
 /// length, m.
-pub fn check_defects(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
-    let question = Question::new(Group::Plan, "dynamics", "m");
+pub fn check_defects(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
     let planned = match planned {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,
     };
     let defects = plan.trajectories.iter().zip(&planned.ends).flat_map(|(trajectory, ends)| {
@@ -30,27 +29,26 @@ pub fn check_defects(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Pla
             (defect_m, t_s, trajectory.vehicle())
         })
     });
-    largest(&question, defects, scenario.limits().dynamics_m)
+    largest(spec, defects, scenario.limits().dynamics_m)
 }
 
 /// Largest distance between the last node and where the controls lead, open loop from the start, m.
-pub fn check_rollout(scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
-    let question = Question::new(Group::Plan, "rollout", "m");
+pub fn check_rollout(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
     let planned = match planned {
-        Err(reason) => return question.fail(reason),
+        Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,
     };
     let errors = plan.trajectories.iter().zip(&planned.open_loop_ends).filter_map(|(trajectory, end)| {
         let last = trajectory.times_s().len().checked_sub(1)?;
         Some((distance(end.position_m, trajectory.nodes().position_m(last)), end.t_s, trajectory.vehicle()))
     });
-    largest(&question, errors, scenario.limits().rollout_m)
+    largest(spec, errors, scenario.limits().rollout_m)
 }
 
-fn largest<'a>(question: &Question, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> Check {
+fn largest<'a>(spec: &CheckSpec, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> Check {
     match errors.reduce(|worst, error| if is_larger(error.0, worst.0) { error } else { worst }) {
-        None => question.fail("the plan has no interval"),
-        Some((error_m, t_s, vehicle)) => question.at_most(Measured::value(error_m).at(t_s).with(vehicle), limit_m),
+        None => spec.fail("the plan has no interval"),
+        Some((error_m, t_s, vehicle)) => spec.at_most(Measurement::value(error_m).at(t_s).with(vehicle), limit_m),
     }
 }
 

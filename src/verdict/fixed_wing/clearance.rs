@@ -3,41 +3,40 @@
 //! The smallest signed horizontal distance from any vehicle to any cylinder's surface, over continuous time. The limit
 //! is 0: a threat's radius is the distance to keep.
 
-use scenarios::{Plan, Scenario, World};
+use scenarios::{CheckSpec, Plan, Scenario, World};
 
 use crate::verdict::Check;
 use crate::verdict::closest::{self, Approach};
 use crate::verdict::compare::is_smaller;
+use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
-use crate::verdict::question::{Evidence, Group, Measured, Question};
 
 /// Over continuous time.
-pub fn check(group: Group, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    answer(group, scenario, motions, |motions| closest::to_cylinders(motions, &scenario.world.cylinders))
+pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    answer(spec, scenario, motions, |motions| closest::to_cylinders(motions, &scenario.world.cylinders))
 }
 
 /// At the planner's own nodes.
-pub fn check_nodes(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    answer(Group::Nodes, scenario, plan, |plan| at_nodes(&scenario.world, plan))
+pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    answer(spec, scenario, plan, |plan| at_nodes(&scenario.world, plan))
 }
 
 fn answer<T: ?Sized>(
-    group: Group,
+    spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
     measure: impl Fn(&T) -> Option<Approach>,
 ) -> Check {
-    let question = Question::new(group, "clearance", "m");
     if scenario.world.cylinders.is_empty() {
-        return question.skip("there are no obstacles");
+        return spec.skip("there are no obstacles");
     }
     match evidence.map(measure) {
-        Err(reason) => question.fail(reason),
-        Ok(None) => question.fail("no vehicle could be compared with an obstacle at any time"),
+        Err(reason) => spec.fail(reason),
+        Ok(None) => spec.fail("no vehicle could be compared with an obstacle at any time"),
         Ok(Some(nearest)) => {
             let [vehicle, obstacle] = nearest.who;
             let names = [&scenario.vehicles[vehicle].name, &scenario.world.cylinders[obstacle].name];
-            question.at_least(Measured::approach(&nearest).with(names[0]).with(names[1]), 0.0)
+            spec.at_least(Measurement::approach(&nearest).with(names[0]).with(names[1]), 0.0)
         }
     }
 }

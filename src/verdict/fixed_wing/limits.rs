@@ -9,22 +9,18 @@
 //! between nodes, so that they are extreme at the nodes; in flight the controls that acted are judged.
 
 use scenarios::fixed_wing::{Control, Limits, Model};
-use scenarios::{Plan, Range, Scenario};
+use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
 use crate::verdict::Check;
+use crate::verdict::evidence::Evidence;
 use crate::verdict::flown::Flown;
 use crate::verdict::motion::Motion;
 use crate::verdict::on_the_map::OnTheMap;
-use crate::verdict::question::{Evidence, Group, Question};
-use crate::verdict::worst::{Quantity, Worst};
-
-/// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
-/// The limit that the check reports includes it. The physical limits know no such mercy.
-pub(super) const SOLVER_TOLERANCE: f64 = 1e-6;
+use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 
 /// States at the nodes against the planning limits.
-pub fn check_node_states(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    state_answer(Group::Nodes, plan, |plan, worst| {
+pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    check_limits(spec, plan, |plan, worst| {
         for (limited, trajectory) in limited_vehicles(scenario, promised).zip(&plan.trajectories) {
             let trajectory = trajectory.fixed_wing();
             for (state, &t_s) in trajectory.states.iter().zip(&trajectory.times_s) {
@@ -36,8 +32,8 @@ pub fn check_node_states(scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    state_answer(Group::Plan, motions, |motions, worst| {
+pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
+    check_limits(spec, motions, |motions, worst| {
         for (limited, motion) in limited_vehicles(scenario, physical).zip(motions) {
             limited.path(worst, motion);
             for knot in motion.knots() {
@@ -48,8 +44,8 @@ pub fn check_planned_states(scenario: &Scenario, motions: Evidence<'_, [Motion]>
 }
 
 /// Flown states against the physical limits.
-pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    state_answer(Group::Flight, flown, |flown, worst| {
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    check_limits(spec, flown, |flown, worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);
@@ -61,9 +57,9 @@ pub fn check_flown_states(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -
 }
 
 /// Controls at the nodes: the planning limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
-pub fn check_planned_controls(group: Group, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    let limits = if group == Group::Nodes { promised } else { physical };
-    control_answer(group, plan, |plan, worst| {
+pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+    let limits = if spec.group == Group::Nodes { promised } else { physical };
+    check_limits(spec, plan, |plan, worst| {
         for (limited, trajectory) in limited_vehicles(scenario, limits).zip(&plan.trajectories) {
             let trajectory = trajectory.fixed_wing();
             for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
@@ -74,41 +70,14 @@ pub fn check_planned_controls(group: Group, scenario: &Scenario, plan: Evidence<
 }
 
 /// Controls that acted in flight against the physical limits.
-pub fn check_flown_controls(scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
-    control_answer(Group::Flight, flown, |flown, worst| {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+    check_limits(spec, flown, |flown, worst| {
         for (limited, vehicle) in limited_vehicles(scenario, physical).zip(&flown.vehicles) {
             for sample in vehicle.judged {
                 limited.control(worst, &sample.load_factors().control, sample.t_s);
             }
         }
     })
-}
-
-fn state_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: impl Fn(&T, &mut Worst<'a>)) -> Check {
-    answer(group, "state_limits", evidence, look)
-}
-
-fn control_answer<'a, T: ?Sized>(group: Group, evidence: Evidence<'_, T>, look: impl Fn(&T, &mut Worst<'a>)) -> Check {
-    answer(group, "control_limits", evidence, look)
-}
-
-pub(super) fn answer<'a, T: ?Sized>(
-    group: Group,
-    name: &'static str,
-    evidence: Evidence<'_, T>,
-    look: impl Fn(&T, &mut Worst<'a>),
-) -> Check {
-    let mut worst = Worst::new();
-    match evidence {
-        Err(reason) => Question::new(group, name, "-").fail(reason),
-        Ok(evidence) => {
-            look(evidence, &mut worst);
-            match worst.found {
-                None => Question::new(group, name, "-").fail("there was nothing to hold against a limit"),
-                Some(found) => found.into_check(group, name),
-            }
-        }
-    }
 }
 
 /// The limits that a planner promised to keep, widened by what its solver may leave.

@@ -1,0 +1,45 @@
+//! The one table of vehicle families: what the harness does with each of them.
+
+use scenarios::{Family, Plan, Scenario};
+use sim::Flight;
+
+use crate::metrics::{self, Metrics};
+use crate::verdict::case::Case;
+use crate::verdict::{self, Check};
+
+/// What the harness does with the vehicles of one family.
+pub struct VehicleFamily {
+    /// The family.
+    pub family: Family,
+    /// Every check that is put to it, in the order of a verdict.
+    pub checks: for<'a> fn(&Case<'a>) -> Vec<Check>,
+    /// The figures of a flyable plan and, if there is one, its flight.
+    pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
+}
+
+static FAMILIES: [VehicleFamily; 3] = [
+    VehicleFamily {
+        family: Family::FixedWing,
+        checks: verdict::fixed_wing::checks,
+        measure: metrics::fixed_wing::measure,
+    },
+    VehicleFamily {
+        family: Family::SlungLoad,
+        checks: verdict::slung_load::checks,
+        measure: metrics::slung_load::measure,
+    },
+    VehicleFamily {
+        family: Family::Multirotor,
+        checks: verdict::multirotor::checks,
+        measure: metrics::multirotor::measure,
+    },
+];
+
+/// The entry of a family.
+///
+/// # Panics
+///
+/// If the table has none, which is a bug.
+pub fn of(family: Family) -> &'static VehicleFamily {
+    FAMILIES.iter().find(|entry| entry.family == family).expect("every family has an entry")
+}

@@ -1,0 +1,51 @@
+//! Does a fixed wing's flight obey the equations of motion? Its controls and the air in its log must explain it.
+
+use scenarios::{CheckSpec, Scenario};
+use sim::fixed_wing::{Acting, Knot, replayed};
+use sim::{Flight, Sample, VehicleLog};
+
+use crate::verdict::Check;
+use crate::verdict::evidence::Evidence;
+use crate::verdict::physics::{Defect, LIMIT_M, answer, difference_m};
+
+/// Largest distance between a log and where controls and air of that log lead by an independent integrator, restarted at
+/// the beginning of every window.
+///
+/// A window is 2/ω long, ω the natural frequency of the tracker: a constant error d of the acceleration makes d/2 (2/ω)²
+/// = 2 d/ω² there, twice what is left of it in closed loop. So the value is also an estimate, to the safe side, of how far
+/// a flight by the better integrator would be from this one.
+pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: Evidence<'_, Flight>) -> Check {
+    let window_s = 2.0 / scenario.simulation.tracker.natural_frequency_radps;
+    let mass_ratio = scenario.simulation.mismatch.mass_ratio;
+    answer(spec, scenario, flight, LIMIT_M, |_, log| Ok(largest_defect(log, window_s, mass_ratio)))
+}
+
+/// Of one aircraft. `None` if its log holds no step.
+fn largest_defect(log: &VehicleLog, window_s: f64, mass_ratio: f64) -> Option<Defect> {
+    let mut worst: Option<Defect> = None;
+    let mut began_s = f64::NEG_INFINITY;
+    let mut motion = knot(log.samples.first()?);
+    for pair in log.samples.windows(2) {
+        if pair[0].t_s - began_s >= window_s {
+            (motion, began_s) = (knot(&pair[0]), pair[0].t_s);
+        }
+        let acting = Acting {
+            control: pair[0].load_factors().control,
+            wind_mps: [pair[0].wind_mps.into(), pair[1].wind_mps.into()],
+            mass_ratio,
+        };
+        motion = replayed(&motion, &acting, pair[1].t_s);
+        let logged = knot(&pair[1]);
+        let defect_m = difference_m(
+            &(motion.position_m - logged.position_m),
+            &((motion.velocity_mps - logged.velocity_mps) * window_s),
+        );
+        let defect = Defect { defect_m, t_s: pair[1].t_s };
+        worst = Some(worst.map_or(defect, |worst| worst.worse(defect)));
+    }
+    worst
+}
+
+fn knot(sample: &Sample) -> Knot {
+    Knot { t_s: sample.t_s, position_m: sample.position_m.into(), velocity_mps: sample.velocity_mps.into() }
+}
