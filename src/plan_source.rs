@@ -59,14 +59,14 @@ impl PlanSource {
     /// Those who plan in the loop, one per vehicle, and how to come by what a command writes to its standard error; `None`
     /// if it answers before the flight. They are told what is known beforehand, and no more.
     pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(InLoopPlanners, Option<Log>)> {
-        let briefing = scenario.briefing();
+        let planner_view = scenario.planner_view();
         match self {
             Self::Registered(planner) if planner.plans_in_the_loop() => {
                 let vehicles = 0..scenario.vehicles.len();
-                Some((vehicles.map(|index| planner.in_loop(&briefing, index, seed)).collect(), None))
+                Some((vehicles.map(|index| planner.in_loop(&planner_view, index, seed)).collect(), None))
             }
             Self::External(planner) if planner.in_loop => {
-                let crew = external::ExternalSession::start(planner, &briefing, seed);
+                let crew = external::ExternalSession::start(planner, &planner_view, seed);
                 let log: Log = Box::new(crew.log());
                 Some((crew.planners, Some(log)))
             }
@@ -87,11 +87,11 @@ impl PlanSource {
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> PlannerOutput {
         match self {
             Self::Registered(planner) => PlannerOutput {
-                answer: CompletedPlan::whole(planner.plan(&scenario.briefing(), seed, progress)),
+                answer: CompletedPlan::whole(planner.plan(&scenario.planner_view(), seed, progress)),
                 log: None,
             },
             Self::External(planner) => {
-                let outside = planner.plan(&scenario.briefing(), seed);
+                let outside = planner.plan(&scenario.planner_view(), seed);
                 PlannerOutput { answer: outside.answer, log: Some(outside.log) }
             }
             Self::Imported(answer) => PlannerOutput { answer: (**answer).clone(), log: None },

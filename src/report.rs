@@ -210,8 +210,8 @@ impl PlanSummary {
             distributed_s: plan.timings.distributed_s,
             flight_time_s: plan.flight_time_s(),
             objective: plan.objective,
-            events: plan.account.events.iter().map(EventSummary::new).collect(),
-            alternatives: plan.account.alternatives.iter().map(AlternativeSummary::new).collect(),
+            events: plan.diagnostics.events.iter().map(EventSummary::new).collect(),
+            alternatives: plan.diagnostics.alternatives.iter().map(AlternativeSummary::new).collect(),
             reconstruction: answer.provenance.reconstruction.clone(),
         }
     }

@@ -34,7 +34,7 @@ impl Planner {
     /// Plans `scenario`, which must not be one that it [refuses](Self::refuses). The same seed gives the same plan, wall
     /// times aside, on any number of threads.
     ///
-    /// - `scenario`: what is known beforehand, see [`Scenario::briefing`]
+    /// - `scenario`: what is known beforehand, see [`Scenario::planner_view`]
     ///
     /// Panics for a planner that plans in the loop.
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
@@ -47,7 +47,7 @@ impl Planner {
     /// One who plans in the loop for the vehicle of this index. The same seed and the same observations give the same
     /// answers on any number of threads.
     ///
-    /// - `scenario`: what is known beforehand, see [`Scenario::briefing`]
+    /// - `scenario`: what is known beforehand, see [`Scenario::planner_view`]
     ///
     /// Panics for a planner that plans before the flight.
     pub fn in_loop(&self, scenario: &Scenario, vehicle: usize, seed: u64) -> Box<dyn InLoopPlanner> {

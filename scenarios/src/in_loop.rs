@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! t                    the vehicle measures, the planner is asked: Observation
-//! t + planning time    its Answer is there
+//! t + planning time    its ReplanResult is there
 //! t + deadline         an answer in time begins to be flown here, a late one when it is there
 //! ```
 //!
@@ -19,7 +19,7 @@ pub trait InLoopPlanner: Send {
     ///
     /// The same observations in the same order give the same answers: a planner reads no clock, and draws random numbers
     /// from the seed alone that it was made with.
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer;
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult;
 }
 
 /// What a vehicle knows at one instant. World frame.
@@ -36,13 +36,13 @@ pub struct Observation<'a> {
     /// The reference that is flown now: from `t_s` or before to its end, after which the vehicle stands.
     pub in_force: &'a [Node],
     /// What became of the last answer.
-    pub last: &'a LastAnswer,
+    pub last: &'a ReplanStatus,
     /// Map, and every obstacle known so far that does not move.
     pub known: &'a World,
     /// Names of the obstacles in `known` that were not yet there at the last observation.
     pub discovered: &'a [String],
-    /// Moving obstacles within sensor range.
-    pub moving: &'a [Sighting],
+    /// MovingCylinder obstacles within sensor range.
+    pub moving: &'a [ObstacleMeasurement],
     /// Other vehicles within sensor range.
     pub neighbours: &'a [Neighbour],
 }
@@ -68,7 +68,7 @@ impl Node {
 
 /// A moving obstacle as it is seen: an upright cylinder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sighting {
+pub struct ObstacleMeasurement {
     /// Its name.
     pub name: String,
     /// Radius, m.
@@ -99,7 +99,7 @@ pub struct Neighbour {
 /// What became of a planner's last answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "what", rename_all = "kebab-case")]
-pub enum LastAnswer {
+pub enum ReplanStatus {
     /// There was none.
     #[default]
     None,
@@ -124,11 +124,12 @@ pub enum LastAnswer {
 
 /// A planner's answer to one observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Answer {
+pub struct ReplanResult {
     /// What to fly.
     pub decision: Decision,
     /// How it was found.
-    pub account: Deliberation,
+    #[serde(rename = "account")]
+    pub diagnostics: ReplanDiagnostics,
 }
 
 /// What to fly from now on.
@@ -147,13 +148,14 @@ pub enum Decision {
 /// How an answer was found, as far as the planner cares to tell.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Deliberation {
+pub struct ReplanDiagnostics {
     /// Iterations, or samples drawn.
     pub iterations: usize,
     /// The first iteration with a feasible candidate.
     pub first_feasible: Option<usize>,
     /// Share of feasible candidates at the end, in [0, 1].
-    pub feasible_share: Option<f64>,
+    #[serde(rename = "feasible_share")]
+    pub feasible_fraction: Option<f64>,
     /// Cost of the answer, in the planner's unit.
     pub cost: Option<f64>,
     /// Paths of the best candidates, m: a few.
@@ -166,14 +168,14 @@ pub struct Deliberation {
     pub note: Option<String>,
 }
 
-impl Answer {
+impl ReplanResult {
     /// To fly through these nodes.
     pub fn fly(nodes: Vec<Node>) -> Self {
-        Self { decision: Decision::Fly(nodes), account: Deliberation::default() }
+        Self { decision: Decision::Fly(nodes), diagnostics: ReplanDiagnostics::default() }
     }
 
     /// To fly on as before.
     pub fn keep(reason: impl Into<String>) -> Self {
-        Self { decision: Decision::Keep { reason: reason.into() }, account: Deliberation::default() }
+        Self { decision: Decision::Keep { reason: reason.into() }, diagnostics: ReplanDiagnostics::default() }
     }
 }

@@ -37,7 +37,7 @@ pub use fleet::FleetRules;
 pub use load::{Fault, Invalid, LoadError, Source, load, parse};
 pub use models::{Family, Model, Models};
 pub use nearest::nearest;
-pub use plan::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent};
+pub use plan::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
     Collocation, Convergence, CostMap, Field, FieldForm, Formulation, Horizon, Objective, PlannerSettings,
     RepulsionForm, Sampler, Shape, Solver, Transcription, TrustRegion,
@@ -51,7 +51,7 @@ pub use trajectory::{Interpolation, Nodes, Trajectory};
 pub use validate::validate;
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
-pub use world::{Block, Cylinder, Gate, Map, Moving, Prism, Window, World};
+pub use world::{BoxObstacle, Cylinder, Gate, Map, MovingCylinder, Prism, Window, World};
 
 /// Gravity, m/s², as all four papers take it.
 pub const GRAVITY_MPS2: f64 = 9.81;

@@ -2,9 +2,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::Trajectory;
 
-mod account;
+mod diagnostics;
 
-pub use account::{Account, Alternative, PlannedEvent};
+pub use diagnostics::{Alternative, PlanDiagnostics, PlannedEvent};
 
 /// A planner's answer: one trajectory for every vehicle, and how it was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,8 +30,8 @@ pub struct Plan {
     /// How the planner got there, one entry per iteration.
     pub history: Vec<Iteration>,
     /// What the planner tells beyond its trajectories.
-    #[serde(default, skip_serializing_if = "Account::is_empty")]
-    pub account: Account,
+    #[serde(default, rename = "account", skip_serializing_if = "PlanDiagnostics::is_empty")]
+    pub diagnostics: PlanDiagnostics,
     /// Time that planning took.
     pub timings: PlanTimings,
 }

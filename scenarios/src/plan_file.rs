@@ -54,7 +54,7 @@ mod tests {
             objective: None,
             trajectories: vec![trajectory.into()],
             history: Vec::new(),
-            account: crate::Account::default(),
+            diagnostics: crate::PlanDiagnostics::default(),
             timings: PlanTimings::default(),
         }
     }

@@ -21,7 +21,7 @@ use std::path::Path;
 use self::columns::Columns;
 pub use self::error::{PlanError, PlanFault};
 pub use self::given::{FixedWingTrack, GivenTrack, cartesian_states};
-use crate::{Account, Iteration, PlanStatus, PlanTimings, Scenario};
+use crate::{Iteration, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
 /// A plan as it was written, before anything is made of it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,7 +48,7 @@ pub struct PlanHeader {
     /// One entry per iteration.
     pub history: Vec<Iteration>,
     /// What the planner tells beyond its trajectories.
-    pub account: Account,
+    pub diagnostics: PlanDiagnostics,
     /// Time that planning took, by the planner's own clock.
     pub timings: Option<PlanTimings>,
 }

@@ -80,7 +80,7 @@ impl Scenario {
 /// What a planner is told.
 impl Scenario {
     /// The scenario without the obstacles that nobody knows of beforehand, and without what disturbs the flight.
-    pub fn briefing(&self) -> Self {
+    pub fn planner_view(&self) -> Self {
         let simulation = Simulation {
             wind: None,
             sensors: Sensors::default(),

@@ -19,7 +19,7 @@ pub struct Simulation {
     pub coast_s: f64,
     /// Gains of the tracking controller.
     pub tracker: Tracker,
-    /// Moving air.
+    /// MovingCylinder air.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<Wind>,
     /// What the tracker's sensors add to the truth.

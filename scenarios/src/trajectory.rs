@@ -84,7 +84,7 @@ impl Trajectory {
 
     /// May two nodes share a time, before and after a jump? A cable that becomes taut makes one, and so does a planner in the
     /// loop that changes its mind.
-    pub fn may_jump(&self) -> bool {
+    pub fn allows_discontinuity(&self) -> bool {
         self.family() != Family::FixedWing
     }
 

@@ -8,8 +8,8 @@ mod moving;
 mod prism;
 
 pub use gate::{Gate, Window};
-pub use moving::Moving;
-pub use prism::{Block, Prism};
+pub use moving::MovingCylinder;
+pub use prism::{BoxObstacle, Prism};
 
 /// In a list of hidden obstacles: all that do not move.
 const EVERY_OBSTACLE: &str = "*";
@@ -25,7 +25,7 @@ pub struct World {
     pub cylinders: Vec<Cylinder>,
     /// Upright boxes, turned about the vertical.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub boxes: Vec<Block>,
+    pub boxes: Vec<BoxObstacle>,
     /// Upright prisms over convex polygons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prisms: Vec<Prism>,
@@ -37,7 +37,7 @@ pub struct World {
     pub gates: Vec<Gate>,
     /// Obstacles that move; multirotors sense them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub moving: Vec<Moving>,
+    pub moving: Vec<MovingCylinder>,
     /// Names of the cylinders, boxes and prisms that nobody knows of until a part of them comes within sensor range; `"*"`
     /// stands for all of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -85,7 +85,7 @@ impl World {
     /// Everything with flat faces as prisms: the boxes, then the prisms, each with its corners counterclockwise.
     pub fn flat_obstacles(&self) -> Vec<Prism> {
         let prisms = self.prisms.iter().map(Prism::counterclockwise);
-        self.boxes.iter().map(Block::as_prism).chain(prisms).collect()
+        self.boxes.iter().map(BoxObstacle::as_prism).chain(prisms).collect()
     }
 
     /// The names of all obstacles: cylinders, boxes, prisms, moving ones.

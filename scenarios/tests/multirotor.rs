@@ -93,12 +93,12 @@ fn a_briefing_tells_what_is_known_beforehand_and_nothing_that_disturbs() {
     let mut scenario = scenario();
     scenario.simulation.sensors.position_noise_m = 0.1;
     scenario.simulation.mismatch.mass_ratio = 1.1;
-    let briefing = scenario.briefing();
-    assert_eq!(briefing.world.obstacle_names().count(), 0);
-    assert!(briefing.world.hidden.is_empty());
-    assert_eq!(briefing.simulation.sensors, scenarios::Sensors::default());
-    assert_eq!(briefing.simulation.mismatch, scenarios::Mismatch::default());
+    let planner_view = scenario.planner_view();
+    assert_eq!(planner_view.world.obstacle_names().count(), 0);
+    assert!(planner_view.world.hidden.is_empty());
+    assert_eq!(planner_view.simulation.sensors, scenarios::Sensors::default());
+    assert_eq!(planner_view.simulation.mismatch, scenarios::Mismatch::default());
     scenario.world.hidden.clear();
-    assert_eq!(scenario.briefing().world.obstacle_names().collect::<Vec<_>>(), ["box"]);
+    assert_eq!(scenario.planner_view().world.obstacle_names().collect::<Vec<_>>(), ["box"]);
     assert!(scenario.is_planar());
 }

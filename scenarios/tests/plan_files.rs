@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use scenarios::plan_input::{FixedWingTrack, GivenTrack, PlanError, PlanHeader, parse_csv, parse_json, read};
-use scenarios::{Account, Interpolation, Plan, PlanStatus, PlanTimings, Scenario, parse, slung_load};
+use scenarios::{Interpolation, Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario, parse, slung_load};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
 const HEADER: &str = "vehicle,t_s,x_m,y_m,z_m,speed_mps,heading_rad,flight_path_rad,n_x,n_y,n_z\n";
@@ -308,7 +308,7 @@ fn slung_plan() -> (Scenario, Plan) {
         objective: Some(3.0),
         trajectories: vec![trajectory.into()],
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     };
     (scenario, plan)

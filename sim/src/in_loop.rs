@@ -5,7 +5,7 @@ mod helm;
 mod planning_time;
 mod senses;
 
-use scenarios::in_loop::{Deliberation, LastAnswer, Node};
+use scenarios::in_loop::{Node, ReplanDiagnostics, ReplanStatus};
 use scenarios::multirotor::Trajectory;
 
 pub(crate) use helm::{Fix, Helm};
@@ -32,11 +32,11 @@ pub struct Replan {
     /// When its answer began to be flown, s: at the simulator's first step that is not before.
     pub takes_effect_s: f64,
     /// What became of it.
-    pub outcome: LastAnswer,
+    pub outcome: ReplanStatus,
     /// The reference that it gave, if it is flown.
     pub nodes: Vec<Node>,
     /// How it was found.
-    pub account: Deliberation,
+    pub diagnostics: ReplanDiagnostics,
     /// What the vehicle had sensed that was new, by name.
     pub discovered: Vec<String>,
     /// Time that the planner took on the machine at hand, s.

@@ -10,7 +10,7 @@ mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
-use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::system_under_test::SystemUnderTest;
@@ -111,7 +111,7 @@ fn unanswered(scenario: &Scenario) -> Plan {
         objective: None,
         trajectories: Vec::new(),
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     }
 }

@@ -1,4 +1,4 @@
-use scenarios::in_loop::LastAnswer;
+use scenarios::in_loop::ReplanStatus;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{EventKind, Flight, PlanningLog, Replan};
@@ -32,19 +32,19 @@ pub struct InLoopMetrics {
 pub fn measure(flight: &Flight, log: &PlanningLog) -> InLoopMetrics {
     let count = |is_such: fn(&Replan) -> bool| log.replans.iter().filter(|replan| is_such(replan)).count();
     let late_s = log.replans.iter().map(|replan| match replan.outcome {
-        LastAnswer::Late { by_s } => by_s,
+        ReplanStatus::Late { by_s } => by_s,
         _ => 0.0,
     });
     let is_discovery = |kind: &EventKind| matches!(kind, EventKind::Discovered { .. });
     InLoopMetrics {
         replans: log.replans.len(),
-        late: count(|replan| matches!(replan.outcome, LastAnswer::Late { .. })),
+        late: count(|replan| matches!(replan.outcome, ReplanStatus::Late { .. })),
         latest_s: late_s.fold(0.0, f64::max),
-        kept: count(|replan| matches!(replan.outcome, LastAnswer::Kept { .. })),
-        rejected: count(|replan| matches!(replan.outcome, LastAnswer::Rejected { .. })),
-        iterations: mean(log.replans.iter().map(|replan| replan.account.iterations as f64)),
+        kept: count(|replan| matches!(replan.outcome, ReplanStatus::Kept { .. })),
+        rejected: count(|replan| matches!(replan.outcome, ReplanStatus::Rejected { .. })),
+        iterations: mean(log.replans.iter().map(|replan| replan.diagnostics.iterations as f64)),
         first_feasible: mean(
-            log.replans.iter().filter_map(|replan| replan.account.first_feasible).map(|iteration| iteration as f64),
+            log.replans.iter().filter_map(|replan| replan.diagnostics.first_feasible).map(|iteration| iteration as f64),
         ),
         discovered: flight.events.iter().filter(|event| is_discovery(&event.kind)).count(),
         path_m: finite(path_m(flight)),

@@ -18,7 +18,7 @@ mod request;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
 use crate::plan_source::plan_import::CompletedPlan;
 
@@ -80,7 +80,7 @@ impl ExternalPlanner {
             objective: None,
             trajectories: Vec::new(),
             history: Vec::new(),
-            account: Account::default(),
+            diagnostics: PlanDiagnostics::default(),
             timings: PlanTimings::default(),
         }
     }

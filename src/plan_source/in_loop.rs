@@ -1,7 +1,7 @@
 //! What a flight says of the plans that were made during it.
 
-use scenarios::in_loop::LastAnswer;
-use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::in_loop::ReplanStatus;
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 use sim::{PlanningLog, Replan};
 
 /// What was planned in the loop as one plan: of every vehicle the references that it followed, one after the other.
@@ -21,7 +21,7 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
         objective: None,
         trajectories: log.followed.iter().cloned().map(Into::into).collect(),
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings {
             wall_s: walls_s.iter().sum(),
             distributed_s: walls_s.iter().copied().fold(0.0, f64::max),
@@ -31,7 +31,7 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
 
 /// Is an answer flown, in time or late?
 pub fn is_flown(replan: &Replan) -> bool {
-    matches!(replan.outcome, LastAnswer::InTime | LastAnswer::Late { .. })
+    matches!(replan.outcome, ReplanStatus::InTime | ReplanStatus::Late { .. })
 }
 
 fn answers(log: &PlanningLog, vehicle: usize) -> impl Iterator<Item = &Replan> {
@@ -42,8 +42,8 @@ fn why_idle(scenario: &Scenario, log: &PlanningLog, vehicle: usize) -> String {
     let name = &scenario.vehicles[vehicle].name;
     let last = answers(log, vehicle).last();
     let why = last.map_or("it was never asked", |replan| match &replan.outcome {
-        LastAnswer::Rejected { reason } | LastAnswer::Kept { reason } => reason,
-        LastAnswer::None | LastAnswer::InTime | LastAnswer::Late { .. } => "it gives no reason",
+        ReplanStatus::Rejected { reason } | ReplanStatus::Kept { reason } => reason,
+        ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Late { .. } => "it gives no reason",
     });
     format!("the planner of {name} never gave an answer that could be flown; of the last one: {why}")
 }

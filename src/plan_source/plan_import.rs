@@ -65,7 +65,7 @@ pub fn complete(
         objective: header.objective,
         trajectories,
         history: header.history,
-        account: header.account,
+        diagnostics: header.diagnostics,
         timings: header.timings.unwrap_or_default(),
     };
     CompletedPlan { plan, provenance: Provenance { reconstruction } }

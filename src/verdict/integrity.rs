@@ -141,7 +141,7 @@ fn time_defect(trajectory: &Trajectory) -> Option<String> {
     }
     let is_in_order = |pair: &&[f64]| match pair[0].partial_cmp(&pair[1]) {
         Some(Ordering::Less) => true,
-        Some(Ordering::Equal) => trajectory.may_jump(),
+        Some(Ordering::Equal) => trajectory.allows_discontinuity(),
         _ => false,
     };
     let pair = times_s.windows(2).find(|pair| !is_in_order(pair))?;
@@ -169,8 +169,8 @@ fn plan_numbers(plan: &Plan) -> impl Iterator<Item = f64> + '_ {
         ];
         always.into_iter().chain(iteration.separation_m).chain(iteration.clearance_m)
     });
-    let events = plan.account.events.iter().map(|event| event.at_s);
-    let alternatives = plan.account.alternatives.iter();
+    let events = plan.diagnostics.events.iter().map(|event| event.at_s);
+    let alternatives = plan.diagnostics.alternatives.iter();
     let ways = alternatives.flat_map(|way| way.objective.into_iter().chain(way.path_m.iter().copied().flatten()));
     let timings = [plan.timings.wall_s, plan.timings.distributed_s];
     history.chain(plan.objective).chain(timings).chain(events).chain(ways)

@@ -119,7 +119,7 @@ fn plan(trajectories: Vec<Trajectory>) -> Plan {
         objective: Some(END_S),
         trajectories: trajectories.into_iter().map(Into::into).collect(),
         history: Vec::new(),
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     }
 }

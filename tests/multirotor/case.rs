@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use harness::verdict::{Check, Status, Verdict, judge};
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
-use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 use sim::{Actuation, Commanded, Flight, Sample, fly};
 
 const TEXT: &str = r#"name = "pair"
@@ -95,7 +95,7 @@ impl Case {
             objective: Some(5.0),
             trajectories: vec![trajectory("uav-1", 0.0), trajectory("uav-2", 3.0)],
             history: Vec::new(),
-            account: Account::default(),
+            diagnostics: PlanDiagnostics::default(),
             timings: PlanTimings::default(),
         };
         let flight = Some(fly(&scenario, &plan, 0, &mut |_| {}));

@@ -3,7 +3,7 @@
 
 use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{Check, Outcome, Status, Verdict, judge};
-use scenarios::in_loop::{Answer, InLoopPlanner, Node, Observation};
+use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult};
 use scenarios::{Plan, PlanStatus, Scenario};
 use sim::{EventKind, Flight, fly_in_loop};
 
@@ -15,12 +15,12 @@ struct Straight {
 }
 
 impl InLoopPlanner for Straight {
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         let (from_m, t_s) = (observation.position_m, observation.takes_effect_s);
         let way_m: [f64; 3] = std::array::from_fn(|axis| self.goal_m[axis] - from_m[axis]);
         let length_m = way_m.iter().map(|x| x * x).sum::<f64>().sqrt();
         if length_m < 0.05 || observation.in_force.len() > 1 {
-            return Answer::keep("on the way");
+            return ReplanResult::keep("on the way");
         }
         // 1 s up to 1 m/s and 1 s down again cover 1 m; the rest at 1 m/s.
         let at = |t_s: f64, share: f64, speed_mps: f64| Node {
@@ -29,7 +29,7 @@ impl InLoopPlanner for Straight {
             velocity_mps: way_m.map(|x| x / length_m * speed_mps),
         };
         let cruise_s = length_m - 1.0;
-        Answer::fly(vec![
+        ReplanResult::fly(vec![
             at(t_s, 0.0, 0.0),
             at(t_s + 1.0, 0.5 / length_m, 1.0),
             at(t_s + 1.0 + cruise_s, 1.0 - 0.5 / length_m, 1.0),
@@ -39,10 +39,10 @@ impl InLoopPlanner for Straight {
 }
 
 /// Answers the same thing again and again.
-struct Stubborn(fn(&Observation<'_>) -> Answer);
+struct Stubborn(fn(&Observation<'_>) -> ReplanResult);
 
 impl InLoopPlanner for Stubborn {
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         (self.0)(observation)
     }
 }
@@ -93,7 +93,7 @@ fn what_was_followed_is_what_was_asked_for_also_where_references_end_in_motion()
                 position_m: [x_m + after_s, y_m, z_m],
                 velocity_mps,
             };
-            Answer::fly(vec![node(0.0), node(0.3)])
+            ReplanResult::fly(vec![node(0.0), node(0.3)])
         }))
     });
     let complete = check(&verdict, "flight.complete");
@@ -126,13 +126,15 @@ fn the_same_seed_gives_the_same_flight() {
 
 #[test]
 fn nonsense_is_no_plan_and_never_a_panic() {
-    let nonsense: [fn(&Observation<'_>) -> Answer; 6] = [
-        |_| Answer::keep("no idea"),
-        |_| Answer::fly(Vec::new()),
-        |seen| Answer::fly(vec![Node::at_rest(seen.t_s, [0.0; 3])]),
-        |seen| Answer::fly(vec![Node::at_rest(seen.t_s, [f64::NAN; 3]), Node::at_rest(seen.t_s + 1.0, [0.0; 3])]),
-        |_| Answer::fly(vec![Node::at_rest(-2.0, [0.0; 3]), Node::at_rest(-1.0, [0.0; 3])]),
-        |seen| Answer::fly(vec![Node::at_rest(seen.t_s + 9.0, [0.0; 3]), Node::at_rest(seen.t_s + 10.0, [0.0; 3])]),
+    let nonsense: [fn(&Observation<'_>) -> ReplanResult; 6] = [
+        |_| ReplanResult::keep("no idea"),
+        |_| ReplanResult::fly(Vec::new()),
+        |seen| ReplanResult::fly(vec![Node::at_rest(seen.t_s, [0.0; 3])]),
+        |seen| ReplanResult::fly(vec![Node::at_rest(seen.t_s, [f64::NAN; 3]), Node::at_rest(seen.t_s + 1.0, [0.0; 3])]),
+        |_| ReplanResult::fly(vec![Node::at_rest(-2.0, [0.0; 3]), Node::at_rest(-1.0, [0.0; 3])]),
+        |seen| {
+            ReplanResult::fly(vec![Node::at_rest(seen.t_s + 9.0, [0.0; 3]), Node::at_rest(seen.t_s + 10.0, [0.0; 3])])
+        },
     ];
     let mut scenario = scenario();
     scenario.simulation.max_duration_s = 3.0;

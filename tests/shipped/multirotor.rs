@@ -7,10 +7,10 @@ use sim::Flight;
 
 fn flown(scenario: &Scenario, planner: &str) -> Flight {
     let entry = planners::find(planner).expect("a planner that exists");
-    let briefing = scenario.briefing();
+    let planner_view = scenario.planner_view();
     let seed = scenario.simulation.seed;
     let vehicles = 0..scenario.vehicles.len();
-    let planners = vehicles.map(|index| entry.in_loop(&briefing, index, seed)).collect();
+    let planners = vehicles.map(|index| entry.in_loop(&planner_view, index, seed)).collect();
     sim::fly_in_loop(scenario, planners, seed, &mut |_| {})
 }
 

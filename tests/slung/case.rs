@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use harness::verdict::{Check, Status, Verdict, judge};
 use nalgebra::Vector3;
 use scenarios::slung_load::{Cable, Control, GRAVITY_MPS2, State, Trajectory};
-use scenarios::{Block, LoadPoint, Plan, Scenario, Waypoint};
+use scenarios::{BoxObstacle, LoadPoint, Plan, Scenario, Waypoint};
 use sim::slung_load::{Body, Plant, flow, impact};
 use sim::{Actuation, Commanded, Flight, LoadSample, Sample, fly};
 
@@ -38,7 +38,8 @@ impl Case {
         let vehicle = &mut scenario.vehicles[0];
         vehicle.start = Waypoint::at_rest([-2.0, 0.0, 1.3]);
         vehicle.goal = Waypoint::at_rest([2.0, 0.0, 1.5]);
-        let wall = Block { name: "wall".into(), center_m: [0.0, 0.0], size_m: [0.1, 0.8], heading_deg: 0.0, z_m: None };
+        let wall =
+            BoxObstacle { name: "wall".into(), center_m: [0.0, 0.0], size_m: [0.1, 0.8], heading_deg: 0.0, z_m: None };
         scenario.world.boxes.push(wall);
         scenario.verdict.envelope_m = Some(0.05);
         Self::flown(scenario, swing.plan(&model()))

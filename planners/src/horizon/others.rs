@@ -1,6 +1,6 @@
 //! What moves, as far as it can be foreseen: obstacles at constant velocity, other vehicles on the plans that they share.
 
-use scenarios::in_loop::{Neighbour, Observation, Sighting};
+use scenarios::in_loop::{Neighbour, Observation, ObstacleMeasurement};
 
 use super::reference::motion;
 use crate::free_space::known::altitude_m;
@@ -22,7 +22,7 @@ pub fn movers(observation: &Observation<'_>, radius_m: f64) -> Vec<Mover> {
     sighted.chain(neighbours).collect()
 }
 
-fn sighted(sighting: &Sighting, delay_s: f64) -> Mover {
+fn sighted(sighting: &ObstacleMeasurement, delay_s: f64) -> Mover {
     let [x, y] = [0, 1].map(|axis| sighting.position_m[axis] + delay_s * sighting.velocity_mps[axis]);
     let shape = Obstacle::cylinder([x, y], sighting.radius_m, altitude_m(sighting.z_m));
     Mover::straight(shape, [sighting.velocity_mps[0], sighting.velocity_mps[1], 0.0])

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use rand::Rng;
-use scenarios::in_loop::{Answer, Decision as Flown, Deliberation, InLoopPlanner, Observation};
+use scenarios::in_loop::{Decision as Flown, InLoopPlanner, Observation, ReplanDiagnostics, ReplanResult};
 use scenarios::{Scenario, stream};
 
 use super::brief::{self, Variant};
@@ -93,7 +93,7 @@ struct InLoop<R> {
 }
 
 impl<R: Rng + Send> InLoopPlanner for InLoop<R> {
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         let is_new_map = self.learn(observation);
         let here = State::at_rest(observation.position_m);
         let flown = motion(observation.in_force, observation.takes_effect_s).unwrap_or_else(|| Motion::from(here));
@@ -146,16 +146,16 @@ fn answer<R: Rng>(
     replan: Replan,
     takes_effect_s: f64,
     graph: Option<Vec<[Point; 2]>>,
-) -> Answer {
+) -> ReplanResult {
     let Replan { decision, found } = replan;
     let route = match &decision {
         Decision::Fly(motion) => pilot.map().route(motion.last().1.position, space),
         Decision::Keep => Vec::new(),
     };
-    let account = Deliberation {
+    let diagnostics = ReplanDiagnostics {
         iterations: found.iterations,
         first_feasible: found.first_feasible,
-        feasible_share: Some(found.feasible_share),
+        feasible_fraction: Some(found.feasible_share),
         cost: found.fitness.is_feasible().then_some(found.fitness.cost),
         candidates: found.paths,
         route,
@@ -166,5 +166,5 @@ fn answer<R: Rng>(
         Decision::Fly(motion) => Flown::Fly(nodes(&motion, takes_effect_s)),
         Decision::Keep => Flown::Keep { reason: "nothing feasible was found, and the motion in force is clear".into() },
     };
-    Answer { decision, account }
+    ReplanResult { decision, diagnostics }
 }

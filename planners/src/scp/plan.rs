@@ -47,7 +47,7 @@ pub fn assemble(
             .map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate)).into())
             .collect(),
         history,
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
     }
 }

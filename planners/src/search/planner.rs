@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use scenarios::multirotor::Trajectory;
-use scenarios::{Account, Plan, PlanStatus, PlanTimings, Scenario, stream};
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario, stream};
 
 use super::sparse_astar::{self, search};
 use super::timing;
@@ -89,7 +89,7 @@ fn plan(scenario: &Scenario, seed: u64, name: &str, find: impl Fn(&Ask) -> Optio
         objective: path.map(|path| super::length_m(&path)),
         trajectories: trajectory.into_iter().map(Into::into).collect(),
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: begin.elapsed().as_secs_f64(), distributed_s: 0.0 },
     }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
-use scenarios::{Account, Alternative, Iteration, Plan, PlanStatus, PlanTimings, PlannedEvent, Scenario};
+use scenarios::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent, Scenario};
 
 use super::envelope::envelope;
 use super::optimise::{Candidate, MeshIteration, optimise};
@@ -59,13 +59,13 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         objective: Some(problem.reported(best.last().objective)),
         trajectories: vec![trajectory.into()],
         history,
-        account: account(&problem, best, &candidates),
+        diagnostics: diagnostics(&problem, best, &candidates),
         timings: timings(elapsed),
     }
 }
 
 /// Switches of the envelope and of the cable, and the alternatives that were not chosen.
-fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Account {
+fn diagnostics(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> PlanDiagnostics {
     let mut events: Vec<PlannedEvent> = envelope(problem, best)
         .switches
         .into_iter()
@@ -87,7 +87,7 @@ fn account(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> Acc
         objective: Some(problem.reported(candidate.last().objective)),
         path_m: solution::path_m(problem, candidate),
     };
-    Account { events, alternatives: others.map(alternative).collect() }
+    PlanDiagnostics { events, alternatives: others.map(alternative).collect() }
 }
 
 /// Name of a route by the sides on which it passes the obstacles: `left of block, right of box`.
@@ -154,7 +154,7 @@ fn without_trajectory(scenario: &Scenario, seed: u64, reason: String, elapsed: D
         objective: None,
         trajectories: Vec::new(),
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: timings(elapsed),
     }
 }

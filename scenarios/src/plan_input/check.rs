@@ -78,7 +78,7 @@ fn track_faults(track: &Track, vehicle: &Vehicle, family: Family, longest_s: f64
         faults.extend(not_finite(track));
     }
     if faults.is_empty() {
-        faults.extend(time_fault(track, columns.may_jump).or_else(|| too_long(track, longest_s)));
+        faults.extend(time_fault(track, columns.allows_discontinuity).or_else(|| too_long(track, longest_s)));
     }
     if faults.is_empty() {
         let place = |row: usize| track.places.of(row);
@@ -146,8 +146,8 @@ fn not_finite(track: &Track) -> Vec<PlanFault> {
 
 /// Times from 0, increasing, without a gap: the first fault.
 ///
-/// - `may_jump`: may two rows in a row share a time?
-fn time_fault(track: &Track, may_jump: bool) -> Option<PlanFault> {
+/// - `allows_discontinuity`: may two rows in a row share a time?
+fn time_fault(track: &Track, allows_discontinuity: bool) -> Option<PlanFault> {
     let times_s = &track.times_s;
     let fault = |row: usize, found: String, expected: &str, remedy: &str| {
         let problem = Problem::new("t_s", found, expected).remedy(remedy);
@@ -162,7 +162,7 @@ fn time_fault(track: &Track, may_jump: bool) -> Option<PlanFault> {
         let found = format!("{} s after {} s", pair[1], pair[0]);
         match pair[0].partial_cmp(&pair[1]) {
             Some(Ordering::Less) => intervals_s.push(pair[1] - pair[0]),
-            Some(Ordering::Equal) if may_jump && intervals_s.last() != Some(&0.0) => intervals_s.push(0.0),
+            Some(Ordering::Equal) if allows_discontinuity && intervals_s.last() != Some(&0.0) => intervals_s.push(0.0),
             Some(Ordering::Equal) => {
                 return fault(row + 1, found, "each time once per vehicle", "remove one of the rows");
             }

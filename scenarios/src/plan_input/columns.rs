@@ -20,7 +20,7 @@ pub struct Columns {
     /// Keys of a JSON node that hold several columns as an array.
     pub arrays: &'static [(&'static str, &'static [&'static str])],
     /// May two rows share a time, before and after a jump of the velocity?
-    pub may_jump: bool,
+    pub allows_discontinuity: bool,
 }
 
 /// Name of the column with the vehicle's name.
@@ -40,7 +40,7 @@ const FIXED_WING: Columns = Columns {
     converted: &[("heading_deg", "heading_rad", DEGREE), ("flight_path_deg", "flight_path_rad", DEGREE)],
     words: &[],
     arrays: &[],
-    may_jump: false,
+    allows_discontinuity: false,
 };
 
 /// The quadrotor with a slung load, whole: what is missing is not reconstructed.
@@ -60,7 +60,7 @@ const SLUNG_LOAD: Columns = Columns {
         ("load_velocity_mps", &["load_vx_mps", "load_vy_mps", "load_vz_mps"]),
         ("thrust_n", &["thrust_1_n", "thrust_2_n", "thrust_3_n", "thrust_4_n"]),
     ],
-    may_jump: true,
+    allows_discontinuity: true,
 };
 
 /// The multirotor, whole: position and velocity.
@@ -72,7 +72,7 @@ const MULTIROTOR: Columns = Columns {
     converted: &[],
     words: &[],
     arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],
-    may_jump: true,
+    allows_discontinuity: true,
 };
 
 /// All columns of the files that we write, but for vehicle and time, which come first.

@@ -90,7 +90,7 @@ fn header(document: &Map<String, Value>, faults: &mut Vec<PlanFault>) -> PlanHea
         field("account", "an object with `events` or `alternatives`"),
         field("timings", "an object with `wall_s`"),
     ];
-    let [scenario, planner, status, reason, objective, history, account, timings] = fields;
+    let [scenario, planner, status, reason, objective, history, diagnostics, timings] = fields;
     PlanHeader {
         scenario: optional(scenario, faults),
         planner: optional(planner, faults),
@@ -98,7 +98,7 @@ fn header(document: &Map<String, Value>, faults: &mut Vec<PlanFault>) -> PlanHea
         reason: optional(reason, faults),
         objective: optional(objective, faults),
         history: optional(history, faults).unwrap_or_default(),
-        account: optional(account, faults).unwrap_or_default(),
+        diagnostics: optional(diagnostics, faults).unwrap_or_default(),
         timings: optional(timings, faults),
     }
 }

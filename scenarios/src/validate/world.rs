@@ -2,7 +2,7 @@
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
-use crate::{Block, Gate, Moving, Prism, Problem, World, nearest};
+use crate::{BoxObstacle, Gate, MovingCylinder, Prism, Problem, World, nearest};
 
 pub(super) fn problems(world: &World) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -26,7 +26,7 @@ pub(super) fn problems(world: &World) -> Vec<Problem> {
     problems
 }
 
-fn of_moving(index: usize, moving: &Moving) -> Vec<Problem> {
+fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Problem> {
     let field = format!("world.moving[{index}]");
     let path = (!moving.has_a_path()).then(|| {
         let found = format!("{} corners, or two in a row that are the same", moving.path_m.len());
@@ -58,7 +58,7 @@ fn hidden(world: &World, index: usize, name: &str) -> Option<Problem> {
     })
 }
 
-fn of_box(index: usize, block: &Block) -> Vec<Problem> {
+fn of_box(index: usize, block: &BoxObstacle) -> Vec<Problem> {
     let field = format!("world.boxes[{index}]");
     let [length_m, width_m] = block.size_m;
     let sizes = [positive(&format!("{field}.size_m[0]"), length_m), positive(&format!("{field}.size_m[1]"), width_m)];

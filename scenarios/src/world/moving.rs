@@ -8,7 +8,7 @@ use crate::Range;
 /// sense it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Moving {
+pub struct MovingCylinder {
     /// Name, unique among all obstacles.
     pub name: String,
     /// Radius, m, > 0.
@@ -25,7 +25,7 @@ pub struct Moving {
     pub offset_m: f64,
 }
 
-impl Moving {
+impl MovingCylinder {
     /// Position of its axis, m.
     pub fn position_m(&self, t_s: f64) -> [f64; 2] {
         let (leg, along_m, _) = self.place(t_s);
@@ -113,10 +113,10 @@ fn length_m(from: [f64; 2], to: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Moving;
+    use super::MovingCylinder;
 
-    fn cart() -> Moving {
-        Moving {
+    fn cart() -> MovingCylinder {
+        MovingCylinder {
             name: "cart".into(),
             radius_m: 0.5,
             z_m: None,
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn between_its_turns_it_goes_straight() {
         assert_eq!(cart().turns_s(10.0), [1.0, 3.0, 5.0, 6.5, 8.0]);
-        assert!(Moving { speed_mps: 0.0, ..cart() }.turns_s(10.0).is_empty());
+        assert!(MovingCylinder { speed_mps: 0.0, ..cart() }.turns_s(10.0).is_empty());
         let knots = [vec![0.0], cart().turns_s(20.0), vec![20.0]].concat();
         for pair in knots.windows(2) {
             let [a, m, b] = [0.0, 0.5, 1.0].map(|share| cart().position_m(pair[0] + (pair[1] - pair[0]) * share));

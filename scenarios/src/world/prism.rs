@@ -19,7 +19,7 @@ pub struct Prism {
 /// An upright box, turned about the vertical.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Block {
+pub struct BoxObstacle {
     /// Name, unique among all obstacles.
     pub name: String,
     /// Centre (x, y), m.
@@ -34,7 +34,7 @@ pub struct Block {
     pub z_m: Option<Range>,
 }
 
-impl Block {
+impl BoxObstacle {
     /// The same as a prism, corners counterclockwise from the one at its own (+, +).
     pub fn as_prism(&self) -> Prism {
         let (sin, cos) = self.heading_deg.to_radians().sin_cos();
@@ -124,7 +124,7 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Block, Prism};
+    use super::{BoxObstacle, Prism};
 
     fn prism(corners_m: &[[f64; 2]]) -> Prism {
         Prism { name: "p".into(), corners_m: corners_m.to_vec(), z_m: None }
@@ -146,7 +146,8 @@ mod tests {
 
     #[test]
     fn distances_to_a_turned_box() {
-        let turned = Block { name: "b".into(), center_m: [1.0, 2.0], size_m: [4.0, 2.0], heading_deg: 90.0, z_m: None };
+        let turned =
+            BoxObstacle { name: "b".into(), center_m: [1.0, 2.0], size_m: [4.0, 2.0], heading_deg: 90.0, z_m: None };
         let prism = turned.as_prism();
         assert!(prism.is_convex());
         for (point, distance_m) in

@@ -3,7 +3,7 @@ use std::time::Instant;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use scenarios::Planning;
-use scenarios::in_loop::{Decision, InLoopPlanner, LastAnswer, Neighbour, Node, Observation, Sighting};
+use scenarios::in_loop::{Decision, InLoopPlanner, Neighbour, Node, Observation, ObstacleMeasurement, ReplanStatus};
 use scenarios::multirotor::Trajectory;
 
 use super::acceptance::defect;
@@ -30,7 +30,7 @@ pub(crate) struct Helm {
     in_force: Reference,
     /// A reference that waits for its instant, s.
     pending: Option<(f64, Reference)>,
-    last: LastAnswer,
+    last: ReplanStatus,
     /// What was flown so far.
     followed: Vec<Node>,
 }
@@ -40,7 +40,7 @@ pub(crate) struct Fix<'a> {
     pub t_s: f64,
     pub own: Measurement,
     pub senses: &'a mut Senses,
-    pub moving: Vec<Sighting>,
+    pub moving: Vec<ObstacleMeasurement>,
     pub neighbours: Vec<Neighbour>,
 }
 
@@ -67,7 +67,7 @@ impl Helm {
             busy_s: 0.0,
             in_force: Reference::new(vec![standing]),
             pending: None,
-            last: LastAnswer::None,
+            last: ReplanStatus::None,
             followed: vec![standing],
             settings: settings.clone(),
         }
@@ -136,7 +136,7 @@ impl Helm {
             takes_effect_s,
             outcome,
             nodes,
-            account: answer.account,
+            diagnostics: answer.diagnostics,
             discovered,
             wall_s,
         }
@@ -152,17 +152,17 @@ impl Helm {
         Trajectory::through(vehicle, &self.followed)
     }
 
-    fn take(&mut self, decision: Decision, planned_s: f64, takes_effect_s: f64) -> (LastAnswer, Vec<Node>) {
+    fn take(&mut self, decision: Decision, planned_s: f64, takes_effect_s: f64) -> (ReplanStatus, Vec<Node>) {
         let nodes = match decision {
-            Decision::Keep { reason } => return (LastAnswer::Kept { reason }, Vec::new()),
+            Decision::Keep { reason } => return (ReplanStatus::Kept { reason }, Vec::new()),
             Decision::Fly(nodes) => nodes,
         };
         if let Some(reason) = defect(&nodes, planned_s) {
-            return (LastAnswer::Rejected { reason }, Vec::new());
+            return (ReplanStatus::Rejected { reason }, Vec::new());
         }
         self.pending = Some((takes_effect_s, Reference::new(nodes.clone())));
         let by_s = takes_effect_s - planned_s;
-        (if by_s > ROUNDING_S { LastAnswer::Late { by_s } } else { LastAnswer::InTime }, nodes)
+        (if by_s > ROUNDING_S { ReplanStatus::Late { by_s } } else { ReplanStatus::InTime }, nodes)
     }
 
     /// Appends what the reference in force holds up to `end_s`, and where it is then.

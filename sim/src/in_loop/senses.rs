@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
-use scenarios::in_loop::{Neighbour, Node, Sighting};
-use scenarios::{Moving, Prism, World};
+use scenarios::in_loop::{Neighbour, Node, ObstacleMeasurement};
+use scenarios::{MovingCylinder, Prism, World};
 
 use crate::sensors::Sensors;
 
@@ -67,7 +67,7 @@ impl Senses {
     }
 
     /// The moving obstacles within range, as measured.
-    pub fn sightings(&mut self, t_s: f64, position_m: &Vector3<f64>) -> Vec<Sighting> {
+    pub fn sightings(&mut self, t_s: f64, position_m: &Vector3<f64>) -> Vec<ObstacleMeasurement> {
         let Self { truth, sensors, range_m, .. } = self;
         let in_range = truth.moving.iter().filter(|it| it.signed_distance_m(t_s, (*position_m).into()) <= *range_m);
         in_range.map(|moving| sighting(moving, t_s, sensors)).collect()
@@ -91,10 +91,10 @@ impl Senses {
     }
 }
 
-fn sighting(moving: &Moving, t_s: f64, sensors: &mut Sensors) -> Sighting {
+fn sighting(moving: &MovingCylinder, t_s: f64, sensors: &mut Sensors) -> ObstacleMeasurement {
     let in_space = |[x, y]: [f64; 2]| Vector3::new(x, y, 0.0);
     let seen = sensors.sight(in_space(moving.position_m(t_s)), in_space(moving.velocity_mps(t_s)));
-    Sighting {
+    ObstacleMeasurement {
         name: moving.name.clone(),
         radius_m: moving.radius_m,
         z_m: moving.z_m,

@@ -1,5 +1,5 @@
 use nalgebra::Vector3;
-use scenarios::in_loop::{InLoopPlanner, LastAnswer};
+use scenarios::in_loop::{InLoopPlanner, ReplanStatus};
 use scenarios::multirotor::Plant;
 use scenarios::{AppliedLimits, Plan, Scenario};
 
@@ -307,9 +307,9 @@ impl Crew {
 /// What an answer is worth a line for, if it is.
 fn about(replan: &Replan) -> Option<EventKind> {
     match &replan.outcome {
-        LastAnswer::Late { by_s } => Some(EventKind::AnswerLate { by_s: *by_s }),
-        LastAnswer::Rejected { reason } => Some(EventKind::AnswerRejected { reason: reason.clone() }),
-        LastAnswer::None | LastAnswer::InTime | LastAnswer::Kept { .. } => None,
+        ReplanStatus::Late { by_s } => Some(EventKind::AnswerLate { by_s: *by_s }),
+        ReplanStatus::Rejected { reason } => Some(EventKind::AnswerRejected { reason: reason.clone() }),
+        ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Kept { .. } => None,
     }
 }
 

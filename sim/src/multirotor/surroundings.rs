@@ -1,5 +1,5 @@
 use nalgebra::Vector3;
-use scenarios::{Cylinder, Moving, Prism, World};
+use scenarios::{Cylinder, MovingCylinder, Prism, World};
 
 /// A distance that counts as touching, m.
 const TOUCH_M: f64 = 1e-9;
@@ -9,7 +9,7 @@ const TOUCH_M: f64 = 1e-9;
 pub struct Surroundings {
     cylinders: Vec<Cylinder>,
     flat: Vec<Prism>,
-    moving: Vec<Moving>,
+    moving: Vec<MovingCylinder>,
 }
 
 impl Surroundings {
@@ -92,25 +92,25 @@ impl Surroundings {
 enum Kind<'a> {
     Cylinder(&'a Cylinder),
     Flat(&'a Prism),
-    Moving(&'a Moving),
+    Moving(&'a MovingCylinder),
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scenarios::{Block, Map, Range};
+    use scenarios::{BoxObstacle, Map, Range};
 
     fn surroundings() -> Surroundings {
         let wide = Range::new(-100.0, 100.0);
         let mut world = World::empty(Map { x_m: wide, y_m: wide, z_m: wide });
-        world.boxes.push(Block {
+        world.boxes.push(BoxObstacle {
             name: "wall".into(),
             center_m: [5.0, 0.0],
             size_m: [0.001, 10.0],
             heading_deg: 0.0,
             z_m: Some(Range::new(0.0, 2.0)),
         });
-        world.moving.push(Moving {
+        world.moving.push(MovingCylinder {
             name: "cart".into(),
             radius_m: 1.0,
             z_m: None,

@@ -71,7 +71,7 @@ pub fn plan(mut trajectories: Vec<Trajectory>) -> Plan {
         objective: None,
         trajectories: trajectories.into_iter().map(Into::into).collect(),
         history: vec![],
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     }
 }

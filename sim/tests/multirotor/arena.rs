@@ -3,7 +3,7 @@
 use scenarios::Scenario;
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
-use scenarios::{Account, Plan, PlanStatus, PlanTimings};
+use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings};
 
 const TEXT: &str = r#"name = "arena"
 description = "Nothing in the way."
@@ -61,7 +61,7 @@ pub fn plan(scenario: &Scenario, nodes: &[Node]) -> Plan {
         objective: None,
         trajectories: vec![Trajectory::through("uav-1", nodes).into()],
         history: Vec::new(),
-        account: Account::default(),
+        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use scenarios::in_loop::{Answer, InLoopPlanner, LastAnswer, Node, Observation};
+use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult, ReplanStatus};
 use scenarios::{Cylinder, PlanningClock, Scenario};
 use sim::{Flight, fly_in_loop};
 
@@ -14,7 +14,7 @@ struct Told {
     t_s: f64,
     takes_effect_s: f64,
     first_in_force_m: [f64; 3],
-    last: LastAnswer,
+    last: ReplanStatus,
     known: Vec<String>,
     discovered: Vec<String>,
 }
@@ -25,7 +25,7 @@ struct Scribe {
 }
 
 impl InLoopPlanner for Scribe {
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         let mut told = self.told.lock().expect("nobody panicked");
         told.push(Told {
             t_s: observation.t_s,
@@ -40,7 +40,7 @@ impl InLoopPlanner for Scribe {
         let from_s = observation.takes_effect_s;
         // The last metre per second goes within half a metre.
         let end = Node { t_s: from_s + 1.0, position_m: [from_s + 0.5, 0.0, 5.0], velocity_mps: [0.0; 3] };
-        Answer::fly(vec![node(from_s, 1.0), end])
+        ReplanResult::fly(vec![node(from_s, 1.0), end])
     }
 }
 
@@ -66,7 +66,7 @@ fn answers_in_time_take_effect_at_the_deadline() {
     assert_eq!(told.len(), 13);
     for (index, told) in told.iter().enumerate() {
         assert!((told.t_s - 0.25 * index as f64).abs() < 1e-9 && (told.takes_effect_s - told.t_s - 0.1).abs() < 1e-9);
-        assert_eq!(told.last, if index == 0 { LastAnswer::None } else { LastAnswer::InTime });
+        assert_eq!(told.last, if index == 0 { ReplanStatus::None } else { ReplanStatus::InTime });
     }
     assert_eq!(told[0].first_in_force_m, [0.0, 0.0, 5.0]);
     assert!((told[1].first_in_force_m[0] - 0.1).abs() < 1e-9);
@@ -81,8 +81,8 @@ fn a_late_answer_is_flown_late_from_its_middle_on() {
         scenario.simulation.planning.time = PlanningClock::Recorded;
         scenario.simulation.planning.recorded_s = vec![0.05, 0.17];
     });
-    assert_eq!(told[1].last, LastAnswer::InTime);
-    let LastAnswer::Late { by_s } = told[2].last else { panic!("{:?}", told[2].last) };
+    assert_eq!(told[1].last, ReplanStatus::InTime);
+    let ReplanStatus::Late { by_s } = told[2].last else { panic!("{:?}", told[2].last) };
     assert!((by_s - 0.07).abs() < 1e-9, "{by_s}");
     // Asked at 0.25 s for 0.35 s, there at 0.42 s: until then the first reference brakes on.
     let reference_m = |t_s: f64| flight.vehicles[0].samples[(t_s * 100.0).round() as usize].reference_position_m[0];

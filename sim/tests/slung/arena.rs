@@ -80,7 +80,7 @@ pub fn plan(trajectory: Trajectory) -> Plan {
         objective: None,
         trajectories: vec![trajectory.into()],
         history: vec![],
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     }
 }

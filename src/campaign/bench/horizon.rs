@@ -130,14 +130,14 @@ struct Flown {
 impl Flown {
     fn by(case: &Case, seed: u64) -> Self {
         let (scenario, planner) = (&case.scenario, case.planner);
-        let briefing = scenario.briefing();
+        let planner_view = scenario.planner_view();
         let (plan, flight) = if planner.plans_in_the_loop() {
-            let crew = (0..scenario.vehicles.len()).map(|index| planner.in_loop(&briefing, index, seed)).collect();
+            let crew = (0..scenario.vehicles.len()).map(|index| planner.in_loop(&planner_view, index, seed)).collect();
             let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
             let log = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
             (in_loop::as_plan(scenario, planner.name, seed, log), Some(flight))
         } else {
-            let plan = planner.plan(&briefing, seed, &mut |_| {});
+            let plan = planner.plan(&planner_view, seed, &mut |_| {});
             let flight =
                 verdict::is_flyable(scenario, &plan).ok().map(|()| sim::fly(scenario, &plan, seed, &mut |_| {}));
             (plan, flight)
@@ -177,18 +177,18 @@ fn mean_clearance_m(scenario: &Scenario, flight: &Flight) -> Option<f64> {
 fn in_loop_figures(flown: &[Flown]) -> Option<InLoop> {
     let replans = || flown.iter().flat_map(|flown| &flown.replans);
     let of_flights = || flown.iter().filter_map(|flown| mean(flown.replans.iter().map(|replan| replan.wall_s)));
-    let is_empty = |replan: &Replan| f64::from(u8::from(replan.account.cost.is_none()));
+    let is_empty = |replan: &Replan| f64::from(u8::from(replan.diagnostics.cost.is_none()));
     Some(InLoop {
         replan_s: [
             mean(replans().map(|replan| replan.wall_s))?,
             of_flights().fold(f64::INFINITY, f64::min),
             of_flights().fold(0.0, f64::max),
         ],
-        iterations: mean(replans().map(|replan| replan.account.iterations as f64))?,
+        iterations: mean(replans().map(|replan| replan.diagnostics.iterations as f64))?,
         first_feasible: mean(
-            replans().filter_map(|replan| replan.account.first_feasible).map(|iteration| iteration as f64),
+            replans().filter_map(|replan| replan.diagnostics.first_feasible).map(|iteration| iteration as f64),
         ),
-        feasible: mean(replans().filter_map(|replan| replan.account.feasible_share)),
+        feasible: mean(replans().filter_map(|replan| replan.diagnostics.feasible_fraction)),
         empty: mean(replans().map(is_empty))?,
         stability_mps2: mean(flown.iter().flat_map(|flown| changes_mps2(&flown.replans)))?,
     })

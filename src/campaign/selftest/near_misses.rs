@@ -1,7 +1,7 @@
 //! What is just inside a limit must pass: a judge that fails everything catches every fault too.
 
 use scenarios::multirotor::Plant;
-use scenarios::{Block, Cylinder, Family};
+use scenarios::{BoxObstacle, Cylinder, Family};
 
 use super::faults::cuts::{self, SHARE};
 use super::{NearMiss, Specimen};
@@ -110,7 +110,7 @@ fn multirotor() -> Vec<NearMiss> {
             let (middle, reach_m) = (it.planned_steps() / 2, it.multirotor_model().body_radius_m);
             let [x_m, y_m, _] = it.samples(0)[middle].position_m;
             let aside_m = reach_m + 0.01 + distance_m(it);
-            it.scenario.world.boxes.push(Block {
+            it.scenario.world.boxes.push(BoxObstacle {
                 name: "planted".to_owned(),
                 center_m: [x_m, y_m - aside_m],
                 size_m: [0.02, 0.02],

@@ -53,7 +53,7 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
         objective: None,
         trajectories: Vec::new(),
         history: Vec::new(),
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings::default(),
     };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };

@@ -14,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 use scenarios::Scenario;
-use scenarios::in_loop::{Answer, Decision, Deliberation, InLoopPlanner, Node, Observation};
+use scenarios::in_loop::{Decision, InLoopPlanner, Node, Observation, ReplanDiagnostics, ReplanResult};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -67,13 +67,13 @@ struct ExternalInLoopPlanner {
 }
 
 impl InLoopPlanner for ExternalInLoopPlanner {
-    fn replan(&mut self, observation: &Observation<'_>) -> Answer {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         let mut question = json!(observation);
         question["known"] = request::world(observation.known);
         question["request"] = "replan".into();
         question["vehicle"] = self.vehicle.clone().into();
         let mut session = self.session.lock().unwrap_or_else(PoisonError::into_inner);
-        session.ask(&question).and_then(|text| read(&text)).unwrap_or_else(Answer::keep)
+        session.ask(&question).and_then(|text| read(&text)).unwrap_or_else(ReplanResult::keep)
     }
 }
 
@@ -83,18 +83,18 @@ impl InLoopPlanner for ExternalInLoopPlanner {
 struct Reply {
     fly: Option<Vec<Node>>,
     keep: Option<String>,
-    #[serde(default)]
-    account: Deliberation,
+    #[serde(default, rename = "account")]
+    diagnostics: ReplanDiagnostics,
 }
 
-fn read(text: &str) -> Result<Answer, String> {
+fn read(text: &str) -> Result<ReplanResult, String> {
     let reply: Reply = serde_json::from_str(text).map_err(|error| format!("its reply makes no sense: {error}"))?;
     let decision = match (reply.fly, reply.keep) {
         (Some(nodes), None) => Decision::Fly(nodes),
         (None, Some(reason)) => Decision::Keep { reason },
         _ => return Err("its reply has neither `fly` nor `keep`, or both".into()),
     };
-    Ok(Answer { decision, account: reply.account })
+    Ok(ReplanResult { decision, diagnostics: reply.diagnostics })
 }
 
 /// The running command.
@@ -220,7 +220,7 @@ mod tests {
     fn a_reply_is_a_reference_or_a_reason_to_keep_the_last() {
         let answer = read(r#"{"fly": [{"t_s": 1.0, "position_m": [0, 0, 1], "velocity_mps": [0, 0, 0]}]}"#).unwrap();
         assert!(matches!(answer.decision, Decision::Fly(nodes) if nodes == [Node::at_rest(1.0, [0.0, 0.0, 1.0])]));
-        assert_eq!(read(r#"{"keep": "nothing better"}"#).unwrap(), Answer::keep("nothing better"));
+        assert_eq!(read(r#"{"keep": "nothing better"}"#).unwrap(), ReplanResult::keep("nothing better"));
         for nonsense in ["", "hello", "{}", "[]", r#"{"fly": 3}"#, r#"{"fly": [], "keep": "both"}"#] {
             assert!(read(nonsense).is_err(), "{nonsense}");
         }

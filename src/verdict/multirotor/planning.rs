@@ -4,7 +4,7 @@
 //! A simulator that takes answers before they are there, or asks more often than it may, makes every planner look better
 //! than it is.
 
-use scenarios::in_loop::{LastAnswer, Node};
+use scenarios::in_loop::{Node, ReplanStatus};
 use scenarios::multirotor::Trajectory;
 use scenarios::{Plan, Planning, PlanningClock, Scenario};
 use sim::multirotor::Reference;
@@ -119,9 +119,9 @@ impl Turns<'_> {
         }
         let late_s = due_s - planned_s;
         let is_told = match replan.outcome {
-            LastAnswer::InTime => late_s <= ROUNDING_S,
-            LastAnswer::Late { by_s } => late_s > 0.0 && !exceeds((by_s - late_s).abs(), ROUNDING_S),
-            LastAnswer::None | LastAnswer::Kept { .. } | LastAnswer::Rejected { .. } => true,
+            ReplanStatus::InTime => late_s <= ROUNDING_S,
+            ReplanStatus::Late { by_s } => late_s > 0.0 && !exceeds((by_s - late_s).abs(), ROUNDING_S),
+            ReplanStatus::None | ReplanStatus::Kept { .. } | ReplanStatus::Rejected { .. } => true,
         };
         (!is_told).then(|| {
             format!("the answer that was asked for at {asked_s} s was {late_s:.3} s late; its log says otherwise")
@@ -186,7 +186,7 @@ fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
 fn untold(flight: &Flight, log: &PlanningLog) -> Option<String> {
     let is_event =
         |event: &&sim::Event| matches!(event.kind, EventKind::AnswerLate { .. } | EventKind::AnswerRejected { .. });
-    let is_odd = |replan: &&Replan| matches!(replan.outcome, LastAnswer::Late { .. } | LastAnswer::Rejected { .. });
+    let is_odd = |replan: &&Replan| matches!(replan.outcome, ReplanStatus::Late { .. } | ReplanStatus::Rejected { .. });
     let (told, odd) = (flight.events.iter().filter(is_event).count(), log.replans.iter().filter(is_odd).count());
     (told != odd).then(|| format!("{odd} answers were late or rejected, and the log tells of {told}"))
 }

@@ -32,7 +32,7 @@ pub fn faults() -> Vec<Fault> {
         Fault::new("plan.finite", "one planned time is not a number", |it| it.times_s(0)[2] = f64::NAN),
         Fault::new("plan.finite", "the objective is not a number", |it| it.plan.objective = Some(f64::NAN)),
         Fault::new("plan.finite", "a planned event is at no time", |it| {
-            it.plan.account.events.push(PlannedEvent { at_s: f64::NAN, what: "catch".to_owned() });
+            it.plan.diagnostics.events.push(PlannedEvent { at_s: f64::NAN, what: "catch".to_owned() });
         }),
         Fault::new("plan.dynamics", "the plan's clock runs 5 % fast", |it| {
             it.times_s(0).iter_mut().for_each(|t_s| *t_s *= 0.95);

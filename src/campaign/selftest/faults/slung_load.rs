@@ -1,7 +1,7 @@
 //! What can be wrong with a plan or a flight of a quadrotor with a slung load.
 
 use scenarios::slung_load::Cable;
-use scenarios::{Block, Gate, Range, Window};
+use scenarios::{BoxObstacle, Gate, Range, Window};
 use sim::{Event, EventKind};
 
 use super::super::specimen::thrusts;
@@ -231,10 +231,10 @@ fn place(it: &mut Specimen, step: usize, size_m: [f64; 2], z_m: Option<Range>) {
     let middle = |axis: usize| f64::midpoint(from.position_m[axis], to.position_m[axis]);
     let heading_deg = from.velocity_mps[1].atan2(from.velocity_mps[0]).to_degrees();
     let center_m = [middle(0), middle(1)];
-    it.scenario.world.boxes.push(Block { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
+    it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }
 
 fn add(it: &mut Specimen, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
     let heading_deg = 0.0;
-    it.scenario.world.boxes.push(Block { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
+    it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }

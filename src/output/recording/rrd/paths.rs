@@ -35,7 +35,7 @@ pub fn log_planned(stream: &RecordingStream, run: &Run<'_>) -> Logged {
 
 /// Ways that the planner tried and did not take, thinner still, with what it says of them.
 pub fn log_alternatives(stream: &RecordingStream, run: &Run<'_>) -> Logged {
-    for (index, way) in run.plan.account.alternatives.iter().enumerate() {
+    for (index, way) in run.plan.diagnostics.alternatives.iter().enumerate() {
         let objective = way.objective.map(|objective| format!(", objective {objective:.2}")).unwrap_or_default();
         let points = way.path_m.iter().filter(|point| point.iter().all(|x| x.is_finite())).map(|point| to_f32(*point));
         let line = LineStrips3D::new([points.collect::<Vec<_>>()])

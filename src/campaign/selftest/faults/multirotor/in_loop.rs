@@ -1,6 +1,6 @@
 //! Flights that were planned while they lasted: what their log says of the planning.
 
-use scenarios::in_loop::LastAnswer;
+use scenarios::in_loop::ReplanStatus;
 use sim::{EventKind, PlanningLog};
 
 use crate::campaign::selftest::{Fault, Specimen};
@@ -60,11 +60,11 @@ fn answers() -> Vec<Fault> {
         }),
         Fault::new("flight.conditions", "an answer was flown that had been rejected", |it| {
             let reason = "it is no motion".to_owned();
-            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == LastAnswer::InTime);
-            flown.expect("an answer").outcome = LastAnswer::Rejected { reason };
+            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == ReplanStatus::InTime);
+            flown.expect("an answer").outcome = ReplanStatus::Rejected { reason };
         }),
         Fault::new("flight.conditions", "what was flown is not what was answered", |it| {
-            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == LastAnswer::InTime);
+            let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == ReplanStatus::InTime);
             let nodes = &mut flown.expect("an answer").nodes;
             nodes.iter_mut().for_each(|node| node.position_m[2] += 0.01);
         }),

@@ -1,6 +1,6 @@
 //! Flights among obstacles that move.
 
-use scenarios::Moving;
+use scenarios::MovingCylinder;
 use sim::multirotor::Surroundings;
 
 use crate::campaign::selftest::{Fault, Specimen};
@@ -26,7 +26,7 @@ pub fn faults() -> Vec<Fault> {
                 let (speed_mps, t_s) = (400.0, f64::midpoint(from.t_s, to.t_s));
                 // Far away but for an instant: its way there and back takes longer than the flight.
                 let (before_m, beyond_m) = (speed_mps * t_s, speed_mps * 200.0);
-                it.scenario.world.moving.push(Moving {
+                it.scenario.world.moving.push(MovingCylinder {
                     name: "planted".to_owned(),
                     radius_m: 1e-3,
                     z_m: None,

@@ -1,6 +1,6 @@
 //! Plans that were there before the flight.
 
-use scenarios::{Block, Range};
+use scenarios::{BoxObstacle, Range};
 
 use crate::campaign::selftest::{Fault, Specimen};
 
@@ -123,5 +123,5 @@ pub fn half_way(it: &mut Specimen) -> [f64; 2] {
 /// A box with its sides along the axes.
 pub fn add(it: &mut Specimen, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
     let heading_deg = 0.0;
-    it.scenario.world.boxes.push(Block { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
+    it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }

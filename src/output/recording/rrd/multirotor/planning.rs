@@ -50,11 +50,11 @@ fn log_space(stream: &RecordingStream, name: &str, colour: [u8; 3], replans: &[&
                 .with_colors([palette::translucent(colour, 0.6)])
                 .with_radii([pixels(radius)])
         };
-        let account = &replan.account;
-        stream.log(entity("world/candidates", name), &strips(&account.candidates, palette::dimmed(colour), 0.5))?;
-        let route = std::slice::from_ref(&account.route);
+        let diagnostics = &replan.diagnostics;
+        stream.log(entity("world/candidates", name), &strips(&diagnostics.candidates, palette::dimmed(colour), 0.5))?;
+        let route = std::slice::from_ref(&diagnostics.route);
         stream.log(entity("world/route", name), &strips(route, palette::KEPT, 0.8))?;
-        if let Some(graph) = &account.graph {
+        if let Some(graph) = &diagnostics.graph {
             let edges: Vec<Vec<[f64; 3]>> = graph.iter().take(MOST_EDGES).map(|edge| edge.to_vec()).collect();
             stream.log(entity("world/cost_map", name), &strips(&edges, COST_MAP, 0.4))?;
         }

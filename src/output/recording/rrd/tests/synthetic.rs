@@ -172,7 +172,7 @@ fn plan(scenario: &Scenario, duration_s: f64) -> Plan {
         objective: Some(duration_s),
         trajectories: scenario.vehicles.iter().enumerate().map(trajectory).collect(),
         history: (0..17).map(iteration).collect(),
-        account: scenarios::Account::default(),
+        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: 0.083, distributed_s: 0.021 },
     }
 }

@@ -5,7 +5,7 @@ use super::PlanStatus;
 /// What a planner tells beyond its trajectories.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Account {
+pub struct PlanDiagnostics {
     /// What the plan foresees, in time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<PlannedEvent>,
@@ -14,7 +14,7 @@ pub struct Account {
     pub alternatives: Vec<Alternative>,
 }
 
-impl Account {
+impl PlanDiagnostics {
     /// Is there nothing to tell?
     pub fn is_empty(&self) -> bool {
         self.events.is_empty() && self.alternatives.is_empty()
