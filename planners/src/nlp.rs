@@ -13,8 +13,8 @@
 //! s v = μ,  (x - lower) z_l = μ,  (upper - x) z_u = μ
 //! ```
 //!
-//! The method holds no matrices: a [`Program`] factors and solves its own Newton systems, and so exploits its structure.
-//! No vehicle is named here.
+//! The method holds no matrices: a [`Program`] factors and solves its own Newton systems, and so exploits its
+//! structure. No vehicle is named here.
 
 mod barrier;
 mod filter;

@@ -7,9 +7,9 @@
 //! Σ_i D_ki X_i - η f(X_k, U_k) = 0,   k = 1..N          J = Σ η w_k l(X_k, U_k)
 //! ```
 //!
-//! (Kang, Huang, Wen 2020, eq. 21 to 27; Garg et al. 2010). [`Transcription`] is the resulting nonlinear program. It solves
-//! its Newton systems segment by segment: each segment is condensed to a stage of a linear-quadratic problem, and a Riccati
-//! recursion runs over the stages. No vehicle is named here.
+//! (Kang, Huang, Wen 2020, eq. 21 to 27; Garg et al. 2010). [`Transcription`] is the resulting nonlinear program. It
+//! solves its Newton systems segment by segment: each segment is condensed to a stage of a linear-quadratic problem,
+//! and a Riccati recursion runs over the stages. No vehicle is named here.
 
 mod condensed_segment;
 mod condensed_solve;

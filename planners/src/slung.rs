@@ -1,5 +1,5 @@
-//! Trajectory optimisation for a quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics after
-//! Foehn et al. 2017).
+//! Trajectory optimisation for a quadrotor with a load on a cable that can go slack (Kang, Huang, Wen 2020; dynamics
+//! after Foehn et al. 2017).
 
 mod attitude;
 mod cable;

@@ -1,5 +1,5 @@
-//! Plans of `slung-lgr` against equations of their own, written in Cartesian coordinates: between any two samples the
-//! planned thrusts must lead from the one to the other, and an impact must be one.
+//! Plans of `slung-lgr` against independent equations of motion in Cartesian coordinates: the planned thrusts must lead
+//! from each sample to the next, and impacts must be inelastic.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ const SUBSTEPS: usize = 4;
 
 /// Quadrotor as a rigid body, load as a point.
 #[derive(Clone, Copy)]
-struct Motion {
+struct FlightState {
     position: Vector3<f64>,
     velocity: Vector3<f64>,
     world_from_body: Matrix3<f64>,
@@ -21,8 +21,8 @@ struct Motion {
     load_velocity: Vector3<f64>,
 }
 
-impl Motion {
-    fn of(state: &State) -> Self {
+impl FlightState {
+    fn from_plan(state: &State) -> Self {
         let [roll, pitch, yaw] = state.roll_pitch_yaw_rad;
         Self {
             position: state.position_m.into(),
@@ -45,7 +45,7 @@ impl Motion {
         }
     }
 
-    fn rate(&self, model: &Model, thrusts: [f64; 4], cable: Cable, is_parked: bool) -> Self {
+    fn rate(&self, model: &Model, thrusts: [f64; 4], cable: Cable, is_on_ground: bool) -> Self {
         let [f1, f2, f3, f4] = thrusts;
         let (arm, k) = (model.arm_m, model.torque_per_thrust_m);
         let torque = Vector3::new(arm * (-f1 + f2 + f3 - f4), arm * (-f1 - f2 + f3 + f4), k * (f1 - f2 + f3 - f4));
@@ -55,34 +55,35 @@ impl Motion {
         let along = (self.load - self.position).normalize();
         let relative = self.load_velocity - self.velocity;
         let length = (self.load - self.position).norm();
-        // (p_L - p_Q)''.d = -|relative across|^2/length keeps the length
+        // the length is constant: (p_L - p_Q)''.d = -|transverse relative velocity|^2/length
         let centripetal = (relative.norm_squared() - relative.dot(&along).powi(2)) / length;
         let inverse_masses = 1.0 / model.mass_kg + 1.0 / model.load_mass_kg;
         let tension = if cable == Cable::Taut { (centripetal - thrust.dot(&along)) / inverse_masses } else { 0.0 };
-        let rest = if is_parked { 0.0 } else { 1.0 };
+        let load_motion = if is_on_ground { 0.0 } else { 1.0 };
         Self {
             position: self.velocity,
             velocity: thrust + GRAVITY + tension / model.mass_kg * along,
             world_from_body: self.world_from_body * self.body_rate.cross_matrix(),
             body_rate: (torque - self.body_rate.cross(&momentum)).component_div(&inertia),
-            load: rest * self.load_velocity,
-            load_velocity: rest * (GRAVITY - tension / model.load_mass_kg * along),
+            load: load_motion * self.load_velocity,
+            load_velocity: load_motion * (GRAVITY - tension / model.load_mass_kg * along),
         }
     }
 }
 
-/// Runge-Kutta of fourth order, thrusts linear in time.
-fn flow(model: &Model, trajectory: &Trajectory, k: usize, is_parked: bool) -> Motion {
+/// Integrates from a sample to the time of the next one, by the classical Runge-Kutta method with thrusts linear in
+/// time.
+fn propagate(model: &Model, trajectory: &Trajectory, k: usize, is_on_ground: bool) -> FlightState {
     let duration = trajectory.times_s[k + 1] - trajectory.times_s[k];
-    let thrusts = |share: f64| {
+    let thrusts = |fraction: f64| {
         let (from, to) = (trajectory.controls[k].thrust_n, trajectory.controls[k + 1].thrust_n);
-        std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))
+        std::array::from_fn(|i| from[i] + fraction * (to[i] - from[i]))
     };
     let step = duration / SUBSTEPS as f64;
-    let mut at = Motion::of(&trajectory.states[k]);
+    let mut at = FlightState::from_plan(&trajectory.states[k]);
     for i in 0..SUBSTEPS {
-        let share = |half: f64| thrusts((i as f64 + 0.5 * half) / SUBSTEPS as f64);
-        let rate = |at: &Motion, half: f64| at.rate(model, share(half), trajectory.cable[k], is_parked);
+        let thrusts_at = |half: f64| thrusts((i as f64 + 0.5 * half) / SUBSTEPS as f64);
+        let rate = |at: &FlightState, half: f64| at.rate(model, thrusts_at(half), trajectory.cable[k], is_on_ground);
         let k1 = rate(&at, 0.0);
         let k2 = rate(&at.plus(&k1, 0.5 * step), 1.0);
         let k3 = rate(&at.plus(&k2, 0.5 * step), 1.0);
@@ -103,31 +104,32 @@ fn planned(name: &str) -> (Scenario, Trajectory) {
     (scenario, trajectory)
 }
 
-/// Largest differences over all intervals of position, m, velocity, m/s, and body rate, rad/s.
+/// Maximum differences over all intervals: position, m, velocity, m/s, and body rate, rad/s.
 fn defects(scenario: &Scenario, trajectory: &Trajectory) -> [f64; 3] {
     let model = scenario.slung_load_model(&scenario.vehicles[0]);
-    let starts_parked = scenario
+    let starts_on_ground = scenario
         .world
         .ground_m
         .is_some_and(|ground_m| trajectory.states[0].load_position_m[2] <= ground_m + model.load_radius_m + 1e-6);
-    let mut worst = [0.0_f64; 3];
+    let mut max = [0.0_f64; 3];
     for k in 0..trajectory.times_s.len() - 1 {
         if trajectory.times_s[k + 1] <= trajectory.times_s[k] {
             continue;
         }
-        let is_parked = starts_parked && trajectory.cable[k] == Cable::Slack;
-        let (end, next) = (flow(model, trajectory, k, is_parked), Motion::of(&trajectory.states[k + 1]));
+        let is_on_ground = starts_on_ground && trajectory.cable[k] == Cable::Slack;
+        let (end, next) =
+            (propagate(model, trajectory, k, is_on_ground), FlightState::from_plan(&trajectory.states[k + 1]));
         let differences = [
             (end.position - next.position).norm().max((end.load - next.load).norm()),
             (end.velocity - next.velocity).norm().max((end.load_velocity - next.load_velocity).norm()),
             (end.body_rate - next.body_rate).norm(),
         ];
-        for (worst, difference) in worst.iter_mut().zip(differences) {
+        for (max, difference) in max.iter_mut().zip(differences) {
             assert!(difference.is_finite());
-            *worst = worst.max(difference);
+            *max = max.max(difference);
         }
     }
-    worst
+    max
 }
 
 #[test]
@@ -143,9 +145,9 @@ fn thrusts_lead_from_sample_to_sample() {
     }
 }
 
-/// The cable keeps its length while it is taut and never exceeds it.
+/// The cable has its full length while it is taut, and never exceeds it.
 #[test]
-fn the_cable_is_never_too_long() {
+fn the_cable_never_exceeds_its_length() {
     for name in ["rectangle", "lift-off", "drop-and-catch", "gate"] {
         let (scenario, trajectory) = planned(name);
         let full_m = scenario.slung_load_model(&scenario.vehicles[0]).cable_length_m;
@@ -157,8 +159,7 @@ fn the_cable_is_never_too_long() {
     }
 }
 
-/// An impact leaves the momentum of both together, and stops the stretching. Where the ground holds the load it does not
-/// move before.
+/// An impact conserves the total momentum and stops the stretching of the cable; its impulse acts along the cable.
 #[test]
 fn impacts_are_inelastic() {
     for name in ["lift-off", "drop-and-catch"] {
@@ -166,20 +167,21 @@ fn impacts_are_inelastic() {
         let model = scenario.slung_load_model(&scenario.vehicles[0]);
         let jump = (1..trajectory.times_s.len()).find(|&k| trajectory.times_s[k] == trajectory.times_s[k - 1]);
         let k = jump.expect("one impact");
-        let (before, after) = (Motion::of(&trajectory.states[k - 1]), Motion::of(&trajectory.states[k]));
+        let (before, after) =
+            (FlightState::from_plan(&trajectory.states[k - 1]), FlightState::from_plan(&trajectory.states[k]));
         assert_eq!((trajectory.cable[k - 1], trajectory.cable[k]), (Cable::Slack, Cable::Taut));
-        let momentum = |at: &Motion| model.mass_kg * at.velocity + model.load_mass_kg * at.load_velocity;
+        let momentum = |at: &FlightState| model.mass_kg * at.velocity + model.load_mass_kg * at.load_velocity;
         assert!((momentum(&after) - momentum(&before)).norm() < 1e-6, "{name}");
-        let stretching = |at: &Motion| (at.load_velocity - at.velocity).dot(&(at.load - at.position).normalize());
+        let stretching = |at: &FlightState| (at.load_velocity - at.velocity).dot(&(at.load - at.position).normalize());
         assert!(stretching(&before) > 0.1 && stretching(&after).abs() < 1e-6, "{name}");
         let jump_across = (after.load_velocity - before.load_velocity).cross(&(after.load - after.position)).norm();
         assert!(jump_across < 1e-6, "{name}: the impulse acts along the cable");
     }
 }
 
-/// The same plan to the last bit, on one thread and on two.
+/// Plans on one thread and on two are equal to the bit.
 #[test]
-fn plans_repeat_on_any_number_of_threads() {
+fn plans_do_not_depend_on_the_number_of_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| planned("rectangle").1)
@@ -187,9 +189,9 @@ fn plans_repeat_on_any_number_of_threads() {
     assert_eq!(with(1), with(2));
 }
 
-/// Under complementarity there are no phases between which a gate could be passed, and no ground that carries a load.
+/// The complementarity formulation has no phase boundaries for gates, and does not model the ground.
 #[test]
-fn complementarity_is_refused_where_it_cannot_tell() {
+fn complementarity_is_refused_with_gates_and_on_the_ground() {
     let planner = planners::find("slung-lgr").expect("registered");
     let refusal = |name: &str| {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/slung/{name}.toml"));

@@ -1,4 +1,4 @@
-//! The planner's optima against references that were computed by other means.
+//! Optima of `slung-lgr` against references from other solvers and from finer meshes.
 
 use planners::nlp::Settings;
 use planners::pseudospectral::{Duration, MultiphaseSystem, Tolerances, Transcription};
@@ -7,14 +7,14 @@ use planners::slung::{
     candidate_routes, optimise,
 };
 
-/// An optimum: J, and, where there is a switch, when it comes and with what impulse.
+/// An optimum: J and, for a motion with an impact, its instant and impulse.
 struct Optimum {
     objective: f64,
-    switch_s: f64,
+    impact_s: f64,
     impulse_ns: f64,
 }
 
-/// The optima on the right and on the left.
+/// The optima on the right and on the left of the obstacle.
 fn solve(problem: &Problem, options: &Options) -> [Optimum; 2] {
     let routes = candidate_routes(problem);
     assert_eq!(routes.len(), 2, "one on either side");
@@ -35,7 +35,7 @@ fn optimum(problem: &Problem, candidate: &Candidate) -> Optimum {
     let reduced_kg = body.quadrotor_kg * body.load_kg / (body.quadrotor_kg + body.load_kg);
     Optimum {
         objective: candidate.last().objective,
-        switch_s: program.duration_s(0, &candidate.x),
+        impact_s: program.duration_s(0, &candidate.x),
         impulse_ns: if problem.phases.len() > 1 { reduced_kg * node[system.coordinates() + 8] } else { 0.0 },
     }
 }
@@ -57,8 +57,8 @@ fn twenty_segments_of_three_points_agree_with_ipopt() {
     assert!((left - 2432.4494171).abs() < 1e-4, "{left}");
 }
 
-/// The same on a finer mesh, where it depends on the way there between which two nodes the corner is passed: optima of
-/// that kind lie within hundredths of each other.
+/// The same on a finer mesh. There are several local optima within hundredths of each other, which differ in the two
+/// nodes between which the corner is passed.
 #[test]
 fn forty_segments_of_four_points_agree_with_ipopt() {
     let [right, left] = objectives(&Problem::paper(), &fixed(40, 4));
@@ -66,15 +66,15 @@ fn forty_segments_of_four_points_agree_with_ipopt() {
     assert!((left - 2433.7981121).abs() < 0.03, "{left}");
 }
 
-/// J* = 2433.73 on the right, 2433.82 on the left, from much finer meshes; clear of the obstacle by r' - 1 mm.
+/// J* = 2433.73 on the right and 2433.82 on the left, from much finer meshes.
 #[test]
-fn refined_meshes_reach_the_paper_cases_optimum() {
+fn refined_meshes_reach_the_optimum_of_the_paper_case() {
     let [right, left] = objectives(&Problem::paper(), &Options::default());
     assert!((right - 2433.73).abs() < 0.05, "{right}");
     assert!((left - 2433.82).abs() < 0.05, "{left}");
 }
 
-/// The complementarity of the paper, at a small ε from the start, finds the same motion: the cable stays taut.
+/// The paper's complementarity with a small constant ε finds the same motion: the cable stays taut.
 #[test]
 fn complementarity_finds_the_taut_optimum() {
     let [right, left] = objectives(&complementary(), &fixed(20, 3));
@@ -82,7 +82,7 @@ fn complementarity_finds_the_taut_optimum() {
     assert!((left - 2432.449).abs() < 0.01, "{left}");
 }
 
-/// On refined meshes too, where a start a hand's breadth short of the full length would find a slack phase.
+/// On refined meshes too. With a larger bound push the method would find a slack phase at the start.
 #[test]
 fn complementarity_finds_the_taut_optimum_on_refined_meshes() {
     let [right, left] = objectives(&complementary(), &Options::default());
@@ -92,29 +92,30 @@ fn complementarity_finds_the_taut_optimum_on_refined_meshes() {
 
 fn complementary() -> Problem {
     let (mode, duration) = (CableMode::COMPLEMENTARITY, Duration::Fixed(4.0));
-    let stage = Phase { mode, duration, max_impulse_ns: None, gate: None };
-    Problem { phases: vec![stage], ..Problem::paper() }
+    let phase = Phase { mode, duration, max_impulse_ns: None, gate: None };
+    Problem { phases: vec![phase], ..Problem::paper() }
 }
 
-/// The shortest times round either side, on a mesh that was refined and on a fine one.
+/// Minimum times on either side, on a refined and on a fine fixed mesh.
 #[test]
-fn the_fastest_flights_do_not_depend_on_the_mesh() {
+fn minimum_times_do_not_depend_on_the_mesh() {
     let duration = Duration::Free { min_s: 0.02, guess_s: 3.0, max_s: 12.0 };
-    let stage = Phase { mode: CableMode::Taut, duration, max_impulse_ns: None, gate: None };
-    let problem = Problem { phases: vec![stage], weights: Weights::time(), ..Problem::paper() };
+    let phase = Phase { mode: CableMode::Taut, duration, max_impulse_ns: None, gate: None };
+    let problem = Problem { phases: vec![phase], weights: Weights::time(), ..Problem::paper() };
     let seconds = |options: &Options| objectives(&problem, options).map(|cost| problem.reported(cost));
-    let refined = Options { tolerances: Some(Tolerances { error: 1e-3, ..usual() }), ..Options::default() };
+    let refined =
+        Options { tolerances: Some(Tolerances { error: 1e-3, ..default_tolerances() }), ..Options::default() };
     let fine = Options { segments: 60, points: 4, tolerances: None, ..Options::default() };
     for (a, b) in seconds(&refined).into_iter().zip(seconds(&fine)) {
         assert!((a - b).abs() < 5e-3, "{a} {b}");
     }
 }
 
-fn usual() -> Tolerances {
+fn default_tolerances() -> Tolerances {
     Options::default().tolerances.expect("meshes are refined")
 }
 
-fn phased(mode: CableMode, position_m: [f64; 3], guess_s: f64, max_impulse_ns: Option<f64>) -> Problem {
+fn with_impact(mode: CableMode, position_m: [f64; 3], guess_s: f64, max_impulse_ns: Option<f64>) -> Problem {
     let first =
         Phase { mode, duration: Duration::Free { min_s: 0.02, guess_s, max_s: 3.6 }, max_impulse_ns, gate: None };
     let second = Phase { mode: CableMode::Taut, duration: Duration::Remainder(4.0), max_impulse_ns: None, gate: None };
@@ -122,44 +123,44 @@ fn phased(mode: CableMode, position_m: [f64; 3], guess_s: f64, max_impulse_ns: O
     Problem { start, phases: vec![first, second], ..Problem::paper() }
 }
 
-/// J = 2369.1 and 2357.9 on left and right, taut at 0.52 and 0.59 s with 0.22 and 0.26 N s.
+/// J = 2357.9 on the right and 2369.1 on the left, with impacts of 0.26 and 0.22 N s at 0.59 and 0.52 s.
 #[test]
-fn a_parked_load_is_picked_up_with_the_reference_impact() {
-    let problem = phased(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, None);
+fn a_load_on_the_ground_is_lifted_with_the_reference_impact() {
+    let problem = with_impact(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, None);
     let [right, left] = solve(&problem, &Options::default());
     assert!((right.objective - 2357.9).abs() < 0.1 && (left.objective - 2369.1).abs() < 0.1);
-    assert!((right.switch_s - 0.59).abs() < 0.01 && (left.switch_s - 0.52).abs() < 0.02);
+    assert!((right.impact_s - 0.59).abs() < 0.01 && (left.impact_s - 0.52).abs() < 0.02);
     assert!((right.impulse_ns - 0.26).abs() < 0.01 && (left.impulse_ns - 0.22).abs() < 0.01);
 }
 
 /// J = 2428.6 with an impulse of at most 1e-3 N s.
 #[test]
-fn a_parked_load_is_picked_up_softly() {
-    let problem = phased(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, Some(1e-3));
+fn a_load_on_the_ground_is_lifted_softly() {
+    let problem = with_impact(CableMode::OnGround, [-2.0, 0.0, 0.35], 0.5, Some(1e-3));
     let [right, left] = objectives(&problem, &Options::default());
     assert!((right.min(left) - 2428.6).abs() < 0.1, "{right} {left}");
 }
 
-/// J = 2432.9, caught at 0.228 s with 0.467 N s.
+/// J = 2432.9, with an impact of 0.467 N s at 0.228 s.
 #[test]
 fn a_falling_load_is_caught_with_the_reference_impact() {
-    let problem = phased(CableMode::Slack, [-2.0, 0.0, 1.3], 0.25, None);
+    let problem = with_impact(CableMode::Slack, [-2.0, 0.0, 1.3], 0.25, None);
     let optima = solve(&problem, &Options::default());
     let best = optima.iter().min_by(|a, b| a.objective.total_cmp(&b.objective)).expect("two");
     assert!((best.objective - 2432.9).abs() < 0.1, "{}", best.objective);
-    assert!((best.switch_s - 0.228).abs() < 0.002, "{}", best.switch_s);
+    assert!((best.impact_s - 0.228).abs() < 0.002, "{}", best.impact_s);
     assert!((best.impulse_ns - 0.467).abs() < 0.005, "{}", best.impulse_ns);
 }
 
-/// The paper's vehicle, with room for its cable to swing, on its way through free space: at one instant the load is to be
-/// above the quadrotor by so much and ahead of it, while the cable is what `mode` says.
+/// The paper's vehicle with wider cable angles, in free space. At the gate the load must be ahead of the quadrotor and
+/// at least `height_m` above it, with the cable in `mode`.
 fn gated(height_m: f64, mode: CableMode) -> Problem {
     let open = [f64::NEG_INFINITY, f64::INFINITY];
     let gate = Gate {
         quadrotor_m: [[-0.75, -0.05], open, [f64::NEG_INFINITY, 1.4]],
         load_m: [[0.05, 0.75], open, [1.4 + height_m, f64::INFINITY]],
     };
-    let stage = |mode, guess_s: f64, max_s: f64, gate| Phase {
+    let phase = |mode, guess_s: f64, max_s: f64, gate| Phase {
         mode,
         duration: Duration::Free { min_s: 0.02, guess_s, max_s },
         max_impulse_ns: None,
@@ -168,12 +169,12 @@ fn gated(height_m: f64, mode: CableMode) -> Problem {
     let last = Phase { mode: CableMode::Taut, duration: Duration::Remainder(4.0), max_impulse_ns: None, gate: None };
     let phases = match mode {
         CableMode::Slack => vec![
-            stage(CableMode::Taut, 2.0, 2.2, None),
-            stage(mode, 0.2, 0.7, Some(gate)),
-            stage(mode, 0.2, 0.7, None),
+            phase(CableMode::Taut, 2.0, 2.2, None),
+            phase(mode, 0.2, 0.7, Some(gate)),
+            phase(mode, 0.2, 0.7, None),
             last,
         ],
-        _ => vec![stage(CableMode::Taut, 2.0, 3.6, Some(gate)), last],
+        _ => vec![phase(CableMode::Taut, 2.0, 3.6, Some(gate)), last],
     };
     let cable_rad = [-130.0_f64, 130.0].map(f64::to_radians);
     let paper = Problem::paper();
@@ -181,9 +182,9 @@ fn gated(height_m: f64, mode: CableMode) -> Problem {
     Problem { limits: Limits { cable_rad, ..paper.limits }, obstacles, obstacle_names, phases, ..paper }
 }
 
-/// To let the cable go slack pays, and the more so the higher above the quadrotor the load has to pass.
+/// A slack phase reduces the cost, the more so the higher above the quadrotor the load must pass.
 #[test]
-fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
+fn a_slack_phase_reduces_the_cost_of_passing_above_the_quadrotor() {
     let objective = |height_m: f64, mode: CableMode| {
         let problem = gated(height_m, mode);
         let routes = candidate_routes(&problem);
@@ -200,7 +201,7 @@ fn a_slack_phase_pays_where_the_load_passes_above_the_quadrotor() {
     assert!(gains[0] > 0.0 && gains.is_sorted(), "{gains:?}");
 }
 
-/// A gate that says where the load has to be, and nothing of the quadrotor: it is found from a guess that leaves the way.
+/// A gate with a window for the load only, from a guess that leaves the route.
 #[test]
 fn a_gate_for_the_load_alone_is_passed() {
     let paper = Problem::paper();

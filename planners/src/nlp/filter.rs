@@ -1,5 +1,5 @@
-//! The filter: pairs (constraint violation θ, barrier objective φ), none of which may dominate a new iterate (Wächter and
-//! Biegler 2006, section 2.3).
+//! The filter: pairs (constraint violation θ, barrier objective φ), none of which may dominate a new iterate (Wächter
+//! and Biegler 2006, section 2.3).
 
 /// Sufficient decrease of θ and of φ, relative to θ (Wächter and Biegler 2006, eq. 18).
 pub const Γ_THETA: f64 = 1e-5;

@@ -5,8 +5,8 @@ use super::program::Program;
 use super::solution::{IterationRecord, Settings, Solution, Status};
 use super::state::State;
 
-/// Regularisation δ of the Hessian's diagonal (Wächter and Biegler 2006, algorithm IC): first trial, minimum, maximum, and
-/// the factors by which it changes.
+/// Regularisation δ of the Hessian's diagonal (Wächter and Biegler 2006, algorithm IC): first trial, minimum, maximum,
+/// and the factors by which it changes.
 const Δ_FIRST: f64 = 1e-2;
 const Δ_MIN: f64 = 1e-12;
 const Δ_MAX: f64 = 1e10;
@@ -105,7 +105,8 @@ impl InteriorPoint {
         }
     }
 
-    /// Factors with the smallest trial δ for which the inertia is correct (ibid., algorithm IC); false if there is none.
+    /// Factors with the smallest trial δ for which the inertia is correct (ibid., algorithm IC); false if there is
+    /// none.
     fn factor(&mut self, program: &mut impl Program) -> bool {
         self.δ = self.δ_min;
         let is_first = self.δ_last == 0.0;

@@ -13,7 +13,8 @@ const Γ_ALPHA: f64 = 0.05;
 const MAX_CORRECTIONS: usize = 4;
 const Κ_SOC: f64 = 0.99;
 
-/// Violation above which the switching condition is not considered; ours is absolute, the paper's relative to the start.
+/// Violation above which the switching condition is not considered; ours is absolute, the paper's relative to the
+/// start.
 const Θ_MIN: f64 = 1e-4;
 
 impl State {

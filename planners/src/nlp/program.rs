@@ -45,7 +45,7 @@ pub trait Program {
     /// Writes `H dx`, with H as factored last.
     fn hessian_times(&self, dx: &[f64], out: &mut [f64]);
 
-    /// Solves with the last factors in place: `x` holds the right-hand side of the first block row, then dx; `y` that of
-    /// the second, then dy. The solution may be inexact: the method applies iterative refinement.
+    /// Solves with the last factors in place: `x` holds the right-hand side of the first block row, then dx; `y` that
+    /// of the second, then dy. The solution may be inexact: the method applies iterative refinement.
     fn solve(&mut self, x: &mut [f64], y: &mut [f64]);
 }

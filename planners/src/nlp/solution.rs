@@ -5,8 +5,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Initial barrier parameter μ.
     pub initial_barrier: f64,
-    /// Minimum distance of a cold start from its bounds, relative to max(1, |bound|) and to the width of the box; minimum
-    /// slack of the inequalities.
+    /// Minimum distance of a cold start from its bounds, relative to max(1, |bound|) and to the width of the box;
+    /// minimum slack of the inequalities.
     pub bound_push: f64,
     /// Iteration limit.
     pub max_iterations: usize,

@@ -1,4 +1,5 @@
-//! One segment as a stage of a linear-quadratic problem: columns are its controls, its first state, and the parameters.
+//! One segment as a stage of a linear-quadratic problem, with its nodes condensed. Its columns are the controls U of
+//! all nodes, the first state x_1, and the parameters p.
 //!
 //! ```text
 //! cost-to-go(x_1, p) = min_U  1/2 [U x_1 p] Q [U x_1 p]^T + cost-to-go of the next segment(x_{N+1}, p)
@@ -8,10 +9,10 @@ use super::condensing::{Dimensions, Stages};
 use super::dense_kernels::{add_scaled, add_transposed_product, dot, eliminate, padded, product};
 use super::radau::Radau;
 
-/// Pivots must exceed this for a minimum over the controls.
-const LEAST_PIVOT: f64 = 1e-14;
+/// Pivots must exceed this for a strict minimum over the controls.
+const MIN_PIVOT: f64 = 1e-14;
 
-/// A quadratic function of a state and the parameters, `1/2 z^T matrix z + vector^T z`.
+/// A quadratic function `1/2 z^T matrix z + vector^T z` of a state and the parameters, z = (x, p).
 #[derive(Clone, Debug)]
 pub struct CostToGo {
     /// Symmetric, full, row-major.
@@ -20,26 +21,26 @@ pub struct CostToGo {
 }
 
 impl CostToGo {
-    /// Zero, for states and parameters together.
+    /// Zero, for `size` states and parameters.
     pub fn zero(size: usize) -> Self {
         Self { matrix: vec![0.0; size * size], vector: vec![0.0; size] }
     }
 }
 
-/// What a segment needs of its nodes, node by node.
+/// The part of a linearisation that belongs to a segment, node by node.
 #[derive(Clone, Copy, Debug)]
 pub struct Nodes<'a> {
-    /// Half-length η, s, and its derivatives with respect to the parameters.
+    /// Half-length η, s, and its gradient with respect to the parameters.
     pub half_length: f64,
-    pub half_length_gains: &'a [f64],
-    /// Hessian blocks with the barrier's weights.
+    pub half_length_gradient: &'a [f64],
+    /// Hessians with the barrier's terms.
     pub hessians: &'a [f64],
-    /// [A^q A^v B].
+    /// Jacobians [A^q A^v B] of the accelerations.
     pub jacobians: &'a [f64],
-    /// a and the node vectors.
+    /// Accelerations, and node vectors.
     pub accelerations: &'a [f64],
     pub variables: &'a [f64],
-    /// Second derivatives with respect to η and the node vector.
+    /// Mixed second derivatives with respect to η and the node vector.
     pub cross: &'a [f64],
 }
 
@@ -48,30 +49,32 @@ pub struct Nodes<'a> {
 pub struct CondensedSegment {
     pub(super) stages: Stages,
     pub(super) dimensions: Dimensions,
-    /// Padded number of columns.
+    /// Number of columns, padded.
     pub(super) width: usize,
-    /// Rows of q and v at the points 2..N+1.
+    /// q and v at the points 2..N+1 as linear functions of the columns, a row per coordinate.
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
+    /// Q, and after the factorisation the Cholesky factor of the controls' block.
     pub(super) quadratic: Vec<f64>,
     left: Vec<f64>,
     right: Vec<f64>,
     compact: Vec<f64>,
+    /// States of a node with nonzero second derivatives.
     active: Vec<usize>,
     /// Cost-to-go at the segment's end.
     pub next: CostToGo,
-    /// Forced states at the points 2..N+1 of the last right-hand side.
+    /// Particular solution at the points 2..N+1 for the last right-hand side.
     pub(super) offset_q: Vec<f64>,
     pub(super) offset_v: Vec<f64>,
     pub(super) vector: Vec<f64>,
     pub(super) gradient: Vec<f64>,
-    /// A solution by columns, and the multiplier of the last state.
+    /// The solution by columns, and the multiplier of the last state.
     pub(super) columns: Vec<f64>,
     pub(super) last: Vec<f64>,
 }
 
 impl CondensedSegment {
-    /// Room for a segment.
+    /// Work arrays for a segment.
     pub fn new(dimensions: Dimensions, rule: &Radau) -> Self {
         let (n, nq) = (dimensions.order, dimensions.coordinates);
         let size = dimensions.all_controls() + dimensions.states() + dimensions.parameters;
@@ -98,19 +101,25 @@ impl CondensedSegment {
         }
     }
 
-    /// Column of a control of a stage, of a first state, of a parameter.
+    /// First column of the controls of a stage.
     fn control(&self, stage: usize) -> usize {
         stage * self.dimensions.controls
     }
+
+    /// First column of the first state.
     pub(super) fn state(&self) -> usize {
         self.dimensions.all_controls()
     }
+
+    /// First column of the parameters.
     pub(super) fn parameter(&self) -> usize {
         self.state() + self.dimensions.states()
     }
 
-    /// Condenses the nodes, adds `next`, eliminates the controls, and writes the cost-to-go at the segment's beginning.
-    /// False if the curvature is wrong.
+    /// Condenses the nodes, adds `next`, eliminates the controls, and writes the cost-to-go at the segment's first
+    /// state.
+    ///
+    /// Returns false if the problem has no strict minimum over the controls.
     #[inline(always)]
     pub fn factor(&mut self, nodes: &Nodes, before: &mut [f64]) -> bool {
         if !self.stages.factor(nodes.half_length, nodes.jacobians) {
@@ -124,7 +133,7 @@ impl CondensedSegment {
         }
         self.add_next();
         let (pivots, columns) = (self.state(), self.parameter() + self.dimensions.parameters);
-        if !eliminate(&mut self.quadratic, pivots, columns, self.width, LEAST_PIVOT) {
+        if !eliminate(&mut self.quadratic, pivots, columns, self.width, MIN_PIVOT) {
             return false;
         }
         let size = self.dimensions.states() + self.dimensions.parameters;
@@ -138,7 +147,7 @@ impl CondensedSegment {
         true
     }
 
-    /// Rows of q and v at the points 2..N+1 as functions of the columns.
+    /// q and v at the points 2..N+1 as linear functions of the columns.
     #[inline(always)]
     fn sensitivities(&mut self, nodes: &Nodes) {
         let d = self.dimensions;
@@ -156,9 +165,9 @@ impl CondensedSegment {
                 let jacobian = &nodes.jacobians[r * node_width..][..node_width];
                 add_scaled(&mut v[x..x + 2 * nq], first, &jacobian[..2 * nq]);
                 add_scaled(&mut v[u..u + d.controls], first, &jacobian[2 * nq..]);
-                for (k, gain) in nodes.half_length_gains.iter().enumerate() {
+                for (k, slope) in nodes.half_length_gradient.iter().enumerate() {
                     for j in 0..n {
-                        let weight = gain * self.stages.unit_weight(i, j);
+                        let weight = slope * self.stages.unit_weight(i, j);
                         q[p + k] += weight * nodes.variables[j * node_width + nq + r];
                         v[p + k] += weight * nodes.accelerations[j * nq + r];
                     }
@@ -171,7 +180,7 @@ impl CondensedSegment {
         });
     }
 
-    /// Stage 1 is the first state itself.
+    /// Adds the Hessian of stage 1, whose state is the first state.
     #[inline(always)]
     fn first_stage(&mut self, nodes: &Nodes) {
         let d = self.dimensions;
@@ -184,13 +193,13 @@ impl CondensedSegment {
             for (b, h) in hessian.iter().enumerate() {
                 row[column(b)] += h;
             }
-            for (k, gain) in nodes.half_length_gains.iter().enumerate() {
-                row[p + k] += gain * nodes.cross[a];
+            for (k, slope) in nodes.half_length_gradient.iter().enumerate() {
+                row[p + k] += slope * nodes.cross[a];
             }
         }
     }
 
-    /// `Q += Z^T H Z` for the node vector `Z` of a stage, with the terms in the parameters.
+    /// `Q += Z^T H Z` for the node vector Z of a later stage, with the mixed terms of the parameters.
     #[inline(always)]
     fn inner_stage(&mut self, nodes: &Nodes, stage: usize) {
         let d = self.dimensions;
@@ -222,18 +231,18 @@ impl CondensedSegment {
         for (k, a) in self.active.iter().copied().chain(states..node_width).enumerate() {
             let row = &mut self.right[k * w..(k + 1) * w];
             add_scaled(&mut row[u..u + d.controls], 1.0, &hessian[a * node_width + states..][..d.controls]);
-            for (l, gain) in nodes.half_length_gains.iter().enumerate() {
-                row[p + l] += gain * cross[a];
+            for (l, slope) in nodes.half_length_gradient.iter().enumerate() {
+                row[p + l] += slope * cross[a];
             }
         }
         add_transposed_product(&mut self.quadratic, w, w, &self.left, &self.right, count);
         for k in 0..d.controls {
             add_scaled(&mut self.quadratic[(u + k) * w..][..w], 1.0, &self.right[(count + k) * w..][..w]);
         }
-        for (l, gain) in nodes.half_length_gains.iter().enumerate() {
+        for (l, slope) in nodes.half_length_gradient.iter().enumerate() {
             let row = &mut self.quadratic[(p + l) * w..][..w];
             for (k, &a) in self.active.iter().enumerate() {
-                add_scaled(&mut row[p..p + d.parameters], gain * cross[a], &self.left[k * w + p..][..d.parameters]);
+                add_scaled(&mut row[p..p + d.parameters], slope * cross[a], &self.left[k * w + p..][..d.parameters]);
             }
         }
     }
@@ -264,7 +273,7 @@ impl CondensedSegment {
     }
 }
 
-/// Writes the negative gradient of a cost-to-go with respect to the state.
+/// Writes the costate: the negative gradient of a cost-to-go with respect to the state.
 #[inline(always)]
 pub fn costate(next: &CostToGo, state: &[f64], parameters: &[f64], to: &mut [f64]) {
     let (states, size) = (state.len(), next.vector.len());

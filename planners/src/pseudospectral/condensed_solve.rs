@@ -1,13 +1,15 @@
-//! Right-hand sides of a condensed segment: backward to the cost-to-go's gradient, forward to the solution and the
-//! multipliers of the defects.
+//! Solution of a condensed segment: the backward pass computes the gradient of the cost-to-go, the forward pass the
+//! variables and the multipliers of the defects.
 
 use super::condensed_segment::{CondensedSegment, Nodes, costate};
 use super::dense_kernels::{add_scaled, dot};
 
 impl CondensedSegment {
-    /// Backward pass of a right-hand side: `gradient` of the node vectors (the negative of the right-hand side's first
-    /// block), `residuals` of the defects (its second). `next.vector` must be set; writes the vector of the cost-to-go at
-    /// the segment's beginning.
+    /// Backward pass: writes the vector of the cost-to-go at the segment's first state to `before`. `next.vector` must
+    /// be set.
+    ///
+    /// - `gradient`: negative right-hand side of the node vectors
+    /// - `residuals`: right-hand side of the defects
     #[inline(always)]
     pub fn backward(&mut self, nodes: &Nodes, gradient: &[f64], residuals: &[f64], before: &mut [f64]) {
         let d = self.dimensions;
@@ -45,8 +47,8 @@ impl CondensedSegment {
                 self.vector[u + k] += at(states + k);
             }
             let cross = &nodes.cross[stage * node_width..][..states];
-            for (k, gain) in nodes.half_length_gains.iter().enumerate() {
-                self.vector[p + k] += gain * (dot(&cross[..nq], q) + dot(&cross[nq..], v));
+            for (k, slope) in nodes.half_length_gradient.iter().enumerate() {
+                self.vector[p + k] += slope * (dot(&cross[..nq], q) + dot(&cross[nq..], v));
             }
         }
         self.add_next_vector();
@@ -59,6 +61,7 @@ impl CondensedSegment {
         before.copy_from_slice(&self.vector[x..x + states + d.parameters]);
     }
 
+    /// Adds the gradient of the cost-to-go at the segment's end.
     #[inline(always)]
     fn add_next_vector(&mut self) {
         let d = self.dimensions;
@@ -78,8 +81,8 @@ impl CondensedSegment {
         }
     }
 
-    /// Forward pass: from the first state and the parameters to the node vectors and the last state, `solution` (whose
-    /// first state is given), and the multipliers of the defects.
+    /// Forward pass: writes the node vectors and the last state to `solution`, whose first state is given, and the
+    /// multipliers of the defects.
     #[inline(always)]
     pub fn forward(
         &mut self,
@@ -114,6 +117,7 @@ impl CondensedSegment {
         self.multipliers(nodes, gradient, parameters, solution, multipliers);
     }
 
+    /// Writes the multipliers of the defects, from the stationarity of the stages 2..N.
     #[inline(always)]
     fn multipliers(
         &mut self,
@@ -125,7 +129,7 @@ impl CondensedSegment {
     ) {
         let d = self.dimensions;
         let (n, states, node_width) = (d.order, d.states(), d.width());
-        let half_length: f64 = dot(nodes.half_length_gains, parameters);
+        let half_length: f64 = dot(nodes.half_length_gradient, parameters);
         for stage in 1..n {
             let z = &solution[stage * node_width..][..node_width];
             for a in 0..states {

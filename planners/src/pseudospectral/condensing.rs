@@ -1,18 +1,20 @@
-//! The linearised motion over one segment with its inner stages eliminated.
+//! The linearised dynamics over one segment, with the inner stages eliminated.
 //!
-//! With Ã the integration matrix the defects say (stage 1 is the segment's first state, stage N + 1 its last):
+//! With the integration matrix Ã the linearised defects are (stage 1 is the segment's first state, stage N + 1 its
+//! last)
 //!
 //! ```text
 //! v_i = v_1 + η Σ_j Ã_ij a_j        q_i = q_1 + η Σ_j Ã_ij v_j         i = 2..N+1
 //! a_j = A^q_j q_j + A^v_j v_j + B_j u_j                                 j = 1..N
 //! ```
 //!
-//! Only the accelerations of the stages 2..N are implicit, and of these only the coordinates that are not ignorable.
+//! Only the accelerations of the stages 2..N are implicit, and of these only those of coordinates that are not
+//! ignorable.
 
 use super::dense_kernels::{Lu, add_scaled};
 use super::radau::Radau;
 
-/// Dimensions of a segment's stages.
+/// Dimensions of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimensions {
     pub coordinates: usize,
@@ -33,24 +35,24 @@ impl Dimensions {
         self.states() + self.controls
     }
 
-    /// Controls of all stages.
+    /// Number of controls of all stages.
     pub fn all_controls(&self) -> usize {
         self.order * self.controls
     }
 
-    /// Coordinates that enter the accelerations.
+    /// Number of coordinates that enter the accelerations.
     fn essential(&self) -> usize {
         self.coordinates - self.ignorable
     }
 }
 
-/// The stages' linear system.
+/// The linear system of the stages.
 #[derive(Clone, Debug)]
 pub struct Stages {
     dimensions: Dimensions,
-    /// η Ã, N x N: row i belongs to stage i + 2, column j to stage j + 1.
+    /// η Ã, N x N: row i is that of stage i + 2, column j that of stage j + 1.
     integration: Vec<f64>,
-    /// The same with η = 1, and its square on the implicit stages.
+    /// Ã, and the square of its block of the implicit stages.
     unit: Vec<f64>,
     unit_square: Vec<f64>,
     lu: Lu,
@@ -59,7 +61,8 @@ pub struct Stages {
     adjoint: Adjoint,
 }
 
-/// Multipliers of the accelerations at the stages 2..N, those of them that are implicit, and gradients at these stages.
+/// Work arrays of the adjoint: multipliers of the accelerations at the stages 2..N, the implicit ones among them, and
+/// the gradients at these stages.
 #[derive(Clone, Debug, Default)]
 struct Adjoint {
     accelerations: Vec<f64>,
@@ -68,7 +71,7 @@ struct Adjoint {
 }
 
 impl Stages {
-    /// Room for a segment; `columns` is the largest number of columns that will be closed at once.
+    /// Work arrays for a segment; `columns` is the maximum width in [`close`](Self::close).
     pub fn new(dimensions: Dimensions, rule: &Radau, columns: usize) -> Self {
         let n = dimensions.order;
         let unit: Vec<f64> = (0..n * n).map(|k| rule.integration[(k / n, k % n)]).collect();
@@ -93,7 +96,7 @@ impl Stages {
         }
     }
 
-    /// η Ã_ij for point i + 1 (of 1..=N) and stage j (of 0..N).
+    /// η Ã_ij: row i is that of stage i + 2, column j that of stage j + 1.
     pub fn weight(&self, i: usize, j: usize) -> f64 {
         self.integration[i * self.dimensions.order + j]
     }
@@ -103,8 +106,13 @@ impl Stages {
         self.unit[i * self.dimensions.order + j]
     }
 
-    /// Factors `δ_ij - η Ã_ij A^v_i - η^2 (Ã^2)_ij A^q_i` of the implicit stages; `jacobians` holds [A^q A^v B] of all
-    /// stages.
+    /// Factors the system of the implicit stages, with blocks
+    ///
+    /// ```text
+    /// δ_ij I - η Ã_ij A^v_i - η^2 (Ã^2)_ij A^q_i
+    /// ```
+    ///
+    /// - `jacobians`: [A^q A^v B] of all stages, coordinates x width each
     #[inline(always)]
     pub fn factor(&mut self, η: f64, jacobians: &[f64]) -> bool {
         let d = self.dimensions;
@@ -132,9 +140,11 @@ impl Stages {
         self.lu.factor()
     }
 
-    /// Closes the motion: `q` and `v` (N x coordinates rows of `width` columns, for the stages 2..N+1) hold what the
-    /// first state and the residuals force, and then the solution. `controls` adds B_j u_j to the accelerations of stage
-    /// j + 1, `(j, coordinate, row)`.
+    /// Solves the linearised dynamics in place.
+    ///
+    /// - `q`, `v`: N x coordinates rows of `width` columns for the stages 2..N+1: on entry the parts due to the first
+    ///   state, the acceleration of stage 1 and the residuals, on return the solution
+    /// - `controls`: adds B_j u_j to a row of the accelerations of stage j + 1, `(j, B_j, row)`
     #[inline(always)]
     pub fn close(
         &mut self,
@@ -170,7 +180,7 @@ impl Stages {
         }
     }
 
-    /// Accelerations of some coordinates at the stages 2..N from the states there, packed stage by stage.
+    /// Computes the accelerations of some coordinates at the stages 2..N from the states there, packed stage by stage.
     #[inline(always)]
     fn linear_accelerations(
         &mut self,
@@ -202,7 +212,7 @@ impl Stages {
         }
     }
 
-    /// Adds what the accelerations of the stages 2..N do to the states.
+    /// Adds the integrals of the accelerations of the stages 2..N to the states.
     #[inline(always)]
     fn update(&mut self, q: &mut [f64], v: &mut [f64], width: usize, coordinates: std::ops::Range<usize>) {
         let (n, nq, count) = (self.dimensions.order, self.dimensions.coordinates, coordinates.len());
@@ -229,10 +239,11 @@ impl Stages {
         }
     }
 
-    /// Multipliers of the defects from the stationarity of the stages.
+    /// Multipliers of the defects, from the stationarity of the stages.
     ///
-    /// `g` holds what is left of the gradient at the stages 2..N (N - 1 times q then v), `last` the multiplier of the
-    /// segment's last state (ŷ of stage N + 1). Writes `y`, N times (q then v).
+    /// - `g`: negative gradient at the stages 2..N, N - 1 times (q, v)
+    /// - `last`: multiplier of the segment's last state, which takes the place of g_{N+1}
+    /// - `y`: receives the multipliers, N times (q, v)
     ///
     /// ```text
     /// Σ_k D_ki y_k - η G_i^T y_i = g_i,     G = [0 1; A^q A^v]       <=>       y_k = Σ_i Ã_ik (g_i + η G_i^T y_i)
@@ -259,7 +270,7 @@ impl Stages {
         self.adjoint = work;
     }
 
-    /// One evaluation of the right-hand sides, with the multipliers of the accelerations that `work` holds.
+    /// Evaluates the right-hand sides for the multipliers of the accelerations in `work`.
     #[inline(always)]
     fn adjoint_pass(&self, η: f64, jacobians: &[f64], g: &[f64], last: &[f64], work: &mut Adjoint, y: &mut [f64]) {
         let d = self.dimensions;
@@ -287,7 +298,7 @@ impl Stages {
         }
     }
 
-    /// Σ_k Ã_ik r_k for one component: what the defects' right-hand sides force at point i + 1.
+    /// `Σ_k Ã_ik r_k` for one component of the defects' right-hand sides r: their integral at stage i + 2.
     #[inline(always)]
     pub fn forced(&self, i: usize, component: usize, residuals: &[f64]) -> f64 {
         let states = self.dimensions.states();

@@ -1,13 +1,13 @@
-//! Dense kernels on small row-major matrices. Rows are padded to a multiple of [`LANES`] columns, so that the compiler can
-//! keep whole tiles in vector registers. Products are not fused: results do not depend on the processor.
+//! Dense kernels on small row-major matrices. Rows are padded to a multiple of [`LANES`] columns, so that whole tiles
+//! stay in vector registers. Multiplications and additions are not fused, so results do not depend on the processor.
 
-/// Columns are padded to a multiple of this.
+/// Number of columns to whose multiples rows are padded.
 pub const LANES: usize = 8;
 
-/// Rows of a tile.
+/// Number of rows of a tile.
 const TILE: usize = 4;
 
-/// `count` rounded up to whole lanes.
+/// `count` rounded up to a multiple of [`LANES`].
 pub fn padded(count: usize) -> usize {
     count.next_multiple_of(LANES)
 }
@@ -20,7 +20,7 @@ pub fn add_scaled(to: &mut [f64], factor: f64, from: &[f64]) {
     }
 }
 
-/// Inner product; four partial sums, whatever the processor.
+/// Inner product, by four partial sums on every processor.
 #[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len().min(b.len());
@@ -36,7 +36,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// `to += left^T right` on and above the diagonal, `size` x `width`; both factors have `rows` rows of `width` columns.
-/// What stands below the diagonal of `to` is of no use afterwards.
+/// The entries of `to` below the diagonal are invalid afterwards.
 #[inline(always)]
 pub fn add_transposed_product(to: &mut [f64], size: usize, width: usize, left: &[f64], right: &[f64], rows: usize) {
     for i in (0..size).step_by(TILE) {
@@ -61,7 +61,7 @@ pub fn add_transposed_product(to: &mut [f64], size: usize, width: usize, left: &
     }
 }
 
-/// `to = a b` with `a` of `rows` x `inner` (rows `stride` apart), `b` of `inner` x `width`.
+/// `to = a b` with `a` of `rows` x `inner` (its rows `stride` apart) and `b` of `inner` x `width`.
 #[inline(always)]
 pub fn product(to: &mut [f64], a: &[f64], stride: usize, b: &[f64], rows: usize, inner: usize, width: usize) {
     for i in (0..rows).step_by(TILE) {
@@ -84,20 +84,21 @@ pub fn product(to: &mut [f64], a: &[f64], stride: usize, b: &[f64], rows: usize,
     }
 }
 
-/// Cholesky's method on the first `pivots` rows of a symmetric matrix of `size` given on and above its diagonal:
+/// Cholesky factorisation of the first `pivots` rows of a symmetric matrix of order `size`, given on and above its
+/// diagonal:
 ///
 /// ```text
 /// [ A   B ]      [ R   S          ]
 /// [ B^T C ]  ->  [     C - S^T S  ]      A = R^T R,  B = R^T S
 /// ```
 ///
-/// False if a pivot is not above `least`; the matrix is then spoilt.
+/// Returns false, and leaves the matrix invalid, if a pivot is not above `min_pivot`.
 #[inline(always)]
-pub fn eliminate(matrix: &mut [f64], pivots: usize, size: usize, width: usize, least: f64) -> bool {
+pub fn eliminate(matrix: &mut [f64], pivots: usize, size: usize, width: usize, min_pivot: f64) -> bool {
     for k in 0..pivots {
         let (above, below) = matrix.split_at_mut((k + 1) * width);
         let row = &mut above[k * width..];
-        if row[k].is_nan() || row[k] <= least {
+        if row[k].is_nan() || row[k] <= min_pivot {
             return false;
         }
         let root = row[k].sqrt();
@@ -114,7 +115,7 @@ pub fn eliminate(matrix: &mut [f64], pivots: usize, size: usize, width: usize, l
     true
 }
 
-/// LU factors with row exchanges, in place. False if the matrix is singular to working precision.
+/// LU factorisation with row exchanges, in place.
 #[derive(Clone, Debug, Default)]
 pub struct Lu {
     size: usize,
@@ -123,7 +124,7 @@ pub struct Lu {
 }
 
 impl Lu {
-    /// Room for a matrix of that size.
+    /// Work arrays for a matrix of this order.
     pub fn new(size: usize) -> Self {
         Self { size, factors: vec![0.0; size * size], exchanges: vec![0; size] }
     }
@@ -133,7 +134,7 @@ impl Lu {
         &mut self.factors
     }
 
-    /// Factors what stands in [`matrix_mut`](Self::matrix_mut).
+    /// Factors the content of [`matrix_mut`](Self::matrix_mut); false if it is singular to working precision.
     #[inline(always)]
     pub fn factor(&mut self) -> bool {
         let n = self.size;
@@ -160,7 +161,7 @@ impl Lu {
         true
     }
 
-    /// `b <- A^-1 b`, rows of `width` columns.
+    /// `b <- A^-1 b`, with rows of `width` columns.
     #[inline(always)]
     pub fn solve(&self, b: &mut [f64], width: usize) {
         let n = self.size;
@@ -208,7 +209,8 @@ impl Lu {
     }
 }
 
-/// `to = [G 0; 0 1]^T P [G 0; 0 1]` with G of n x n, P of `size` x `size`; `half` is P [G 0; 0 1].
+/// `to += [G 0; 0 1]^T P [G 0; 0 1]` with G of n x n and P of `size` x `size`; `half` receives P [G 0; 0 1]. Rows of
+/// `to` from n on are overwritten.
 pub fn congruence(g: &[f64], p: &[f64], n: usize, size: usize, half: &mut [f64], to: &mut [f64]) {
     half.fill(0.0);
     for (half, p) in half.chunks_exact_mut(size).zip(p.chunks_exact(size)) {
@@ -236,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn lu_solves_both_ways() {
+    fn lu_solves_with_the_matrix_and_its_transpose() {
         let n = 7;
         let a = DMatrix::from_fn(n, n, |i, j| noise(i, j) + if i + j == n - 1 { 3.0 } else { 0.0 });
         let mut lu = Lu::new(n);
@@ -252,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn elimination_leaves_the_schur_complement() {
+    fn elimination_computes_the_schur_complement() {
         let (n, pivots, width) = (11, 4, padded(11));
         let root = DMatrix::from_fn(n, n, noise);
         let a = &root * root.transpose() + DMatrix::identity(n, n);
@@ -272,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn products_agree_with_plain_ones() {
+    fn products_agree_with_nalgebra() {
         let (rows, inner, width) = (6, 5, 16);
         let a = DMatrix::from_fn(rows, inner, noise);
         let b = DMatrix::from_fn(inner, width, |i, j| noise(j, i));

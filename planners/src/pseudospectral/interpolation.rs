@@ -1,5 +1,5 @@
-//! The solution as a function of time: states interpolate all points of a segment, controls its collocation points (Kang,
-//! Huang, Wen 2020, eq. 23 and 24).
+//! The solution as a function of time: states interpolate all points of a segment, controls its collocation points
+//! (Kang, Huang, Wen 2020, eq. 23 and 24).
 
 use super::transcription::Transcription;
 
@@ -65,7 +65,7 @@ impl Transcription<'_> {
                 }));
                 begin += segment.fraction;
             }
-            // the end of a phase and the begin of the next one are equal to the bit
+            // the end of a phase and the start of the next one are equal to the bit
             begin_s = times.last().map_or(begin_s, |&(end_s, _)| end_s);
         }
         times

@@ -1,8 +1,8 @@
 //! Transfer of a solution to another mesh, for a warm start.
 //!
 //! The multipliers of defects, over their quadrature weights, are values of the costate; those of path constraints and
-//! bounds, over weight and half-length, are densities in time (Garg et al. 2010). Costates and densities are interpolated,
-//! not the multipliers themselves.
+//! bounds, over weight and half-length, are densities in time (Garg et al. 2010). Costates and densities are
+//! interpolated, not the multipliers themselves.
 
 use super::layout::PhaseLayout;
 use super::transcription::Transcription;

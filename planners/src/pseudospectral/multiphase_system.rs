@@ -85,8 +85,8 @@ pub trait MultiphaseSystem: Sync {
     /// Number of coordinates q.
     fn coordinates(&self) -> usize;
 
-    /// Number of leading coordinates that are ignorable: they do not enter the accelerations, as a position in a uniform
-    /// gravity field.
+    /// Number of leading coordinates that are ignorable: they do not enter the accelerations, as a position in a
+    /// uniform gravity field.
     fn ignorable(&self) -> usize;
 
     /// Number of controls u.

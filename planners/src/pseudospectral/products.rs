@@ -13,8 +13,7 @@ impl Transcription<'_> {
         let η = self.half_length(phase, k, &self.point.variables);
         let from = self.layout.node_at(phase, first);
         let y = &y[self.layout.defect_at(phase, first)..][..order * n];
-        // the multiplier of η
-        let mut dη = 0.0;
+        let mut η_derivative = 0.0;
         for (j, y) in y.chunks_exact(n).enumerate() {
             for i in 0..=order {
                 add_scaled(&mut out[from + i * width..][..n], self.rules[order].differentiation[(j, i)], y);
@@ -26,11 +25,11 @@ impl Transcription<'_> {
                 add_scaled(out, -η * y, jacobian);
             }
             let velocities = &self.point.variables[from + j * width + nq..][..nq];
-            dη -= dot(&y[..nq], velocities) + dot(&y[nq..], &self.point.accelerations[node * nq..][..nq]);
+            η_derivative -= dot(&y[..nq], velocities) + dot(&y[nq..], &self.point.accelerations[node * nq..][..nq]);
         }
         let fraction = phase.segments[k].fraction;
         for (out, coefficient) in out[self.layout.parameters_at..].iter_mut().zip(&phase.duration.coefficients) {
-            *out += 0.5 * fraction * coefficient * dη;
+            *out += 0.5 * fraction * coefficient * η_derivative;
         }
     }
 

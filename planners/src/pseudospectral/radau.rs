@@ -1,26 +1,30 @@
-//! Legendre-Gauss-Radau points on [-1, 1), quadrature weights, differentiation and integration matrices.
+//! Legendre-Gauss-Radau points on [-1, 1): quadrature weights, differentiation and integration matrices, interpolation.
 
 use nalgebra::{DMatrix, DVector};
 
-/// The N collocation points and what belongs to them. Point N (counting from 0) is the segment's end +1, which is not
+/// The rule of order N: N collocation points and, as point N (counting from 0), the segment's end +1, which is not
 /// collocated.
 #[derive(Clone, Debug)]
 pub struct Radau {
-    /// The points, increasing, the first -1; then the end +1. Length N + 1.
+    /// The N collocation points in increasing order, the first of which is -1; then the end +1. Length N + 1.
     pub points: Vec<f64>,
-    /// Quadrature weights of the N points, exact to degree 2 N - 2; their sum is 2.
+    /// Quadrature weights of the N points, exact to degree 2 N - 2; their sum is 2. Length N.
     pub weights: DVector<f64>,
-    /// D, N x (N + 1): derivatives at the N points of the polynomial through the N + 1 points.
+    /// D, N x (N + 1): maps values at the N + 1 points to derivatives at the N points.
     pub differentiation: DMatrix<f64>,
-    /// N x N, the inverse of D without its first column: row i gives the integral from -1 to point i + 1 of the
-    /// polynomial through the N points.
+    /// Ã, N x N, the inverse of D without its first column: row i maps values at the N points to the integral from -1
+    /// to point i + 1.
     pub integration: DMatrix<f64>,
     barycentric_states: Vec<f64>,
     barycentric_controls: Vec<f64>,
 }
 
 impl Radau {
-    /// The rule of order `n` >= 1.
+    /// The rule of order `n`.
+    ///
+    /// # Panics
+    ///
+    /// Panics if `n` is 0.
     pub fn new(n: usize) -> Self {
         assert!(n >= 1, "a segment has at least one collocation point");
         let mut points = collocation_points(n);
@@ -29,7 +33,7 @@ impl Radau {
         points.push(1.0);
         let barycentric_states = barycentric_weights(&points);
         let differentiation = differentiation(&points, &barycentric_states);
-        let integration = differentiation.columns(1, n).into_owned().try_inverse().expect("Radau's matrix is regular");
+        let integration = differentiation.columns(1, n).into_owned().try_inverse().expect("the matrix is regular");
         Self { points, weights, differentiation, integration, barycentric_states, barycentric_controls }
     }
 
@@ -49,7 +53,7 @@ impl Radau {
     }
 }
 
-/// P_n and its derivative, by the three-term recurrence.
+/// The Legendre polynomial P_n and its derivative, by the three-term recurrence.
 fn legendre(n: usize, τ: f64) -> (f64, f64) {
     let (mut before, mut value, mut slope_before, mut slope) = (0.0, 1.0, 0.0, 0.0);
     for k in 0..n {
@@ -61,11 +65,11 @@ fn legendre(n: usize, τ: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Roots of P_{n-1} + P_n by Newton's method with the roots found so far divided out.
+/// Roots of P_{n-1} + P_n, by Newton's method with deflation of the roots already found.
 fn collocation_points(n: usize) -> Vec<f64> {
     let mut points = vec![-1.0];
     for k in 1..n {
-        // Chebyshev-Gauss-Radau points are close enough to begin with
+        // the Chebyshev-Gauss-Radau point is the initial guess
         let mut τ = -(2.0 * std::f64::consts::PI * k as f64 / (2 * n - 1) as f64).cos();
         for _ in 0..50 {
             let ((p, dp), (q, dq)) = (legendre(n - 1, τ), legendre(n, τ));
@@ -81,7 +85,7 @@ fn collocation_points(n: usize) -> Vec<f64> {
     points
 }
 
-/// `w = (1 - τ)/(N P_{N-1}(τ))^2`.
+/// Quadrature weight `w = (1 - τ)/(N P_{N-1}(τ))^2`.
 fn weight(n: usize, τ: f64) -> f64 {
     let (p, _) = legendre(n - 1, τ);
     (1.0 - τ) / (n as f64 * p).powi(2)
@@ -92,7 +96,8 @@ fn barycentric_weights(points: &[f64]) -> Vec<f64> {
     (0..points.len()).map(weight).collect()
 }
 
-/// Rows for all points but the last; diagonal by the negative sum, which keeps constants exact.
+/// D from barycentric weights. The diagonal is the negative sum of the other entries, so that constants have derivative
+/// zero.
 fn differentiation(points: &[f64], barycentric: &[f64]) -> DMatrix<f64> {
     let n = points.len() - 1;
     let mut matrix = DMatrix::zeros(n, n + 1);
@@ -105,6 +110,7 @@ fn differentiation(points: &[f64], barycentric: &[f64]) -> DMatrix<f64> {
     matrix
 }
 
+/// Values at τ of the Lagrange polynomials of `points`, by the barycentric formula.
 fn basis(points: &[f64], barycentric: &[f64], τ: f64) -> Vec<f64> {
     if let Some(hit) = points.iter().position(|&point| point == τ) {
         return (0..points.len()).map(|i| f64::from(u8::from(i == hit))).collect();
@@ -150,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn points_of_order_three_are_the_known_ones() {
+    fn points_of_order_three_are_exact() {
         let rule = Radau::new(3);
         let known = [-1.0, (1.0 - 6.0_f64.sqrt()) / 5.0, (1.0 + 6.0_f64.sqrt()) / 5.0];
         assert!(rule.points.iter().zip(known).all(|(a, b)| (a - b).abs() < 1e-14));

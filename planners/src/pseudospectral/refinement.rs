@@ -1,10 +1,10 @@
 //! Quality of a solution between its nodes, and hp-adaptive mesh refinement.
 //!
-//! The error of a segment is that of Patterson, Hager, Rao 2015: the dynamics, evaluated along the interpolated states and
-//! controls, are integrated by a rule of higher order, and the result is compared with the interpolated states. Where the
-//! error is too large the order is raised, as one more point divides the error of a smooth solution by about N. A segment
-//! is split where the order would have to exceed its maximum, or where a path constraint or a bound is violated between
-//! the nodes. A slightly finer mesh costs less than another mesh, so the aim is half the tolerance.
+//! The error of a segment is that of Patterson, Hager, Rao 2015: the dynamics, evaluated along the interpolated states
+//! and controls, are integrated by a rule of higher order, and the result is compared with the interpolated states.
+//! Where the error is too large the order is raised, as one more point divides the error of a smooth solution by about
+//! N. A segment is split where the order would have to exceed its maximum, or where a path constraint or a bound is
+//! violated between the nodes. A slightly finer mesh costs less than another mesh, so the aim is half the tolerance.
 
 use super::interpolation::MeshPoint;
 use super::mesh::{Mesh, Segment};

@@ -85,7 +85,8 @@ impl MultiphaseSystem for Cart {
     }
 }
 
-/// `∫ u^2 = 12/T^3` for a unit distance in T, with `u = 6/T^2 (1 - 2 t/T)`: a polynomial, for which every mesh is exact.
+/// `∫ u^2 = 12/T^3` for a unit distance in T, with `u = 6/T^2 (1 - 2 t/T)`: a polynomial, for which every mesh is
+/// exact.
 #[test]
 fn minimum_effort_is_exact_on_any_mesh() {
     let cart = Cart::new(vec![Duration::Fixed(2.0)], 1.0, 0.0, &[[-9.0, 9.0]]);
@@ -96,8 +97,8 @@ fn minimum_effort_is_exact_on_any_mesh() {
     }
 }
 
-/// Bang-bang control with |u| <= 1: T = 2 for a unit distance, with the switch at 1; both durations are free. The control can
-/// leave its bounds only after the last node of a segment, and does so less on finer meshes.
+/// Bang-bang control with |u| <= 1: T = 2 for a unit distance, with the switch at 1; both durations are free. The
+/// control can leave its bounds only after the last node of a segment, and does so less on finer meshes.
 #[test]
 fn minimum_time_with_a_free_switch_converges() {
     let free = Duration::Free { min_s: 0.1, guess_s: 2.0, max_s: 9.0 };
@@ -122,7 +123,8 @@ fn a_remainder_completes_the_total() {
     assert!((x[x.len() - 1] - 1.0).abs() < 5e-2, "the sign changes halfway: {}", x[x.len() - 1]);
 }
 
-/// A bang-bang control overshoots between the nodes of a coarse mesh; the mesh is refined at the switch until it does not.
+/// A bang-bang control overshoots between the nodes of a coarse mesh; the mesh is refined at the switch until it does
+/// not.
 #[test]
 fn the_mesh_is_refined_where_the_control_jumps() {
     let cart = Cart::new(vec![Duration::Fixed(2.02)], 1e-3, 0.0, &[[-1.0, 1.0]]);

@@ -1,24 +1,24 @@
-/// Vectors that a sweep over the horizon works in.
+/// Work vectors of the Riccati recursion.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace {
-    /// Cost-to-go after and before what is looked at: matrix, and a product on the way to it.
+    /// Matrices of the cost-to-go after and before the present stage, and a product on the way to the latter.
     pub after: Vec<f64>,
     pub before: Vec<f64>,
     pub half: Vec<f64>,
-    /// The same, its vector.
+    /// Vectors of the cost-to-go after and before the present stage.
     pub after_vector: Vec<f64>,
     pub before_vector: Vec<f64>,
     /// Negative of the right-hand side of the variables.
     pub gradient: Vec<f64>,
-    /// Where the forward sweep is, and the first state of the next phase.
+    /// Present state of the forward pass, and the first state of the next phase.
     pub state: Vec<f64>,
     pub next: Vec<f64>,
-    /// The parameters' step.
+    /// Step of the parameters.
     pub parameters: Vec<f64>,
 }
 
 impl Workspace {
-    /// Room for so many states, parameters and variables.
+    /// Work vectors for these numbers of states, parameters and variables.
     pub fn new(states: usize, parameters: usize, variables: usize) -> Self {
         let size = states + parameters;
         let [after, before, half] = [(); 3].map(|()| vec![0.0; size * size]);

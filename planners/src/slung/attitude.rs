@@ -5,8 +5,8 @@
 //! η'' = W^-1 (I^-1 (τ - ω x I ω) - W' η')
 //! ```
 //!
-//! The paper approximates generalised torques by body torques (Kang, Huang, Wen 2020, eq. 5; small angles). Here the torques
-//! are body torques without approximation, as on the vehicle.
+//! The paper approximates generalised torques by body torques (Kang, Huang, Wen 2020, eq. 5; small angles). Here the
+//! torques are body torques without approximation, as on the vehicle.
 
 use super::jet::Jet;
 

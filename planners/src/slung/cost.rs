@@ -1,5 +1,5 @@
-//! The running cost `l = x^T Q' x + u^T R' u` of Kang, Huang, Wen 2020, of the state itself and not of its distance from the
-//! goal.
+//! The running cost `l = x^T Q' x + u^T R' u` of Kang, Huang, Wen 2020, of the state itself and not of its distance
+//! from the goal.
 
 use super::system::{ALPHA, EULER, LENGTH, ROTORS, SlungLoadSystem};
 use crate::pseudospectral::NodeDerivatives;

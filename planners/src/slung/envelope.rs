@@ -1,5 +1,5 @@
-//! The envelope circle along a plan, between the nodes too: its clearance from the obstacles, and the instants at which its
-//! radius switches between the body's and the load's reach (Kang, Huang, Wen 2020, eq. 14).
+//! The envelope circle along a plan, between the nodes too: its clearance from the obstacles, and the instants at which
+//! its radius switches between the body's and the load's reach (Kang, Huang, Wen 2020, eq. 14).
 
 use super::cable::CableGeometry;
 use super::jet::Jet;

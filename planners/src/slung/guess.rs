@@ -83,8 +83,8 @@ impl<'a> Guess<'a> {
         (alpha, beta)
     }
 
-    /// Moves the quadrotor from the route towards each gate, with a Gaussian in time: to the nearest point of its own window,
-    /// or, along an axis on which that is open, to a point from which the load hangs inside its window.
+    /// Moves the quadrotor from the route towards each gate, with a Gaussian in time: to the nearest point of its own
+    /// window, or, along an axis on which that is open, to a point from which the load hangs inside its window.
     fn detour_to_gates(&self, time_s: f64, node: &mut [f64]) {
         let mut end_s = 0.0;
         for (phase, duration_s) in self.problem.phases.iter().zip(&self.durations_s) {
@@ -111,8 +111,8 @@ impl<'a> Guess<'a> {
     }
 }
 
-/// Unit vector from the quadrotor to the load at a gate: from the middle of its window to that of the load's. A component along
-/// which either window is open is zero, or -1 before normalisation for the vertical one.
+/// Unit vector from the quadrotor to the load at a gate: from the middle of its window to that of the load's. A
+/// component along which either window is open is zero, or -1 before normalisation for the vertical one.
 fn hanging(gate: &Gate) -> [f64; 3] {
     let offset_m: [f64; 3] = std::array::from_fn(|axis| {
         let middle_m = |[low, high]: [f64; 2]| 0.5 * (low + high);

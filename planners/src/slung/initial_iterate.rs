@@ -8,8 +8,8 @@ use crate::pseudospectral::Transcription;
 
 /// Variables from the guess.
 ///
-/// Minimum-time problems start from the minimum-effort solution in the guessed time: from there the method converges far
-/// more often than from a guess that violates the dynamics.
+/// Minimum-time problems start from the minimum-effort solution in the guessed time: from there the method converges
+/// far more often than from a guess that violates the dynamics.
 pub fn initial_iterate(problem: &Problem, guess: &Guess, program: &Transcription, settings: Settings) -> Vec<f64> {
     if problem.weights.time == 0.0 {
         return from_guess(guess, program);

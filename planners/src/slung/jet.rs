@@ -1,7 +1,7 @@
 //! Second-order forward-mode automatic differentiation: a value with its gradient and its Hessian.
 //!
-//! The equations are written once, in jets, and their derivatives are exact. The cost grows with N^2, so a function is best
-//! split into factors of few variables each.
+//! The equations are written once, in jets, and their derivatives are exact. The cost grows with N^2, so a function is
+//! best split into factors of few variables each.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -37,8 +37,8 @@ impl<const N: usize> Jet<N> {
         std::array::from_fn(|i| Self::variable(i, values[i]))
     }
 
-    /// Adds `weight` times the Hessian to a row-major matrix of `width` columns; variable i has the index `at[i]` there. Only
-    /// the first `count` variables take part.
+    /// Adds `weight` times the Hessian to a row-major matrix of `width` columns; variable i has the index `at[i]`
+    /// there. Only the first `count` variables take part.
     #[inline(always)]
     pub fn scatter(&self, matrix: &mut [f64], width: usize, at: [usize; N], count: usize, weight: f64) {
         for i in 0..count {

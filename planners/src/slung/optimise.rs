@@ -19,8 +19,8 @@ const MIN_SEGMENTS: usize = 4;
 /// Initial barrier parameter of warm starts, relative to the cost of hovering.
 const WARM_BARRIER: f64 = 4.5e-7;
 
-/// Bound push under complementarity. With a larger one the cable starts markedly shorter than its full length, and the method
-/// finds a local minimum with a slack phase at the start.
+/// Bound push under complementarity. With a larger one the cable starts markedly shorter than its full length, and the
+/// method finds a local minimum with a slack phase at the start.
 const COMPLEMENTARITY_BOUND_PUSH: f64 = 1e-4;
 
 /// Options of the optimisation.
@@ -144,8 +144,8 @@ pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> C
     }
 }
 
-/// Solver settings on a mesh: a coarse tolerance if another mesh will follow, a small initial barrier parameter if it is not
-/// the first.
+/// Solver settings on a mesh: a coarse tolerance if another mesh will follow, a small initial barrier parameter if it
+/// is not the first.
 fn settings(problem: &Problem, options: &Options, cost: f64, (is_first, is_rough): (bool, bool)) -> Settings {
     let mut settings = options.solver;
     if is_rough {

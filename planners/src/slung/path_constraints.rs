@@ -1,8 +1,9 @@
-//! Path constraints, each to be >= 0: the tension or the complementarity of slack and taut (Kang, Huang, Wen 2020, eq. 2
-//! to 4), the floor, and the clearance of the envelope circle.
+//! Path constraints, each to be >= 0: the tension or the complementarity of slack and taut (Kang, Huang, Wen 2020, eq.
+//! 2 to 4), the floor, and the clearance of the envelope circle.
 //!
-//! The circle's radius is the largest of r_2, `√2 ρ |cos α sin β|` and `√2 ρ |sin α|` (eq. 19, 20). The paper's R-functions
-//! have kinks; five smooth constraints per obstacle are equivalent, with the signed distance δ from the obstacle:
+//! The circle's radius is the largest of r_2, `√2 ρ |cos α sin β|` and `√2 ρ |sin α|` (eq. 19, 20). The paper's
+//! R-functions have kinks; five smooth constraints per obstacle are equivalent, with the signed distance δ from the
+//! obstacle:
 //!
 //! ```text
 //! δ - r' - r_2 >= 0,    δ - r' ± √2 ρ d_x >= 0,    δ - r' ± √2 ρ d_y >= 0

@@ -60,11 +60,12 @@ pub struct Weights {
     pub time: f64,
 }
 
-/// Cost per second of minimum-time problems: large enough for the barrier to be small in comparison, as it is beside the
-/// effort.
+/// Cost per second of minimum-time problems: large enough for the barrier to be small in comparison, as it is beside
+/// the effort.
 const TIME_WEIGHT: f64 = 30.0;
 
-/// Weight of the effort relative to time in minimum-time problems: it selects one of the controls that are equally fast.
+/// Weight of the effort relative to time in minimum-time problems: it selects one of the controls that are equally
+/// fast.
 const EFFORT_PER_TIME: f64 = 1e-4;
 
 impl Weights {

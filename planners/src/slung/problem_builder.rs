@@ -256,7 +256,8 @@ fn phases(scenario: &Scenario, settings: &Collocation) -> Vec<Phase> {
     phases
 }
 
-/// Guessed duration of a phase before the last one, s: a free fall through the slack, or an equal part of the flight time.
+/// Guessed duration of a phase before the last one, s: a free fall through the slack, or an equal part of the flight
+/// time.
 fn phase_guess_s(scenario: &Scenario, mode: CableMode, total_s: f64, taut_count: usize) -> f64 {
     let model = scenario.slung_load_model(&scenario.vehicles[0]);
     let slack_m = (model.cable_length_m - initial_condition(scenario).cable[2]).max(0.0);

@@ -1,8 +1,8 @@
 //! Routes around the obstacles: shortest polylines in the plane, one per homotopy class.
 //!
 //! Dijkstra's algorithm on the visibility graph of the offset corners, augmented by a signature of the homotopy class
-//! (Bhattacharya, Kumar, Likhachev 2010): a ray from each obstacle's centre, perpendicular to the line from start to goal,
-//! contributes one bit, the parity of its crossings.
+//! (Bhattacharya, Kumar, Likhachev 2010): a ray from each obstacle's centre, perpendicular to the line from start to
+//! goal, contributes one bit, the parity of its crossings.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};

@@ -98,8 +98,8 @@ pub fn path_m(problem: &Problem, candidate: &Candidate) -> Vec<[f64; 3]> {
     program.node_times_s(&candidate.x).into_iter().map(&mut position).collect()
 }
 
-/// State of the cable under complementarity, where neither tension nor slack is exactly zero: the smaller one of λ/(m_L g) and
-/// (l_0 - ρ)/l_0 counts as zero.
+/// State of the cable under complementarity, where neither tension nor slack is exactly zero: the smaller one of λ/(m_L
+/// g) and (l_0 - ρ)/l_0 counts as zero.
 fn complementary_state(problem: &Problem, system: &SlungLoadSystem, node: &[f64]) -> Cable {
     let vehicle = &problem.vehicle;
     let tension = node[system.tension()] / (vehicle.load_kg * GRAVITY_MPS2);

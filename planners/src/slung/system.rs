@@ -135,8 +135,8 @@ impl<'a> SlungLoadSystem<'a> {
         (CableGeometry::at(arguments.map(Jet::constant)), CableRates::at(rates.map(Jet::constant)))
     }
 
-    /// Lower bound of the cable's length in a phase, m: a flying load stays off the ball around the body, unless it starts
-    /// inside.
+    /// Lower bound of the cable's length in a phase, m: a flying load stays off the ball around the body, unless it
+    /// starts inside.
     fn min_length_m(&self, mode: CableMode) -> f64 {
         let (vehicle, limits) = (&self.problem.vehicle, &self.problem.limits);
         let off_body_m = vehicle.radius_m + limits.clearance_m;

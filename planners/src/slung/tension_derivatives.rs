@@ -1,5 +1,5 @@
-//! Derivatives of the forces other than thrust, by mode: the pull of the taut cable due to its rates, a free tension, and the
-//! ground's support of the load.
+//! Derivatives of the forces other than thrust, by mode: the pull of the taut cable due to its rates, a free tension,
+//! and the ground's support of the load.
 
 use super::jet::Jet;
 use super::translation::{ALPHA_OUT, BETA_OUT, LENGTH_OUT, Translation, add_symmetric, ground_support};

@@ -1,7 +1,7 @@
 //! Terminal constraints and linkages of the phases: the goal, a gate, or a switch of the cable's mode.
 //!
-//! A slack cable becomes taut in an inelastic impact. With the reduced mass m the impulse Λ removes the rate of the length,
-//! and changes the quadrotor's velocity along the cable:
+//! A slack cable becomes taut in an inelastic impact. With the reduced mass m the impulse Λ removes the rate of the
+//! length, and changes the quadrotor's velocity along the cable:
 //!
 //! ```text
 //! Λ = m ρ',   v_Q+ = v_Q- + Λ d/m_Q,   ρ'+ = 0

@@ -6,7 +6,8 @@
 //! A b3(ψ, θ, φ) . axis(α, β, ρ)  +  terms of the cable's rates  +  terms of the tension or of the ground
 //! ```
 //!
-//! so that the Hessian of the first part splits into those of b3, those of the weighted axes, and products of gradients.
+//! so that the Hessian of the first part splits into those of b3, those of the weighted axes, and products of
+//! gradients.
 
 use scenarios::GRAVITY_MPS2;
 
