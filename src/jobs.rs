@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use planners::Planner;
-use scenarios::{Problem, Scenario, Source, nearest};
+use scenarios::{Issue, Scenario, ScenarioFile, closest_name};
 
 use crate::error::Error;
 use crate::plan_source::PlanSource;
@@ -15,7 +15,7 @@ pub struct Job {
     /// The question.
     pub scenario: Scenario,
     /// The file that it stands in.
-    pub source: Source,
+    pub source: ScenarioFile,
     /// Who answers.
     pub plan_source: PlanSource,
     /// Seed of everything random in planning and flight.
@@ -85,15 +85,20 @@ pub fn load_one(file: &Path, plan_sources: &[PlanSource], seed: Option<u64>) -> 
 /// Loads one file.
 ///
 /// - `seed`: replaces the scenario's own
-pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(Source, Scenario), Error> {
-    let source = Source::read(file)?;
+pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(ScenarioFile, Scenario), Error> {
+    let source = ScenarioFile::read(file)?;
     let mut scenario = source.scenario()?;
     scenario.simulation.seed = seed.unwrap_or(scenario.simulation.seed);
     Ok((source, scenario))
 }
 
 /// One job per plan_source, or that of the planner which the scenario names.
-fn pair(file: &Path, source: &Source, scenario: &Scenario, plan_sources: &[PlanSource]) -> Vec<Result<Job, Error>> {
+fn pair(
+    file: &Path,
+    source: &ScenarioFile,
+    scenario: &Scenario,
+    plan_sources: &[PlanSource],
+) -> Vec<Result<Job, Error>> {
     let job = |plan_source: PlanSource| Job {
         seed: scenario.simulation.seed,
         scenario: scenario.clone(),
@@ -114,10 +119,10 @@ fn pair(file: &Path, source: &Source, scenario: &Scenario, plan_sources: &[PlanS
 }
 
 /// The planner that the scenario names; if that cannot be, an error that points to the line.
-fn named_by_scenario(file: &Path, source: &Source, scenario: &Scenario) -> Result<PlanSource, Error> {
+fn named_by_scenario(file: &Path, source: &ScenarioFile, scenario: &Scenario) -> Result<PlanSource, Error> {
     let name = &scenario.planner.name;
     let problem = |expected: String, remedy: String| {
-        source.error(vec![Problem::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])
+        source.error(vec![Issue::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])
     };
     if let Some(command) = &scenario.planner.command {
         if planners::find(name).is_some() {
@@ -163,7 +168,7 @@ fn known_planners() -> String {
 }
 
 fn remedy_for(name: &str) -> String {
-    match nearest(name, planners::registry().iter().map(|entry| entry.name)) {
+    match closest_name(name, planners::registry().iter().map(|entry| entry.name)) {
         Some(known) => format!("did you mean `{known}`?"),
         None => "`harness list` shows the planners; one of your own is a `command`, see `harness run --help`".into(),
     }

@@ -7,19 +7,19 @@
 //! scenario files give angles in degrees, in fields whose names say so.
 
 mod checks;
+mod closest_name;
 mod find;
 pub mod fixed_wing;
 mod fleet;
 pub mod in_loop;
+mod issue;
 mod load;
 mod models;
 pub mod multirotor;
-mod nearest;
 mod plan;
 mod plan_file;
 pub mod plan_input;
 mod planner_settings;
-mod problem;
 mod random;
 mod range;
 mod scenario;
@@ -32,17 +32,17 @@ mod verdict_limits;
 mod world;
 
 pub use checks::{CHECKS, CheckSpec, Group, LimitField, check_names, check_spec, checks_of};
+pub use closest_name::closest_name;
 pub use find::{FindError, find};
 pub use fleet::FleetRules;
-pub use load::{Fault, Invalid, LoadError, Source, load, parse};
+pub use issue::Issue;
+pub use load::{InvalidScenario, LoadError, LocatedIssue, ScenarioFile, load, parse};
 pub use models::{Family, Model, Models};
-pub use nearest::nearest;
 pub use plan::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
-    Collocation, Convergence, CostMap, Field, FieldForm, Formulation, Horizon, Objective, PlannerSettings,
-    RepulsionForm, Sampler, Shape, Solver, Transcription, TrustRegion,
+    Collocation, Convergence, CostMap, Formulation, Horizon, Objective, PlannerSettings, PotentialField,
+    PotentialFieldForm, RepulsionForm, Sampler, Shape, Solver, Transcription, TrustRegion,
 };
-pub use problem::Problem;
 pub use random::stream;
 pub use range::Range;
 pub use scenario::Scenario;

@@ -1,7 +1,7 @@
 //! Plans that were written elsewhere: by a planner of any language, as CSV, JSON or Parquet.
 //!
-//! All three are tables to us: per vehicle a [`Track`] of named columns over time. [`columns`] says what the columns of a
-//! vehicle family mean; `check` holds a table against the scenario and finds every fault that is one of the file and
+//! All three are tables to us: per vehicle a [`ColumnTable`] of named columns over time. [`columns`] says what the columns of a
+//! vehicle family mean; `check` holds a table against the scenario and finds every issue that is one of the file and
 //! not of the motion it describes: wrong names, gaps, times that do not increase, numbers that are none, units that
 //! cannot be meant.
 
@@ -9,7 +9,7 @@ mod check;
 pub mod columns;
 mod csv;
 mod error;
-mod given;
+mod imported;
 mod json;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -19,17 +19,17 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use self::columns::Columns;
-pub use self::error::{PlanError, PlanFault};
-pub use self::given::{FixedWingTrack, GivenTrack, cartesian_states};
+pub use self::error::{PlanError, PlanIssue};
+pub use self::imported::{ImportedTrajectory, PartialTrajectory, states_from_velocities};
 use crate::{Iteration, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
 /// A plan as it was written, before anything is made of it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PlanTable {
+pub struct PlanDocument {
     /// What the document says of itself; CSV and Parquet say nothing.
     pub header: PlanHeader,
     /// One per vehicle, in the order in which they appear.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<ColumnTable>,
 }
 
 /// What a plan says of itself beside its trajectories.
@@ -55,11 +55,11 @@ pub struct PlanHeader {
 
 /// The rows of one vehicle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Track {
+pub struct ColumnTable {
     /// Name of the vehicle.
     pub vehicle: String,
     /// Where each row stands, for messages.
-    pub places: Places,
+    pub places: RowLocations,
     /// Times, s.
     pub times_s: Vec<f64>,
     /// Values by the names of their columns, each as long as `times_s`; words by their numbers.
@@ -70,7 +70,7 @@ pub struct Track {
 
 /// Where the rows of a track stand.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Places {
+pub enum RowLocations {
     /// Line of a text file, from 1, per row.
     Lines(Vec<usize>),
     /// Row of a binary table, from 1, per row.
@@ -79,7 +79,7 @@ pub enum Places {
     Trajectory(usize),
 }
 
-impl Places {
+impl RowLocations {
     /// Where row `row` stands, in words that follow the name of the file: `:17`, ` row 16`, ` trajectories[0] node 3`.
     fn of(&self, row: usize) -> String {
         match self {
@@ -92,8 +92,8 @@ impl Places {
 
 /// Reads a plan file for `scenario`: `.csv`, `.json` or (with the feature `parquet`) `.parquet`.
 ///
-/// Returns the header and one track per vehicle, in the order of the scenario, or every fault of the file.
-pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<GivenTrack>), PlanError> {
+/// Returns the header and one track per vehicle, in the order of the scenario, or every issue of the file.
+pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let name = path.display().to_string();
     let unreadable = |reason| PlanError::Read { path: path.to_owned(), reason };
     let table = match path.extension().and_then(|extension| extension.to_str()) {
@@ -109,25 +109,33 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<GivenTr
 }
 
 /// Reads a plan from the text of a JSON document, as [`read`] does from a file. `name` stands for it in messages.
-pub fn parse_json(name: &str, text: &str, scenario: &Scenario) -> Result<(PlanHeader, Vec<GivenTrack>), PlanError> {
+pub fn parse_json(
+    name: &str,
+    text: &str,
+    scenario: &Scenario,
+) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     finish(name, json::read(text, columns_of(scenario)), scenario)
 }
 
 /// Reads a plan from the text of a CSV file, as [`read`] does from a file. `name` stands for it in messages.
-pub fn parse_csv(name: &str, text: &str, scenario: &Scenario) -> Result<(PlanHeader, Vec<GivenTrack>), PlanError> {
+pub fn parse_csv(
+    name: &str,
+    text: &str,
+    scenario: &Scenario,
+) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     finish(name, csv::read(text, scenario), scenario)
 }
 
 fn finish(
     name: &str,
-    table: Result<PlanTable, Vec<PlanFault>>,
+    table: Result<PlanDocument, Vec<PlanIssue>>,
     scenario: &Scenario,
-) -> Result<(PlanHeader, Vec<GivenTrack>), PlanError> {
+) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let checked = table.and_then(|table| {
         let tracks = check::tracks(&table, scenario)?;
         Ok((table.header, tracks))
     });
-    checked.map_err(|faults| PlanError::invalid(name, &scenario.name, faults))
+    checked.map_err(|issues| PlanError::invalid(name, &scenario.name, issues))
 }
 
 /// The columns of the scenario's vehicles, which are all of one family.

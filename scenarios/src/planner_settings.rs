@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use collocation::{Collocation, Formulation, Objective, Shape};
-pub use horizon::{CostMap, Field, FieldForm, Horizon, RepulsionForm, Sampler};
+pub use horizon::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler};
 
 /// Which planner answers, and its options. An option that is absent takes the planner's own default, in most cases the
 /// value of its paper (`harness list` shows the planners).

@@ -3,16 +3,16 @@
 mod damage;
 
 use damage::copies_of;
-use scenarios::plan_input::{GivenTrack, parse_csv, parse_json};
+use scenarios::plan_input::{ImportedTrajectory, parse_csv, parse_json};
 use scenarios::{parse, validate};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
 const ROUNDS: usize = 4000;
 /// One track per vehicle, at least two rows each, all numbers finite, times from 0 and increasing.
-fn assert_sound(tracks: &[GivenTrack], text: &str) {
+fn assert_sound(tracks: &[ImportedTrajectory], text: &str) {
     assert_eq!(tracks.len(), 2, "{text}");
     for track in tracks {
-        let GivenTrack::FixedWing(track) = track else { panic!("no load was asked for: {text}") };
+        let ImportedTrajectory::FixedWing(track) = track else { panic!("no load was asked for: {text}") };
         let times_s = &track.times_s;
         assert!(times_s.len() >= 2 && times_s[0].abs() <= 1e-9, "{text}");
         assert!(times_s.windows(2).all(|pair| pair[0] < pair[1]), "{text}");

@@ -2,7 +2,7 @@
 
 mod minimal;
 
-use minimal::{TEXT, assert_fault, load_changed};
+use minimal::{TEXT, assert_issue, load_changed};
 use scenarios::parse;
 
 /// Faults of a text, as lines.
@@ -81,7 +81,7 @@ fn numbers_that_are_none_are_refused_wherever_they_stand() {
 #[test]
 fn numbers_beyond_measure_are_refused_wherever_they_stand() {
     let place = ("world.cylinders[0].radius_m", 10, 12);
-    assert_fault("radius_m = 50", "radius_m = 1e-300", place, "1e-300", "in magnitude");
+    assert_issue("radius_m = 50", "radius_m = 1e-300", place, "1e-300", "in magnitude");
     for (old, beyond) in [
         ("center_m = [0, 0]", "center_m = [1e300, 0]"),
         ("radius_m = 50", "radius_m = 1_0e299"),

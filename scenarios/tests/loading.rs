@@ -1,8 +1,8 @@
-//! Text that is no scenario: each fault is named with field, line, column, what was found and what was expected.
+//! Text that is no scenario: each issue is named with field, line, column, what was found and what was expected.
 
 mod minimal;
 
-use minimal::{TEXT, assert_fault, faults, load_changed};
+use minimal::{TEXT, assert_issue, issues, load_changed};
 
 #[test]
 fn the_minimal_scenario_is_valid() {
@@ -13,61 +13,61 @@ fn the_minimal_scenario_is_valid() {
 
 #[test]
 fn text_that_is_no_toml_is_reported_with_its_place() {
-    assert_fault("radius_m = 50", "radius_m = ", ("TOML syntax", 10, 12), "", "");
-    assert_fault("[fleet]", "[fleet", ("TOML syntax", 44, 7), "unclosed table", "`]`");
-    assert_fault("goal_m = 5\n", "goal_m = 5\ngoal_m = 6\n", ("TOML syntax", 70, 1), "duplicate key", "");
+    assert_issue("radius_m = 50", "radius_m = ", ("TOML syntax", 10, 12), "", "");
+    assert_issue("[fleet]", "[fleet", ("TOML syntax", 44, 7), "unclosed table", "`]`");
+    assert_issue("goal_m = 5\n", "goal_m = 5\ngoal_m = 6\n", ("TOML syntax", 70, 1), "duplicate key", "");
 }
 
 #[test]
 fn all_syntax_errors_are_reported_together() {
     let text = TEXT.replace("[fleet]", "[fleet").replace("[verdict]", "[verdict");
     let error = scenarios::parse("minimal.toml", &text).unwrap_err();
-    assert_eq!(error.faults().len(), 2);
+    assert_eq!(error.issues().len(), 2);
 }
 
 #[test]
 fn an_unknown_key_is_refused_and_the_nearest_one_suggested() {
-    assert_fault("margin_m = 1", "margins_m = 1", ("planner.margins_m", 50, 1), "an unknown key", "margin_m");
-    let remedy = &faults("margin_m = 1", "margins_m = 1")[0].problem.remedy;
+    assert_issue("margin_m = 1", "margins_m = 1", ("planner.margins_m", 50, 1), "an unknown key", "margin_m");
+    let remedy = &issues("margin_m = 1", "margins_m = 1")[0].issue.remedy;
     assert!(remedy.starts_with("did you mean `margin_m`: Distance that the planner keeps"), "{remedy}");
 }
 
 #[test]
-fn a_misspelt_key_that_must_be_there_is_one_fault() {
-    assert_fault("mass_kg", "mass", ("models.fixed-wing.glider.mass", 13, 1), "an unknown key", "mass_kg");
+fn a_misspelt_key_that_must_be_there_is_one_issue() {
+    assert_issue("mass_kg", "mass", ("models.fixed-wing.glider.mass", 13, 1), "an unknown key", "mass_kg");
 }
 
 #[test]
 fn an_unknown_key_that_resembles_nothing_is_refused() {
-    assert_fault("[fleet]", "[fleet]\ncolour = 1", ("fleet.colour", 45, 1), "an unknown key", "simultaneous_arrival");
+    assert_issue("[fleet]", "[fleet]\ncolour = 1", ("fleet.colour", 45, 1), "an unknown key", "simultaneous_arrival");
 }
 
 #[test]
 fn a_missing_key_is_reported_at_its_table_with_its_documentation() {
-    assert_fault("radius_m = 50\n", "", ("world.cylinders[0].radius_m", 7, 1), "nothing", "a number");
-    let remedy = &faults("radius_m = 50\n", "")[0].problem.remedy;
+    assert_issue("radius_m = 50\n", "", ("world.cylinders[0].radius_m", 7, 1), "nothing", "a number");
+    let remedy = &issues("radius_m = 50\n", "")[0].issue.remedy;
     assert_eq!(remedy, "add `radius_m`: Radius, m, > 0.");
-    assert_fault("name = \"minimal\"\n", "", ("name", 1, 1), "nothing", "text in quotes");
+    assert_issue("name = \"minimal\"\n", "", ("name", 1, 1), "nothing", "text in quotes");
 }
 
 #[test]
 fn values_of_the_wrong_kind_are_reported() {
-    assert_fault("radius_m = 50", "radius_m = '50'", ("world.cylinders[0].radius_m", 10, 12), "text", "a number");
-    assert_fault("intervals = 20", "intervals = 2.5", ("planner.intervals", 49, 13), "2.5", "a whole number");
-    assert_fault("intervals = 20", "intervals = -2", ("planner.intervals", 49, 13), "-2", "0 or more");
-    assert_fault("[fleet]", "[fleet]\nsimultaneous_arrival = 1", ("fleet.simultaneous_arrival", 45, 24), "1", "true");
-    assert_fault("[0, 0]", "[0, 0, 0]", ("world.cylinders[0].center_m", 9, 12), "3 values", "2 numbers in brackets");
-    assert_fault("[0, 0]", "[0]", ("world.cylinders[0].center_m", 9, 12), "1 values", "2 numbers in brackets");
-    assert_fault("[0, 0]", "0", ("world.cylinders[0].center_m", 9, 12), "the whole number 0", "2 numbers in brackets");
-    assert_fault("[0, 0]", "[0, true]", ("world.cylinders[0].center_m[1]", 9, 16), "true", "a number");
-    assert_fault(
+    assert_issue("radius_m = 50", "radius_m = '50'", ("world.cylinders[0].radius_m", 10, 12), "text", "a number");
+    assert_issue("intervals = 20", "intervals = 2.5", ("planner.intervals", 49, 13), "2.5", "a whole number");
+    assert_issue("intervals = 20", "intervals = -2", ("planner.intervals", 49, 13), "-2", "0 or more");
+    assert_issue("[fleet]", "[fleet]\nsimultaneous_arrival = 1", ("fleet.simultaneous_arrival", 45, 24), "1", "true");
+    assert_issue("[0, 0]", "[0, 0, 0]", ("world.cylinders[0].center_m", 9, 12), "3 values", "2 numbers in brackets");
+    assert_issue("[0, 0]", "[0]", ("world.cylinders[0].center_m", 9, 12), "1 values", "2 numbers in brackets");
+    assert_issue("[0, 0]", "0", ("world.cylinders[0].center_m", 9, 12), "the whole number 0", "2 numbers in brackets");
+    assert_issue("[0, 0]", "[0, true]", ("world.cylinders[0].center_m[1]", 9, 16), "true", "a number");
+    assert_issue(
         "tracker = { natural_frequency_radps = 0.5, damping_ratio = 1 }",
         "tracker = 3",
         ("simulation.tracker", 60, 11),
         "the whole number 3",
         "a table",
     );
-    assert_fault(
+    assert_issue(
         "description = \"Two gliders pass one pillar.\"",
         "description = 1979-05-27",
         ("description", 2, 15),
@@ -79,22 +79,22 @@ fn values_of_the_wrong_kind_are_reported() {
 #[test]
 fn a_choice_that_does_not_exist_is_refused_and_the_nearest_one_suggested() {
     let misspelt = "name = \"any\"\ntranscription = \"shoting\"";
-    assert_fault(
+    assert_issue(
         "name = \"any\"",
         misspelt,
         ("planner.transcription", 49, 17),
         "shoting",
         "\"trapezoid\" or \"shooting\"",
     );
-    assert_eq!(faults("name = \"any\"", misspelt)[0].problem.remedy, "did you mean \"shooting\"?");
+    assert_eq!(issues("name = \"any\"", misspelt)[0].issue.remedy, "did you mean \"shooting\"?");
 }
 
 #[test]
 fn numbers_that_are_not_finite_are_refused_wherever_they_stand() {
-    assert_fault("radius_m = 50", "radius_m = nan", ("world.cylinders[0].radius_m", 10, 12), "nan", "a finite number");
-    assert_fault("[1, 0, 0]", "[1, -inf, 0]", ("simulation.wind.mean_mps[1]", 61, 25), "-inf", "a finite number");
-    assert_fault("step_s = 0.01", "step_s = 1e999", ("simulation.step_s", 57, 10), "1e999", "a finite number");
-    assert_fault(
+    assert_issue("radius_m = 50", "radius_m = nan", ("world.cylinders[0].radius_m", 10, 12), "nan", "a finite number");
+    assert_issue("[1, 0, 0]", "[1, -inf, 0]", ("simulation.wind.mean_mps[1]", 61, 25), "-inf", "a finite number");
+    assert_issue("step_s = 0.01", "step_s = 1e999", ("simulation.step_s", 57, 10), "1e999", "a finite number");
+    assert_issue(
         "n_y = [-0.4, 0.4]",
         "n_y = [-0.4, inf]",
         ("models.fixed-wing.glider.limits.n_y[1]", 21, 14),
@@ -104,16 +104,16 @@ fn numbers_that_are_not_finite_are_refused_wherever_they_stand() {
 }
 
 #[test]
-fn faults_of_every_kind_are_reported_together_in_the_order_of_the_file() {
+fn issues_of_every_kind_are_reported_together_in_the_order_of_the_file() {
     let text = TEXT.replace("radius_m = 50", "radius_m = -50").replace("margin_m = 1", "margins_m = 1");
     let text = text.replace("step_s = 0.01", "step_s = nan").replace("goal_m = 5", "goal_m = 0");
     let error = scenarios::parse("minimal.toml", &text).unwrap_err();
-    let fields: Vec<&str> = error.faults().iter().map(|fault| fault.problem.field.as_str()).collect();
+    let fields: Vec<&str> = error.issues().iter().map(|issue| issue.issue.field.as_str()).collect();
     assert_eq!(fields, ["world.cylinders[0].radius_m", "planner.margins_m", "simulation.step_s", "verdict.goal_m"]);
 }
 
 #[test]
-fn a_line_for_every_fault_names_file_line_and_column() {
+fn a_line_for_every_issue_names_file_line_and_column() {
     let error = load_changed("radius_m = 50", "radius_m = -50").unwrap_err();
     let expected = "minimal.toml:10:12: world.cylinders[0].radius_m: found -50, expected a number greater than 0";
     assert_eq!(error.lines(), [expected]);
@@ -126,9 +126,12 @@ fn a_person_is_shown_the_place_in_the_file() {
     miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor())
         .render_report(&mut page, &error)
         .unwrap();
-    for part in
-        ["minimal.toml is no scenario: 1 fault", "minimal.toml:50:1", "margins_m = 1", "did you mean `margin_m`"]
-    {
+    for part in [
+        "minimal.toml is not a valid scenario: 1 error",
+        "minimal.toml:50:1",
+        "margins_m = 1",
+        "did you mean `margin_m`",
+    ] {
         assert!(page.contains(part), "`{part}` is missing in\n{page}");
     }
 }
@@ -141,10 +144,10 @@ fn a_file_that_can_not_be_read_is_named() {
 
 #[test]
 fn a_later_finding_points_into_the_file_as_well() {
-    let source = scenarios::Source::new("minimal.toml", TEXT);
-    let problem = scenarios::Problem::new("planner.name", "\"any\"", "the name of a planner");
+    let source = scenarios::ScenarioFile::new("minimal.toml", TEXT);
+    let issue = scenarios::Issue::new("planner.name", "\"any\"", "the name of a planner");
     assert_eq!(
-        source.error(vec![problem]).lines(),
+        source.error(vec![issue]).lines(),
         ["minimal.toml:48:8: planner.name: found \"any\", expected the name of a planner"]
     );
 }

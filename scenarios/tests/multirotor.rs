@@ -45,47 +45,47 @@ fn scenario() -> Scenario {
     parse("quad.toml", TEXT).expect("a good scenario")
 }
 
-/// The single fault of the changed text: field, what was found, what was expected.
+/// The single issue of the changed text: field, what was found, what was expected.
 #[track_caller]
-fn assert_fault(old: &str, new: &str, field: &str, found: &str, expected: &str) {
+fn assert_issue(old: &str, new: &str, field: &str, found: &str, expected: &str) {
     assert!(TEXT.contains(old), "{old}");
     let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
-    let [fault] = error.faults() else { panic!("expected one fault, found {:#?}", error.faults()) };
-    assert_eq!(fault.problem.field, field, "{fault}");
-    assert!(fault.problem.found.contains(found) && fault.problem.expected.contains(expected), "{fault}");
+    let [issue] = error.issues() else { panic!("expected one issue, found {:#?}", error.issues()) };
+    assert_eq!(issue.issue.field, field, "{issue}");
+    assert!(issue.issue.found.contains(found) && issue.issue.expected.contains(expected), "{issue}");
 }
 
 #[test]
 fn a_vehicle_has_to_see_far_enough_to_stop() {
     // 1.5 m to brake, 3 m/s for 0.35 s, 0.5 m/s of the cart for 1.35 s, and the body: 3.575 m.
     let field = "models.multirotor.quad.sensor_range_m";
-    assert_fault("sensor_range_m = 6", "sensor_range_m = 3.57", field, "3.57", "3.575 m or more");
+    assert_issue("sensor_range_m = 6", "sensor_range_m = 3.57", field, "3.57", "3.575 m or more");
     assert!(parse("quad.toml", &TEXT.replace("sensor_range_m = 6", "sensor_range_m = 3.58")).is_ok());
 }
 
 #[test]
 fn bodies_need_room_at_their_ends() {
-    assert_fault("x_m = 0, y_m = 0", "x_m = 3.2, y_m = 0", "vehicles[0].start", "0.300 m from `box`", "0.35 m");
-    assert_fault("x_m = 0, y_m = 0", "x_m = -3.8, y_m = 0", "vehicles[0].start.x_m", "-3.8", "0.35 m, the body");
-    assert_fault("x_m = 0, y_m = 0", "x_m = 6, y_m = -2.5", "vehicles[0].start", "0.000 m from `cart`", "0.35 m");
-    assert_fault("x_m = 10, y_m = 0", "x_m = 15, y_m = 0", "vehicles[0].goal.x_m", "15", "the map");
-    assert_fault("x_m = 10,", "speed_mps = 1, x_m = 10,", "vehicles[0].goal.speed_mps", "1", "0, or nothing");
+    assert_issue("x_m = 0, y_m = 0", "x_m = 3.2, y_m = 0", "vehicles[0].start", "0.300 m from `box`", "0.35 m");
+    assert_issue("x_m = 0, y_m = 0", "x_m = -3.8, y_m = 0", "vehicles[0].start.x_m", "-3.8", "0.35 m, the body");
+    assert_issue("x_m = 0, y_m = 0", "x_m = 6, y_m = -2.5", "vehicles[0].start", "0.000 m from `cart`", "0.35 m");
+    assert_issue("x_m = 10, y_m = 0", "x_m = 15, y_m = 0", "vehicles[0].goal.x_m", "15", "the map");
+    assert_issue("x_m = 10,", "speed_mps = 1, x_m = 10,", "vehicles[0].goal.speed_mps", "1", "0, or nothing");
 }
 
 #[test]
 fn what_is_hidden_and_what_moves_has_to_make_sense() {
-    assert_fault("hidden = [\"box\"]", "hidden = [\"bux\"]", "world.hidden[0]", "bux", "the name of a cylinder");
-    assert_fault("hidden = [\"box\"]", "hidden = [\"cart\"]", "world.hidden[0]", "cart", "the name of a cylinder");
-    assert_fault("[[6, -3], [6, 3]]", "[[6, -3]]", "world.moving[0].path_m", "1 corners", "two corners");
-    assert_fault("name = \"cart\"", "name = \"box\"", "world.moving[0].name", "box", "a name of its own");
+    assert_issue("hidden = [\"box\"]", "hidden = [\"bux\"]", "world.hidden[0]", "bux", "the name of a cylinder");
+    assert_issue("hidden = [\"box\"]", "hidden = [\"cart\"]", "world.hidden[0]", "cart", "the name of a cylinder");
+    assert_issue("[[6, -3], [6, 3]]", "[[6, -3]]", "world.moving[0].path_m", "1 corners", "two corners");
+    assert_issue("name = \"cart\"", "name = \"box\"", "world.moving[0].name", "box", "a name of its own");
 }
 
 #[test]
 fn a_quadrotor_needs_its_airframe_and_recorded_times_their_record() {
     let field = "models.multirotor.quad.airframe";
-    assert_fault("plant = \"point-mass\"", "plant = \"quadrotor\"", field, "nothing", "a table");
+    assert_issue("plant = \"point-mass\"", "plant = \"quadrotor\"", field, "nothing", "a table");
     let field = "simulation.planning.recorded_s";
-    assert_fault("deadline_s = 0.1", "deadline_s = 0.1, time = \"recorded\"", field, "none", "planning times");
+    assert_issue("deadline_s = 0.1", "deadline_s = 0.1, time = \"recorded\"", field, "none", "planning times");
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use scenarios::plan_input::{FixedWingTrack, GivenTrack, PlanError, PlanHeader, parse_csv, parse_json, read};
+use scenarios::plan_input::{
+    ImportedTrajectory, PartialTrajectory, PlanError, PlanHeader, parse_csv, parse_json, read,
+};
 use scenarios::{Interpolation, Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario, parse, slung_load};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
@@ -23,23 +25,23 @@ fn whole() -> String {
     csv(|line| vec![line])
 }
 
-fn tracks(text: &str) -> Vec<FixedWingTrack> {
+fn tracks(text: &str) -> Vec<PartialTrajectory> {
     fixed_wings(parse_csv("plan.csv", text, &scenario()).expect("a plan").1)
 }
 
-fn fixed_wings(tracks: Vec<GivenTrack>) -> Vec<FixedWingTrack> {
+fn fixed_wings(tracks: Vec<ImportedTrajectory>) -> Vec<PartialTrajectory> {
     let fixed_wing = |track| match track {
-        GivenTrack::FixedWing(track) => track,
+        ImportedTrajectory::FixedWing(track) => track,
         _ => panic!("no other family was asked for"),
     };
     tracks.into_iter().map(fixed_wing).collect()
 }
 
-/// Asserts that the text is refused for a single fault, and that its line says all of `parts`.
+/// Asserts that the text is refused for a single issue, and that its line says all of `parts`.
 #[track_caller]
-fn assert_refused(result: Result<(PlanHeader, Vec<GivenTrack>), PlanError>, parts: &[&str]) {
+fn assert_refused(result: Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError>, parts: &[&str]) {
     let lines = result.expect_err("it should have been refused").lines();
-    let [line] = lines.as_slice() else { panic!("expected one fault, found {lines:#?}") };
+    let [line] = lines.as_slice() else { panic!("expected one issue, found {lines:#?}") };
     for part in parts {
         assert!(line.contains(part), "`{part}` is missing in: {line}");
     }
@@ -323,10 +325,10 @@ fn a_plan_with_a_load_reads_back_as_it_was() {
     let [json, csv] = [json, csv].map(|bytes| String::from_utf8(bytes).unwrap());
     let whole = plan.trajectories[0].slung_load().clone();
     let (_, tracks) = parse_json("plan.json", &json, &scenario).unwrap();
-    assert_eq!(tracks, [GivenTrack::SlungLoad(whole.clone())]);
+    assert_eq!(tracks, [ImportedTrajectory::SlungLoad(whole.clone())]);
     // a table does not say at which nodes the planner looked
     let (_, tracks) = parse_csv("plan.csv", &csv, &scenario).unwrap();
-    assert_eq!(tracks, [GivenTrack::SlungLoad(slung_load::Trajectory { planner_nodes: Vec::new(), ..whole })]);
+    assert_eq!(tracks, [ImportedTrajectory::SlungLoad(slung_load::Trajectory { planner_nodes: Vec::new(), ..whole })]);
 }
 
 #[test]

@@ -6,9 +6,9 @@ use std::path::Path;
 fn every_shipped_scenario_loads() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = scenarios::find(&[folder]).unwrap();
-    let faults: Vec<String> =
+    let issues: Vec<String> =
         files.iter().filter_map(|file| scenarios::load(file).err()).flat_map(|error| error.lines()).collect();
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(issues.is_empty(), "{}", issues.join("\n"));
 }
 
 #[test]

@@ -50,15 +50,15 @@ sensors = { attitude_noise_deg = 0.1 }
 mismatch = { load_mass_ratio = 1.05 }
 "#;
 
-/// The single fault of the changed text: field, what was found, what was expected.
+/// The single issue of the changed text: field, what was found, what was expected.
 #[track_caller]
-fn assert_fault(old: &str, new: &str, field: &str, found: &str, expected: &str) {
+fn assert_issue(old: &str, new: &str, field: &str, found: &str, expected: &str) {
     assert!(TEXT.contains(old), "no `{old}`");
     let error = scenarios::parse("slung.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
-    let [fault] = error.faults() else { panic!("expected one fault, found {:#?}", error.faults()) };
-    assert_eq!(fault.problem.field, field, "{fault}");
-    assert!(fault.problem.found.contains(found) && fault.problem.expected.contains(expected), "{fault}");
-    assert!(fault.line > 0);
+    let [issue] = error.issues() else { panic!("expected one issue, found {:#?}", error.issues()) };
+    assert_eq!(issue.issue.field, field, "{issue}");
+    assert!(issue.issue.found.contains(found) && issue.issue.expected.contains(expected), "{issue}");
+    assert!(issue.line > 0);
 }
 
 #[test]
@@ -74,17 +74,17 @@ fn the_scenario_is_valid_and_has_its_familys_limits() {
 #[test]
 fn obstacles_are_convex_with_names_of_their_own() {
     let dented = "[[0, 2], [1, 2], [0.1, 2.1], [0, 3]]";
-    assert_fault("[[0, 2], [1, 2], [0, 3]]", dented, "world.prisms[0].corners_m", "4 corners", "convex polygon");
-    assert_fault("\"wedge\"", "\"box\"", "world.prisms[0].name", "box", "world.boxes has this one");
-    assert_fault("size_m = [1, 1]", "size_m = [1, 0]", "world.boxes[0].size_m[1]", "0", "greater than 0");
-    assert_fault("z_m = [0, 1]", "z_m = [1, 0]", "world.prisms[0].z_m", "[1, 0]", "min below max");
+    assert_issue("[[0, 2], [1, 2], [0, 3]]", dented, "world.prisms[0].corners_m", "4 corners", "convex polygon");
+    assert_issue("\"wedge\"", "\"box\"", "world.prisms[0].name", "box", "world.boxes has this one");
+    assert_issue("size_m = [1, 1]", "size_m = [1, 0]", "world.boxes[0].size_m[1]", "0", "greater than 0");
+    assert_issue("z_m = [0, 1]", "z_m = [1, 0]", "world.prisms[0].z_m", "[1, 0]", "min below max");
 }
 
 #[test]
 fn complementarity_has_no_phases() {
     let (phases, cable) = ("cable = [\"slack\", \"taut\"]", "planner.collocation.cable");
     let both = format!("{phases}, formulation = \"complementarity\"");
-    assert_fault(phases, &both, cable, "phases", "none");
+    assert_issue(phases, &both, cable, "phases", "none");
     let alone = TEXT.replace(phases, "formulation = \"complementarity\"");
     let scenario = scenarios::parse("slung.toml", &alone).expect("a formulation of its own");
     let settings = scenario.planner.collocation.expect("settings of the collocation");
@@ -95,22 +95,22 @@ fn complementarity_has_no_phases() {
 fn gates_have_windows_with_faces_in_order() {
     let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
     assert_eq!(scenario.world.gates[0].load.z_m, Some(scenarios::Range::new(1.2, 2.0)));
-    assert_fault("z_m = [1.2, 2]", "z_m = [2, 1.2]", "world.gates[0].load.z_m", "[2, 1.2]", "min below max");
-    assert_fault("\"high\"", "\"hi gh\"", "world.gates[0].name", "hi gh", "letters, digits");
+    assert_issue("z_m = [1.2, 2]", "z_m = [2, 1.2]", "world.gates[0].load.z_m", "[2, 1.2]", "min below max");
+    assert_issue("\"high\"", "\"hi gh\"", "world.gates[0].name", "hi gh", "letters, digits");
 }
 
 #[test]
 fn the_load_is_on_its_cable_above_the_ground_and_outside_obstacles() {
     let start = "load = { x_m = -2, y_m = 0, z_m = 0.03 }";
-    assert_fault(
+    assert_issue(
         start,
         "load = { x_m = -2.7, y_m = 0, z_m = 0.4 }",
         "vehicles[0].start.load",
         "0.7071 m",
         "0.65 m at most",
     );
-    assert_fault(start, "load = { x_m = -2, y_m = 0, z_m = 0 }", "vehicles[0].start.load", "at 0 m", "0.03 m or more");
-    assert_fault(
+    assert_issue(start, "load = { x_m = -2, y_m = 0, z_m = 0 }", "vehicles[0].start.load", "at 0 m", "0.03 m or more");
+    assert_issue(
         "x_m = 2, y_m = 0, z_m = 1.5",
         "x_m = 0.2, y_m = 2.2, z_m = 1.5",
         "vehicles[0].goal.load",
@@ -122,17 +122,17 @@ fn the_load_is_on_its_cable_above_the_ground_and_outside_obstacles() {
 #[test]
 fn models_can_hover_and_rotors_do_not_pull_down() {
     let planning = "models.slung-load.quad.planning_limits.thrust_n";
-    assert_fault("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "around 3.728 N");
+    assert_issue("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "around 3.728 N");
     let limits = "models.slung-load.quad.limits.thrust_n";
-    assert_fault("thrust_n = [0, 7]", "thrust_n = [-1, 7]", limits, "[-1, 7]", "rotors do not pull down");
-    assert_fault(
+    assert_issue("thrust_n = [0, 7]", "thrust_n = [-1, 7]", limits, "[-1, 7]", "rotors do not pull down");
+    assert_issue(
         "attitude_deg = [-45, 45]",
         "attitude_deg = [-65, 45]",
         "models.slung-load.quad.planning_limits.attitude_deg",
         "[-65, 45]",
         "inside",
     );
-    assert_fault(
+    assert_issue(
         "load_mass_kg = 0.2",
         "load_mass_kg = 0",
         "models.slung-load.quad.load_mass_kg",
@@ -145,37 +145,37 @@ fn models_can_hover_and_rotors_do_not_pull_down() {
 fn a_slung_load_flies_alone_among_flat_obstacles() {
     let two = "[[vehicles]]\nname = \"other\"\nmodel = \"quad\"\nstart = { x_m = 2, y_m = 3, z_m = 1 }\n\
                goal = { x_m = 2, y_m = -3, z_m = 1 }\n\n[planner]";
-    assert_fault("[planner]", two, "vehicles", "2 of them", "fly alone");
+    assert_issue("[planner]", two, "vehicles", "2 of them", "fly alone");
     let pillar =
         "[[world.cylinders]]\nname = \"pillar\"\ncenter_m = [3, 3]\nradius_m = 0.1\n\n[models.slung-load.quad]";
-    assert_fault("[models.slung-load.quad]", pillar, "world.cylinders", "1 of them", "among boxes and prisms");
+    assert_issue("[models.slung-load.quad]", pillar, "world.cylinders", "1 of them", "among boxes and prisms");
 }
 
 #[test]
 fn disturbances_and_options_have_their_ranges() {
-    assert_fault("duration_s = 1,", "duration_s = 0,", "simulation.wind.pulses[0].duration_s", "0", "greater than 0");
-    assert_fault(
+    assert_issue("duration_s = 1,", "duration_s = 0,", "simulation.wind.pulses[0].duration_s", "0", "greater than 0");
+    assert_issue(
         "attitude_noise_deg = 0.1",
         "attitude_noise_deg = -1",
         "simulation.sensors.attitude_noise_deg",
         "-1",
         "0 or more",
     );
-    assert_fault(
+    assert_issue(
         "load_mass_ratio = 1.05",
         "load_mass_ratio = 0",
         "simulation.mismatch.load_mass_ratio",
         "0",
         "greater than 0",
     );
-    assert_fault("flight_time_s = 4, ", "", "planner.collocation.flight_time_s", "nothing", "a duration");
-    assert_fault("points = 4", "points = 1", "planner.collocation.points", "1", "from 2 to 20");
+    assert_issue("flight_time_s = 4, ", "", "planner.collocation.flight_time_s", "nothing", "a duration");
+    assert_issue("points = 4", "points = 1", "planner.collocation.points", "1", "from 2 to 20");
 }
 
 #[test]
 fn a_flight_that_is_planned_for_may_be_flown() {
     for time in ["1e6", "601", "1e-6"] {
         let options = format!("flight_time_s = {time}, ");
-        assert_fault("flight_time_s = 4, ", &options, "planner.collocation.flight_time_s", " s", "max_duration_s");
+        assert_issue("flight_time_s = 4, ", &options, "planner.collocation.flight_time_s", " s", "max_duration_s");
     }
 }

@@ -2,42 +2,42 @@
 
 mod minimal;
 
-use minimal::{TEXT, assert_fault, faults, load_changed};
+use minimal::{TEXT, assert_issue, issues, load_changed};
 
 const LIMITS: &str = "models.fixed-wing.glider.limits";
 const PLANNING: &str = "models.fixed-wing.glider.planning_limits";
 
 #[test]
 fn the_name_is_that_of_the_file_and_well_formed() {
-    assert_fault("\"minimal\"", "\"maximal\"", ("name", 1, 8), "maximal", "\"minimal\", as the file is named");
+    assert_issue("\"minimal\"", "\"maximal\"", ("name", 1, 8), "maximal", "\"minimal\", as the file is named");
     for name in ["Bad Name", "", "-x", "a_b"] {
         let text = TEXT.replace("\"minimal\"", &format!("\"{name}\""));
         let error = scenarios::parse(&format!("{name}.toml"), &text).unwrap_err();
-        assert!(error.to_string().contains("fault"), "{name}");
-        let malformed = error.faults().iter().find(|fault| fault.problem.expected.contains("lower case")).unwrap();
-        assert_eq!((malformed.problem.field.as_str(), malformed.line, malformed.column), ("name", 1, 8));
+        assert!(error.to_string().contains("error"), "{name}");
+        let malformed = error.issues().iter().find(|issue| issue.issue.expected.contains("lower case")).unwrap();
+        assert_eq!((malformed.issue.field.as_str(), malformed.line, malformed.column), ("name", 1, 8));
     }
 }
 
 #[test]
 fn ranges_run_from_small_to_large() {
     let ordered = "min below max";
-    assert_fault("y_m = [-500, 500]", "y_m = [500, -500]", ("world.map.y_m", 5, 36), "[500, -500]", ordered);
-    assert_fault("n_x = [-0.4, 0.4]", "n_x = [0.4, 0.4]", (&format!("{LIMITS}.n_x"), 20, 7), "[0.4, 0.4]", ordered);
+    assert_issue("y_m = [-500, 500]", "y_m = [500, -500]", ("world.map.y_m", 5, 36), "[500, -500]", ordered);
+    assert_issue("n_x = [-0.4, 0.4]", "n_x = [0.4, 0.4]", (&format!("{LIMITS}.n_x"), 20, 7), "[0.4, 0.4]", ordered);
 }
 
 #[test]
 fn obstacles_have_names_of_their_own_and_a_size() {
-    assert_fault("radius_m = 50", "radius_m = 0", ("world.cylinders[0].radius_m", 10, 12), "0", "greater than 0");
-    assert_fault("\"pillar\"", "\"a,b\"", ("world.cylinders[0].name", 8, 8), "a,b", "letters, digits");
+    assert_issue("radius_m = 50", "radius_m = 0", ("world.cylinders[0].radius_m", 10, 12), "0", "greater than 0");
+    assert_issue("\"pillar\"", "\"a,b\"", ("world.cylinders[0].name", 8, 8), "a,b", "letters, digits");
     let twice = "radius_m = 50\n\n[[world.cylinders]]\nname = \"pillar\"\ncenter_m = [0, 300]\nradius_m = 50";
-    assert_fault("radius_m = 50", twice, ("world.cylinders[1].name", 13, 8), "pillar", "world.cylinders[0] has");
+    assert_issue("radius_m = 50", twice, ("world.cylinders[1].name", 13, 8), "pillar", "world.cylinders[0] has");
 }
 
 #[test]
 fn models_have_mass_and_size() {
-    assert_fault("mass_kg = 10", "mass_kg = -1", ("models.fixed-wing.glider.mass_kg", 13, 11), "-1", "greater than 0");
-    assert_fault(
+    assert_issue("mass_kg = 10", "mass_kg = -1", ("models.fixed-wing.glider.mass_kg", 13, 11), "-1", "greater than 0");
+    assert_issue(
         "body_radius_m = 1",
         "body_radius_m = 0",
         ("models.fixed-wing.glider.body_radius_m", 14, 17),
@@ -57,14 +57,14 @@ fn models_have_mass_and_size() {
 
 #[test]
 fn limits_are_those_of_a_fixed_wing() {
-    assert_fault(
+    assert_issue(
         "speed_mps = [20, 50]",
         "speed_mps = [0, 50]",
         (&format!("{LIMITS}.speed_mps"), 18, 13),
         "[0, 50]",
         "can't hover",
     );
-    assert_fault(
+    assert_issue(
         "flight_path_deg = [-10, 10]",
         "flight_path_deg = [-10, 90]",
         (&format!("{LIMITS}.flight_path_deg"), 19, 19),
@@ -75,14 +75,14 @@ fn limits_are_those_of_a_fixed_wing() {
 
 #[test]
 fn planning_limits_lie_inside_the_physical_ones() {
-    assert_fault(
+    assert_issue(
         "n_z = [0.8, 1.2]",
         "n_z = [0.5, 1.2]",
         (&format!("{PLANNING}.n_z"), 30, 7),
         "[0.5, 1.2]",
         "inside [0.6, 1.4]",
     );
-    assert_fault(
+    assert_issue(
         "speed_mps = [30, 40]",
         "speed_mps = [30, 60]",
         (&format!("{PLANNING}.speed_mps"), 26, 13),
@@ -100,23 +100,23 @@ fn a_fleet_has_vehicles_with_names_of_their_own_and_known_models() {
         error.lines(),
         ["minimal.toml:1:12: vehicles: found none, expected one vehicle at least; add a `[[vehicles]]` table"]
     );
-    assert_fault("\"uav-2\"", "\"uav-1\"", ("vehicles[1].name", 39, 8), "uav-1", "vehicles[0] has this one already");
-    assert_fault("\"uav-2\"", "\"\"", ("vehicles[1].name", 39, 8), "\"\"", "letters, digits");
+    assert_issue("\"uav-2\"", "\"uav-1\"", ("vehicles[1].name", 39, 8), "uav-1", "vehicles[0] has this one already");
+    assert_issue("\"uav-2\"", "\"\"", ("vehicles[1].name", 39, 8), "\"\"", "letters, digits");
     let unknown = "name = \"uav-2\"\nmodel = \"glidr\"";
-    assert_fault("name = \"uav-2\"\nmodel = \"glider\"", unknown, ("vehicles[1].model", 40, 9), "glidr", "glider");
-    assert_eq!(faults("name = \"uav-2\"\nmodel = \"glider\"", unknown)[0].problem.remedy, "did you mean \"glider\"?");
+    assert_issue("name = \"uav-2\"\nmodel = \"glider\"", unknown, ("vehicles[1].model", 40, 9), "glidr", "glider");
+    assert_eq!(issues("name = \"uav-2\"\nmodel = \"glider\"", unknown)[0].issue.remedy, "did you mean \"glider\"?");
 }
 
 #[test]
 fn starts_and_goals_are_on_the_map() {
-    assert_fault(
+    assert_issue(
         "-900, y_m = 200",
         "-1001, y_m = 200",
         ("vehicles[1].start.x_m", 41, 17),
         "-1001",
         "[-1000, 1000], the map",
     );
-    assert_fault(
+    assert_issue(
         "900, y_m = -200, z_m = 400, speed_mps = 35 }\n\n",
         "900, y_m = -501, z_m = 400, speed_mps = 35 }\n\n",
         ("vehicles[0].goal.y_m", 36, 27),
@@ -129,9 +129,9 @@ fn starts_and_goals_are_on_the_map() {
 fn starts_and_goals_keep_the_planning_limits() {
     let start = "x_m = -900, y_m = 200, z_m = 400, speed_mps = 35";
     let with = |new| format!("x_m = -900, y_m = 200, {new}");
-    assert_fault(start, &with("z_m = 550, speed_mps = 35"), ("vehicles[1].start.z_m", 41, 40), "550", "[300, 500]");
-    assert_fault(start, &with("z_m = 400, speed_mps = 45"), ("vehicles[1].start.speed_mps", 41, 57), "45", "[30, 40]");
-    assert_fault(
+    assert_issue(start, &with("z_m = 550, speed_mps = 35"), ("vehicles[1].start.z_m", 41, 40), "550", "[300, 500]");
+    assert_issue(start, &with("z_m = 400, speed_mps = 45"), ("vehicles[1].start.speed_mps", 41, 57), "45", "[30, 40]");
+    assert_issue(
         start,
         &with("z_m = 400, speed_mps = 35, flight_path_deg = 6"),
         ("vehicles[1].start.flight_path_deg", 41, 79),
@@ -142,7 +142,7 @@ fn starts_and_goals_keep_the_planning_limits() {
 
 #[test]
 fn starts_and_goals_are_outside_obstacles() {
-    assert_fault(
+    assert_issue(
         "x_m = 900, y_m = 200",
         "x_m = 30, y_m = 30",
         ("vehicles[1].goal", 42, 8),
@@ -154,14 +154,14 @@ fn starts_and_goals_are_outside_obstacles() {
 
 #[test]
 fn bodies_do_not_overlap() {
-    assert_fault(
+    assert_issue(
         "x_m = -900, y_m = 200, z_m = 400",
         "x_m = -900, y_m = -199, z_m = 401",
         ("vehicles[1].start", 41, 9),
         "overlap",
         "2 m or more",
     );
-    assert_fault(
+    assert_issue(
         "x_m = 900, y_m = 200",
         "x_m = 900, y_m = -200",
         ("vehicles[1].goal", 42, 8),
@@ -172,15 +172,15 @@ fn bodies_do_not_overlap() {
 
 #[test]
 fn the_separation_holds_at_both_ends() {
-    assert_fault("separation_m = 100", "separation_m = 0", ("fleet.separation_m", 45, 16), "0", "greater than 0");
-    assert_fault(
+    assert_issue("separation_m = 100", "separation_m = 0", ("fleet.separation_m", 45, 16), "0", "greater than 0");
+    assert_issue(
         "x_m = -900, y_m = 200",
         "x_m = -900, y_m = -101",
         ("vehicles[1].start", 41, 9),
         "99.000 m",
         "100 m or more",
     );
-    assert_fault(
+    assert_issue(
         "x_m = 900, y_m = 200",
         "x_m = 900, y_m = -101",
         ("vehicles[1].goal", 42, 8),
@@ -192,19 +192,19 @@ fn the_separation_holds_at_both_ends() {
 
 #[test]
 fn options_of_the_planner_are_in_range() {
-    assert_fault("intervals = 20", "intervals = 1", ("planner.intervals", 49, 13), "1", "from 2 to 1000");
-    assert_fault("intervals = 20", "intervals = 1001", ("planner.intervals", 49, 13), "1001", "from 2 to 1000");
-    assert_fault("margin_m = 1", "margin_m = -1", ("planner.margin_m", 50, 12), "-1", "0 or more");
-    assert_fault("penalty = 1000", "penalty = 0", ("planner.penalty", 51, 11), "0", "greater than 0");
+    assert_issue("intervals = 20", "intervals = 1", ("planner.intervals", 49, 13), "1", "from 2 to 1000");
+    assert_issue("intervals = 20", "intervals = 1001", ("planner.intervals", 49, 13), "1001", "from 2 to 1000");
+    assert_issue("margin_m = 1", "margin_m = -1", ("planner.margin_m", 50, 12), "-1", "0 or more");
+    assert_issue("penalty = 1000", "penalty = 0", ("planner.penalty", 51, 11), "0", "greater than 0");
     for share in ["1", "-0.1"] {
         let release = format!("penalty = 1000\ntime_bound_release = {share}");
-        assert_fault("penalty = 1000", &release, ("planner.time_bound_release", 52, 22), share, "from 0 to below 1");
+        assert_issue("penalty = 1000", &release, ("planner.time_bound_release", 52, 22), share, "from 0 to below 1");
     }
-    assert_fault("max_iterations = 30", "max_iterations = 0", ("planner.max_iterations", 52, 18), "0", "1 or more");
-    assert_fault("shrink = 0.5", "shrink = 0", ("planner.trust_region.shrink", 53, 112), "0", "greater than 0, and 1");
-    assert_fault("shrink = 0.5", "shrink = 1.01", ("planner.trust_region.shrink", 53, 112), "1.01", "1 at most");
-    assert_fault("1, shrink", "0, shrink", ("planner.trust_region.flight_path_deg", 53, 100), "0", "greater than 0");
-    assert_fault(
+    assert_issue("max_iterations = 30", "max_iterations = 0", ("planner.max_iterations", 52, 18), "0", "1 or more");
+    assert_issue("shrink = 0.5", "shrink = 0", ("planner.trust_region.shrink", 53, 112), "0", "greater than 0, and 1");
+    assert_issue("shrink = 0.5", "shrink = 1.01", ("planner.trust_region.shrink", 53, 112), "1.01", "1 at most");
+    assert_issue("1, shrink", "0, shrink", ("planner.trust_region.flight_path_deg", 53, 100), "0", "greater than 0");
+    assert_issue(
         "convergence = { position_m = 1",
         "convergence = { position_m = 0",
         ("planner.convergence.position_m", 54, 30),
@@ -217,54 +217,54 @@ fn options_of_the_planner_are_in_range() {
 #[test]
 fn the_simulation_is_possible() {
     let positive = "greater than 0";
-    assert_fault("step_s = 0.01", "step_s = 0", ("simulation.step_s", 57, 10), "0", positive);
-    assert_fault("step_s = 0.01", "step_s = 0.2", ("simulation.step_s", 57, 10), "0.2", "0.1 at most");
-    assert_fault("max_duration_s = 100", "max_duration_s = 0", ("simulation.max_duration_s", 58, 18), "0", positive);
-    assert_fault("coast_s = 2", "coast_s = -1", ("simulation.coast_s", 59, 11), "-1", "0 or more");
-    assert_fault("radps = 0.5", "radps = 0", ("simulation.tracker.natural_frequency_radps", 60, 39), "0", positive);
-    assert_fault("damping_ratio = 1", "damping_ratio = 0", ("simulation.tracker.damping_ratio", 60, 60), "0", positive);
-    assert_fault(
+    assert_issue("step_s = 0.01", "step_s = 0", ("simulation.step_s", 57, 10), "0", positive);
+    assert_issue("step_s = 0.01", "step_s = 0.2", ("simulation.step_s", 57, 10), "0.2", "0.1 at most");
+    assert_issue("max_duration_s = 100", "max_duration_s = 0", ("simulation.max_duration_s", 58, 18), "0", positive);
+    assert_issue("coast_s = 2", "coast_s = -1", ("simulation.coast_s", 59, 11), "-1", "0 or more");
+    assert_issue("radps = 0.5", "radps = 0", ("simulation.tracker.natural_frequency_radps", 60, 39), "0", positive);
+    assert_issue("damping_ratio = 1", "damping_ratio = 0", ("simulation.tracker.damping_ratio", 60, 60), "0", positive);
+    assert_issue(
         "20ft_mps = 5",
         "20ft_mps = -5",
         ("simulation.wind.gusts.wind_at_20ft_mps", 61, 61),
         "-5",
         "0 or more",
     );
-    assert_fault(
+    assert_issue(
         "position_noise_m = 0.1",
         "position_noise_m = -0.1",
         ("simulation.sensors.position_noise_m", 62, 32),
         "-0.1",
         "0 or more",
     );
-    assert_fault(
+    assert_issue(
         "velocity_noise_mps = 0.1",
         "velocity_noise_mps = -0.1",
         ("simulation.sensors.velocity_noise_mps", 62, 58),
         "-0.1",
         "0 or more",
     );
-    assert_fault("mass_ratio = 1.1", "mass_ratio = 0", ("simulation.mismatch.mass_ratio", 63, 27), "0", positive);
+    assert_issue("mass_ratio = 1.1", "mass_ratio = 0", ("simulation.mismatch.mass_ratio", 63, 27), "0", positive);
 }
 
 #[test]
 fn the_verdict_has_limits_and_knows_its_checks() {
     let positive = "greater than 0";
-    assert_fault("tracking_max_m = 5", "tracking_max_m = 0", ("verdict.tracking_max_m", 66, 18), "0", positive);
-    assert_fault("tracking_rms_m = 2", "tracking_rms_m = 0", ("verdict.tracking_rms_m", 67, 18), "0", positive);
-    assert_fault("spread_s = 0.5", "spread_s = -1", ("verdict.arrival_spread_s", 68, 20), "-1", positive);
-    assert_fault("\ngoal_m = 5", "\ngoal_m = 0", ("verdict.goal_m", 69, 10), "0", positive);
-    assert_fault("dynamics_m = 1", "dynamics_m = 0", ("verdict.dynamics_m", 70, 14), "0", positive);
-    assert_fault("rollout_m = 5", "rollout_m = 0", ("verdict.rollout_m", 71, 13), "0", positive);
-    assert_fault("saturation = 0.05", "saturation = 1.5", ("verdict.saturation", 72, 14), "1.5", "from 0 to 1");
-    assert_fault(
+    assert_issue("tracking_max_m = 5", "tracking_max_m = 0", ("verdict.tracking_max_m", 66, 18), "0", positive);
+    assert_issue("tracking_rms_m = 2", "tracking_rms_m = 0", ("verdict.tracking_rms_m", 67, 18), "0", positive);
+    assert_issue("spread_s = 0.5", "spread_s = -1", ("verdict.arrival_spread_s", 68, 20), "-1", positive);
+    assert_issue("\ngoal_m = 5", "\ngoal_m = 0", ("verdict.goal_m", 69, 10), "0", positive);
+    assert_issue("dynamics_m = 1", "dynamics_m = 0", ("verdict.dynamics_m", 70, 14), "0", positive);
+    assert_issue("rollout_m = 5", "rollout_m = 0", ("verdict.rollout_m", 71, 13), "0", positive);
+    assert_issue("saturation = 0.05", "saturation = 1.5", ("verdict.saturation", 72, 14), "1.5", "from 0 to 1");
+    assert_issue(
         "\"flight.tracking_rms\"",
         "\"flight.tracking\"",
         ("verdict.advisory[0]", 73, 13),
         "flight.tracking",
         "the full name of a check",
     );
-    assert_fault(
+    assert_issue(
         "\"flight.separation\"",
         "\"separation\"",
         ("verdict.required[0]", 74, 13),

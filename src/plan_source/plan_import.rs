@@ -10,7 +10,7 @@ mod controls;
 mod velocities;
 
 use scenarios::fixed_wing::{State, Trajectory};
-use scenarios::plan_input::{FixedWingTrack, GivenTrack, PlanHeader, cartesian_states};
+use scenarios::plan_input::{ImportedTrajectory, PartialTrajectory, PlanHeader, states_from_velocities};
 use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Vehicle};
 
 use crate::verdict::{Provenance, Reconstruction};
@@ -38,7 +38,7 @@ impl CompletedPlan {
 pub fn complete(
     scenario: &Scenario,
     header: PlanHeader,
-    tracks: Vec<GivenTrack>,
+    tracks: Vec<ImportedTrajectory>,
     planner: &str,
     seed: u64,
 ) -> CompletedPlan {
@@ -46,9 +46,9 @@ pub fn complete(
     let mut trajectories = Vec::with_capacity(tracks.len());
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
         match track {
-            GivenTrack::SlungLoad(trajectory) => trajectories.push(trajectory.into()),
-            GivenTrack::Multirotor(trajectory) => trajectories.push(trajectory.into()),
-            GivenTrack::FixedWing(track) => {
+            ImportedTrajectory::SlungLoad(trajectory) => trajectories.push(trajectory.into()),
+            ImportedTrajectory::Multirotor(trajectory) => trajectories.push(trajectory.into()),
+            ImportedTrajectory::FixedWing(track) => {
                 let (trajectory, own) = whole_trajectory(vehicle, track);
                 reconstruction = worse(reconstruction, own);
                 trajectories.push(trajectory.into());
@@ -71,12 +71,12 @@ pub fn complete(
     CompletedPlan { plan, provenance: Provenance { reconstruction } }
 }
 
-fn whole_trajectory(vehicle: &Vehicle, track: FixedWingTrack) -> (Trajectory, Option<Reconstruction>) {
-    let FixedWingTrack { vehicle: name, times_s, positions_m, states, controls } = track;
+fn whole_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajectory, Option<Reconstruction>) {
+    let PartialTrajectory { vehicle: name, times_s, positions_m, states, controls } = track;
     let velocities_missing = states.is_none();
     let states: Vec<State> = states.unwrap_or_else(|| {
         let start_mps = vehicle.start.fixed_wing_state().velocity_mps();
-        cartesian_states(&positions_m, &velocities::of(&times_s, &positions_m, start_mps))
+        states_from_velocities(&positions_m, &velocities::of(&times_s, &positions_m, start_mps))
     });
     let (controls, reconstruction) = match controls {
         Some(controls) if !velocities_missing => (controls, None),

@@ -87,7 +87,9 @@ fn a_file_that_is_no_plan_ends_with_code_2_and_leaves_nothing_behind() {
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("theirs.csv", csv), ("theirs.txt", csv)]);
     let (exit, _, errors) = check(&workplace, "theirs.csv");
     assert_eq!(exit, 2);
-    for part in ["theirs.csv is no plan for `pair`: 2 faults", "theirs.csv:4", "found \"uav-3\"", "no row of `uav-2`"] {
+    for part in
+        ["theirs.csv is not a valid plan for `pair`: 2 errors", "theirs.csv:4", "found \"uav-3\"", "no row of `uav-2`"]
+    {
         assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
     }
     for (plan, message) in [("theirs.txt", "ends in .csv, .json or"), ("missing.csv", "missing.csv")] {

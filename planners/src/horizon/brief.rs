@@ -1,6 +1,6 @@
 //! From a scenario to the options of a pilot.
 
-use scenarios::{CostMap, Family, Field, FieldForm, Horizon, RepulsionForm, Sampler, Scenario};
+use scenarios::{CostMap, Family, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler, Scenario};
 
 use super::cost_map::Ways;
 use super::optimise::Budget;
@@ -122,13 +122,15 @@ fn charge(horizon: &Horizon, variant: Variant) -> Charge {
     };
     let field = horizon.field.clone().unwrap_or_default();
     match (variant, field.form) {
-        (Variant::Apf, Some(FieldForm::Alone)) => Charge::Field(field.attraction.unwrap_or(0.1), repulsion(&field)),
+        (Variant::Apf, Some(PotentialFieldForm::Alone)) => {
+            Charge::Field(field.attraction.unwrap_or(0.1), repulsion(&field))
+        }
         (Variant::Apf, _) => Charge::Map(ways, Some(repulsion(&field))),
         _ => Charge::Map(ways, None),
     }
 }
 
-fn repulsion(field: &Field) -> Repulsion {
+fn repulsion(field: &PotentialField) -> Repulsion {
     Repulsion {
         gain: field.gain.unwrap_or(0.05),
         reach_m: field.reach_m.unwrap_or(1.0),

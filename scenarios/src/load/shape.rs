@@ -2,7 +2,7 @@
 //!
 //! The document is held against the JSON Schema that is generated from the scenario's own types, so that everything
 //! that is wrong is found in one go, with its place in the text and the field's documentation. (Deserialisation would
-//! stop at the first fault, and take `[1, 2, 3]` for a pair.)
+//! stop at the first issue, and take `[1, 2, 3]` for a pair.)
 
 use std::ops::Range;
 
@@ -10,21 +10,21 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::{Problem, nearest};
+use crate::{Issue, closest_name};
 
 /// What is found where a key stands that means nothing.
 pub(super) const UNKNOWN_KEY: &str = "an unknown key";
 
 /// Everything in `root` that differs from `schema`, with the bytes of the text where it stands.
-pub(super) fn faults(schema: &Value, root: &Spanned<DeTable<'_>>) -> Vec<(Problem, Range<usize>)> {
-    let mut check = Check { definitions: &schema["$defs"], faults: Vec::new() };
+pub(super) fn issues(schema: &Value, root: &Spanned<DeTable<'_>>) -> Vec<(Issue, Range<usize>)> {
+    let mut check = Check { definitions: &schema["$defs"], issues: Vec::new() };
     check.table(schema, root.get_ref(), &root.span(), "");
-    check.faults
+    check.issues
 }
 
 struct Check<'s> {
     definitions: &'s Value,
-    faults: Vec<(Problem, Range<usize>)>,
+    issues: Vec<(Issue, Range<usize>)>,
 }
 
 impl<'s> Check<'s> {
@@ -47,7 +47,7 @@ impl<'s> Check<'s> {
             ("string", DeValue::String(text)) => self.choice(schema, text, &value.span(), field),
             ("integer", DeValue::Integer(integer)) => self.integer(schema, integer.as_str(), &value.span(), field),
             ("number", DeValue::Integer(_) | DeValue::Float(_)) | ("boolean", DeValue::Boolean(_)) => {}
-            _ => self.fault(field, describe(value.get_ref()), expectation(schema), &value.span(), String::new()),
+            _ => self.issue(field, describe(value.get_ref()), expectation(schema), &value.span(), String::new()),
         }
     }
 
@@ -69,7 +69,7 @@ impl<'s> Check<'s> {
         for key in required.filter(|key| !table.contains_key(*key) && !is_misspelt(key, table, properties)) {
             let expected = expectation(self.resolve(&schema["properties"][key]));
             let remedy = format!("add `{key}`: {}", documentation(&schema["properties"][key]));
-            self.fault(&join(field, key), "nothing".into(), expected, span, remedy);
+            self.issue(&join(field, key), "nothing".into(), expected, span, remedy);
         }
     }
 
@@ -77,7 +77,7 @@ impl<'s> Check<'s> {
         let fewest = schema["minItems"].as_u64().unwrap_or(0);
         let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
         if !(fewest..=most).contains(&(array.len() as u64)) {
-            self.fault(field, format!("{} values", array.len()), expectation(schema), span, String::new());
+            self.issue(field, format!("{} values", array.len()), expectation(schema), span, String::new());
         }
         for (index, value) in array.iter().enumerate() {
             self.value(&schema["items"], value, &format!("{field}[{index}]"));
@@ -88,14 +88,14 @@ impl<'s> Check<'s> {
         let choices = choices(schema);
         if !choices.is_empty() && !choices.contains(&text) {
             let remedy =
-                nearest(text, choices).map_or_else(String::new, |choice| format!("did you mean \"{choice}\"?"));
-            self.fault(field, format!("\"{text}\""), expectation(schema), span, remedy);
+                closest_name(text, choices).map_or_else(String::new, |choice| format!("did you mean \"{choice}\"?"));
+            self.issue(field, format!("\"{text}\""), expectation(schema), span, remedy);
         }
     }
 
     fn integer(&mut self, schema: &Value, digits: &str, span: &Range<usize>, field: &str) {
         if schema["minimum"] == 0 && digits.starts_with('-') {
-            self.fault(field, digits.to_owned(), expectation(schema), span, String::new());
+            self.issue(field, digits.to_owned(), expectation(schema), span, String::new());
         }
     }
 
@@ -108,7 +108,7 @@ impl<'s> Check<'s> {
         field: &str,
     ) {
         let free: Vec<&str> = properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name)).collect();
-        let remedy = match nearest(key, free.iter().copied()) {
+        let remedy = match closest_name(key, free.iter().copied()) {
             Some(name) => format!("did you mean `{name}`: {}", documentation(&properties[name])),
             None => "remove it; keys that mean nothing are refused, so that a misspelt one is never overlooked".into(),
         };
@@ -116,19 +116,19 @@ impl<'s> Check<'s> {
             [] => "no further key here".into(),
             names => format!("one of the keys {}", names.join(", ")),
         };
-        self.fault(field, UNKNOWN_KEY.into(), expected, span, remedy);
+        self.issue(field, UNKNOWN_KEY.into(), expected, span, remedy);
     }
 
-    fn fault(&mut self, field: &str, found: String, expected: String, span: &Range<usize>, remedy: String) {
-        self.faults.push((Problem::new(field, found, expected).remedy(remedy), span.clone()));
+    fn issue(&mut self, field: &str, found: String, expected: String, span: &Range<usize>, remedy: String) {
+        self.issues.push((Issue::new(field, found, expected).remedy(remedy), span.clone()));
     }
 }
 
-/// Is `key` absent because a key of `table` that means nothing was meant to be it? Then one fault says it all.
+/// Is `key` absent because a key of `table` that means nothing was meant to be it? Then one issue says it all.
 fn is_misspelt(key: &str, table: &DeTable<'_>, properties: &Map<String, Value>) -> bool {
     let free = || properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name));
     let unknown = table.keys().filter(|written| !properties.contains_key(written.get_ref().as_ref()));
-    unknown.into_iter().any(|written| nearest(written.get_ref(), free()) == Some(key))
+    unknown.into_iter().any(|written| closest_name(written.get_ref(), free()) == Some(key))
 }
 
 fn join(field: &str, key: &str) -> String {

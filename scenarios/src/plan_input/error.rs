@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::Problem;
+use crate::Issue;
 
 /// Faults that are reported of one file; the others are counted.
 const MOST_FAULTS: usize = 20;
@@ -34,58 +34,58 @@ pub enum PlanError {
         path: PathBuf,
     },
     /// The file is read, but what it says is no plan for the scenario.
-    #[error("{name} is no plan for `{scenario}`: {count} {}", if *count == 1 { "fault" } else { "faults" })]
+    #[error("{name} is not a valid plan for `{scenario}`: {count} {}", if *count == 1 { "error" } else { "errors" })]
     Invalid {
         /// The file, as the user named it.
         name: String,
         /// The scenario.
         scenario: String,
-        /// Number of faults, those that are not shown included.
+        /// Number of issues, those that are not shown included.
         count: usize,
-        /// The first faults.
+        /// The first issues.
         #[related]
-        faults: Vec<PlanFault>,
+        issues: Vec<PlanIssue>,
     },
 }
 
 /// One thing that is wrong, and where.
 #[derive(Clone, Debug, Error, Diagnostic, PartialEq)]
-#[error("{place}: {problem}")]
-pub struct PlanFault {
+#[error("{place}: {issue}")]
+pub struct PlanIssue {
     /// File, and line or row where there are any.
     pub place: String,
     /// What is wrong.
-    pub problem: Problem,
+    pub issue: Issue,
     /// How to mend it.
     #[help]
     pub help: Option<String>,
 }
 
-impl PlanFault {
-    /// A fault at `place`, which is what follows the name of the file: `:17`, or nothing for the whole file.
-    pub(super) fn new(place: impl Into<String>, problem: Problem) -> Self {
-        let help = Some(problem.remedy.clone()).filter(|remedy| !remedy.is_empty());
-        Self { place: place.into(), problem, help }
+impl PlanIssue {
+    /// A issue at `place`, which is what follows the name of the file: `:17`, or nothing for the whole file.
+    pub(super) fn new(place: impl Into<String>, issue: Issue) -> Self {
+        let help = Some(issue.remedy.clone()).filter(|remedy| !remedy.is_empty());
+        Self { place: place.into(), issue, help }
     }
 }
 
 impl PlanError {
-    pub(super) fn invalid(name: &str, scenario: &str, mut faults: Vec<PlanFault>) -> Self {
-        let count = faults.len();
-        faults.truncate(MOST_FAULTS);
-        for fault in &mut faults {
-            fault.place = format!("{name}{}", fault.place);
+    pub(super) fn invalid(name: &str, scenario: &str, mut issues: Vec<PlanIssue>) -> Self {
+        let count = issues.len();
+        issues.truncate(MOST_FAULTS);
+        for issue in &mut issues {
+            issue.place = format!("{name}{}", issue.place);
         }
-        Self::Invalid { name: name.to_owned(), scenario: scenario.to_owned(), count, faults }
+        Self::Invalid { name: name.to_owned(), scenario: scenario.to_owned(), count, issues }
     }
 
-    /// Every fault on a line of its own, as `file:line: field: found ..., expected ...; remedy`.
+    /// Every issue on a line of its own, as `file:line: field: found ..., expected ...; remedy`.
     pub fn lines(&self) -> Vec<String> {
-        let Self::Invalid { faults, .. } = self else { return vec![self.to_string()] };
-        let line = |fault: &PlanFault| match &fault.help {
-            Some(help) => format!("{fault}; {help}"),
-            None => fault.to_string(),
+        let Self::Invalid { issues, .. } = self else { return vec![self.to_string()] };
+        let line = |issue: &PlanIssue| match &issue.help {
+            Some(help) => format!("{issue}; {help}"),
+            None => issue.to_string(),
         };
-        faults.iter().map(line).collect()
+        issues.iter().map(line).collect()
     }
 }

@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::columns::Columns;
-use super::{PlanFault, PlanHeader, PlanTable, Track};
-use crate::{Problem, nearest};
+use super::{ColumnTable, PlanDocument, PlanHeader, PlanIssue};
+use crate::{Issue, closest_name};
 
 /// Keys that a document may have. `protocol` belongs to replies of outside planners.
 const KEYS: [&str; 12] = [
@@ -32,51 +32,52 @@ const KEYS: [&str; 12] = [
 const SCHEMA: u64 = 1;
 
 /// Reads the whole text.
-pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanTable, Vec<PlanFault>> {
+pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<PlanIssue>> {
     let document: Value = serde_json::from_str(text).map_err(|error| vec![syntax(&error, text)])?;
     let Value::Object(document) = document else {
-        let problem = problem("document", describe(&document), "an object with `trajectories`");
-        return Err(vec![PlanFault::new("", problem)]);
+        let issue = issue("document", describe(&document), "an object with `trajectories`");
+        return Err(vec![PlanIssue::new("", issue)]);
     };
-    let mut faults: Vec<PlanFault> = unknown_keys(&document).collect();
+    let mut issues: Vec<PlanIssue> = unknown_keys(&document).collect();
     if let Some(schema) = document.get("schema").filter(|schema| schema.as_u64() != Some(SCHEMA)) {
-        faults.push(PlanFault::new(
+        issues.push(PlanIssue::new(
             "",
-            problem("schema", schema.to_string(), "1, the version of the form that this harness reads"),
+            issue("schema", schema.to_string(), "1, the version of the form that this harness reads"),
         ));
     }
-    let header = header(&document, &mut faults);
+    let header = header(&document, &mut issues);
     let tracks = match document.get("trajectories") {
-        Some(Value::Array(trajectories)) => tracks(trajectories, columns, &mut faults),
+        Some(Value::Array(trajectories)) => tracks(trajectories, columns, &mut issues),
         // a planner without a plan has no trajectories to show
         None | Some(Value::Null) if header.status == Some(crate::PlanStatus::NoPlan) => Vec::new(),
         None => {
-            faults.push(PlanFault::new(
+            issues.push(PlanIssue::new(
                 "",
-                problem("trajectories", "nothing".into(), "an array with one trajectory per vehicle"),
+                issue("trajectories", "nothing".into(), "an array with one trajectory per vehicle"),
             ));
             Vec::new()
         }
         Some(other) => {
-            faults.push(PlanFault::new(
+            issues.push(PlanIssue::new(
                 "",
-                problem("trajectories", describe(other), "an array with one trajectory per vehicle"),
+                issue("trajectories", describe(other), "an array with one trajectory per vehicle"),
             ));
             Vec::new()
         }
     };
-    if faults.is_empty() { Ok(PlanTable { header, tracks }) } else { Err(faults) }
+    if issues.is_empty() { Ok(PlanDocument { header, tracks }) } else { Err(issues) }
 }
 
-fn unknown_keys(document: &Map<String, Value>) -> impl Iterator<Item = PlanFault> + '_ {
+fn unknown_keys(document: &Map<String, Value>) -> impl Iterator<Item = PlanIssue> + '_ {
     document.keys().filter(|key| !KEYS.contains(&key.as_str())).map(|key| {
-        let remedy = nearest(key, KEYS).map_or_else(|| "remove it".into(), |known| format!("did you mean `{known}`?"));
-        let problem = Problem::new(key, "an unknown key", format!("one of {}", KEYS.join(", ")));
-        PlanFault::new("", problem.remedy(remedy))
+        let remedy =
+            closest_name(key, KEYS).map_or_else(|| "remove it".into(), |known| format!("did you mean `{known}`?"));
+        let issue = Issue::new(key, "an unknown key", format!("one of {}", KEYS.join(", ")));
+        PlanIssue::new("", issue.remedy(remedy))
     })
 }
 
-fn header(document: &Map<String, Value>, faults: &mut Vec<PlanFault>) -> PlanHeader {
+fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHeader {
     let field = |key: &str, expected: &str| {
         (document.get(key).cloned().unwrap_or(Value::Null), key.to_owned(), expected.to_owned())
     };
@@ -92,21 +93,21 @@ fn header(document: &Map<String, Value>, faults: &mut Vec<PlanFault>) -> PlanHea
     ];
     let [scenario, planner, status, reason, objective, history, diagnostics, timings] = fields;
     PlanHeader {
-        scenario: optional(scenario, faults),
-        planner: optional(planner, faults),
-        status: optional(status, faults),
-        reason: optional(reason, faults),
-        objective: optional(objective, faults),
-        history: optional(history, faults).unwrap_or_default(),
-        diagnostics: optional(diagnostics, faults).unwrap_or_default(),
-        timings: optional(timings, faults),
+        scenario: optional(scenario, issues),
+        planner: optional(planner, issues),
+        status: optional(status, issues),
+        reason: optional(reason, issues),
+        objective: optional(objective, issues),
+        history: optional(history, issues).unwrap_or_default(),
+        diagnostics: optional(diagnostics, issues).unwrap_or_default(),
+        timings: optional(timings, issues),
     }
 }
 
-/// The value in the form that is wanted; nothing for `null`, and a fault for what has another form.
+/// The value in the form that is wanted; nothing for `null`, and a issue for what has another form.
 fn optional<T: DeserializeOwned>(
     (value, key, expected): (Value, String, String),
-    faults: &mut Vec<PlanFault>,
+    issues: &mut Vec<PlanIssue>,
 ) -> Option<T> {
     if value.is_null() {
         return None;
@@ -115,35 +116,35 @@ fn optional<T: DeserializeOwned>(
     match serde_json::from_value(value) {
         Ok(value) => Some(value),
         Err(error) => {
-            faults.push(PlanFault::new("", problem(&key, format!("{found} ({error})"), &expected)));
+            issues.push(PlanIssue::new("", issue(&key, format!("{found} ({error})"), &expected)));
             None
         }
     }
 }
 
-fn tracks(trajectories: &[Value], columns: &Columns, faults: &mut Vec<PlanFault>) -> Vec<Track> {
+fn tracks(trajectories: &[Value], columns: &Columns, issues: &mut Vec<PlanIssue>) -> Vec<ColumnTable> {
     let mut tracks = Vec::with_capacity(trajectories.len());
     for (index, trajectory) in trajectories.iter().enumerate() {
         match trajectory::track(trajectory, index, columns) {
             Ok(track) => tracks.push(track),
-            Err(problem) => faults.push(PlanFault::new("", problem)),
+            Err(issue) => issues.push(PlanIssue::new("", issue)),
         }
     }
     tracks
 }
 
-fn problem(field: &str, found: String, expected: &str) -> Problem {
-    Problem::new(field, found, expected)
+fn issue(field: &str, found: String, expected: &str) -> Issue {
+    Issue::new(field, found, expected)
 }
 
-fn syntax(error: &serde_json::Error, text: &str) -> PlanFault {
+fn syntax(error: &serde_json::Error, text: &str) -> PlanIssue {
     let found = error.to_string();
     let found = found.split(" at line ").next().unwrap_or_default().to_owned();
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
     let is_number = ["NaN", "Infinity", "nan"].iter().any(|word| line.contains(word));
     let remedy = if is_number { "JSON has no NaN and no infinity: what is no number is no plan" } else { "" };
     let place = format!(":{}:{}", error.line(), error.column());
-    PlanFault::new(place, Problem::new("JSON syntax", found, "a JSON document").remedy(remedy))
+    PlanIssue::new(place, Issue::new("JSON syntax", found, "a JSON document").remedy(remedy))
 }
 
 fn describe(value: &Value) -> String {

@@ -8,27 +8,27 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
 use super::columns::{Columns, TIME, VEHICLE};
-use super::{Places, PlanFault, PlanTable, Track};
-use crate::{Problem, Scenario};
+use super::{ColumnTable, PlanDocument, PlanIssue, RowLocations};
+use crate::{Issue, Scenario};
 
 /// Reads the whole file. In a scenario with a single vehicle the column `vehicle` may be missing.
-pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanTable, Vec<PlanFault>> {
+pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<PlanIssue>> {
     let broken = |error: ParquetError| {
-        let problem =
-            Problem::new("Parquet", error.to_string(), "a whole Parquet file, plain or compressed by snappy or zstd");
-        vec![PlanFault::new("", problem)]
+        let issue =
+            Issue::new("Parquet", error.to_string(), "a whole Parquet file, plain or compressed by snappy or zstd");
+        vec![PlanIssue::new("", issue)]
     };
     let reader = SerializedFileReader::new(file).map_err(broken)?;
     let only_vehicle = (scenario.vehicles.len() == 1).then(|| scenario.vehicles[0].name.as_str());
-    let mut table = PlanTable::default();
-    let mut faults = Vec::new();
+    let mut table = PlanDocument::default();
+    let mut issues = Vec::new();
     for (index, row) in reader.get_row_iter(None).map_err(broken)?.enumerate() {
         let row = row.map_err(broken)?;
-        if let Err(problem) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut table) {
-            faults.push(PlanFault::new(format!(", row {}", index + 1), problem));
+        if let Err(issue) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut table) {
+            issues.push(PlanIssue::new(format!(", row {}", index + 1), issue));
         }
     }
-    if faults.is_empty() { Ok(table) } else { Err(faults) }
+    if issues.is_empty() { Ok(table) } else { Err(issues) }
 }
 
 /// Adds one row to the track of its vehicle.
@@ -37,33 +37,32 @@ fn add(
     number: usize,
     only_vehicle: Option<&str>,
     known: &Columns,
-    table: &mut PlanTable,
-) -> Result<(), Problem> {
+    table: &mut PlanDocument,
+) -> Result<(), Issue> {
     let mut vehicle = only_vehicle;
     let mut t_s = None;
     let mut values = BTreeMap::new();
     for (name, field) in row.get_column_iter() {
         match (name.as_str(), field) {
             (VEHICLE, Field::Str(text)) => vehicle = Some(text),
-            (VEHICLE, other) => return Err(Problem::new(VEHICLE, other.to_string(), "text")),
+            (VEHICLE, other) => return Err(Issue::new(VEHICLE, other.to_string(), "text")),
             (TIME, field) => t_s = Some(number_in(name, field)?),
             // what pandas adds for its own use
             (name, _) if name.starts_with("__index_level") => {}
             (_, Field::Str(word)) => {
                 let number = known.word(name, word);
-                let number =
-                    number.ok_or_else(|| Problem::new(name, format!("\"{word}\""), known.expectation(name)))?;
+                let number = number.ok_or_else(|| Issue::new(name, format!("\"{word}\""), known.expectation(name)))?;
                 values.insert(name.clone(), number);
             }
             (_, field) => drop(values.insert(name.clone(), number_in(name, field)?)),
         }
     }
-    let vehicle = vehicle.ok_or_else(|| Problem::new(VEHICLE, "nothing", "a column with the vehicle's name"))?;
-    let t_s = t_s.ok_or_else(|| Problem::new(TIME, "nothing", "a column with the time in s"))?;
+    let vehicle = vehicle.ok_or_else(|| Issue::new(VEHICLE, "nothing", "a column with the vehicle's name"))?;
+    let t_s = t_s.ok_or_else(|| Issue::new(TIME, "nothing", "a column with the time in s"))?;
     let index = table.tracks.iter().rposition(|track| track.vehicle == vehicle).unwrap_or_else(|| {
         let columns = values.keys().map(|name| (name.clone(), Vec::new())).collect();
-        let places = Places::Rows(Vec::new());
-        table.tracks.push(Track {
+        let places = RowLocations::Rows(Vec::new());
+        table.tracks.push(ColumnTable {
             vehicle: vehicle.to_owned(),
             places,
             times_s: Vec::new(),
@@ -77,20 +76,20 @@ fn add(
     for (name, value) in values {
         track.columns.entry(name).or_default().push(value);
     }
-    if let Places::Rows(rows) = &mut track.places {
+    if let RowLocations::Rows(rows) = &mut track.places {
         rows.push(number);
     }
     Ok(())
 }
 
 /// The number in a field. A missing value is NaN, which is refused with its place like every other.
-fn number_in(name: &str, field: &Field) -> Result<f64, Problem> {
+fn number_in(name: &str, field: &Field) -> Result<f64, Issue> {
     match field {
         Field::Null => Ok(f64::NAN),
         Field::Double(value) => Ok(*value),
         Field::Float(value) => Ok(f64::from(*value)),
         Field::Long(value) => Ok(*value as f64),
         Field::Int(value) => Ok(f64::from(*value)),
-        other => Err(Problem::new(name, other.to_string(), "a column of numbers")),
+        other => Err(Issue::new(name, other.to_string(), "a column of numbers")),
     }
 }

@@ -5,8 +5,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{FixedWingTrack, GivenTrack};
-use crate::{Problem, Vehicle};
+use super::{ImportedTrajectory, PartialTrajectory};
+use crate::{Issue, Vehicle};
 
 /// Relative difference within which two quantities count as the same.
 const SAME: f64 = 1e-3;
@@ -26,19 +26,18 @@ const SPEEDS: [(&str, f64); 4] = [
 ];
 
 /// What is suspected, with the row that shows it.
-pub(super) fn suspicions(track: &GivenTrack, vehicle: &Vehicle) -> Vec<(usize, Problem)> {
-    let named = |(row, problem): (usize, Problem)| {
-        (row, Problem { field: format!("{} of {}", problem.field, vehicle.name), ..problem })
-    };
+pub(super) fn suspicions(track: &ImportedTrajectory, vehicle: &Vehicle) -> Vec<(usize, Issue)> {
+    let named =
+        |(row, issue): (usize, Issue)| (row, Issue { field: format!("{} of {}", issue.field, vehicle.name), ..issue });
     let of_motion = match track {
-        GivenTrack::FixedWing(track) => [angles(track), heading(track), speed(track)],
-        GivenTrack::SlungLoad(_) | GivenTrack::Multirotor(_) => [None, None, None],
+        ImportedTrajectory::FixedWing(track) => [angles(track), heading(track), speed(track)],
+        ImportedTrajectory::SlungLoad(_) | ImportedTrajectory::Multirotor(_) => [None, None, None],
     };
     [position(track, vehicle)].into_iter().chain(of_motion).flatten().map(named).collect()
 }
 
 /// Is the first position the vehicle's start in another unit or another frame?
-fn position(track: &GivenTrack, vehicle: &Vehicle) -> Option<(usize, Problem)> {
+fn position(track: &ImportedTrajectory, vehicle: &Vehicle) -> Option<(usize, Issue)> {
     let (first, start) = (track.first_position_m(), vehicle.start.position_m());
     if distance(first, start) <= NEAR_M {
         return None;
@@ -52,20 +51,20 @@ fn position(track: &GivenTrack, vehicle: &Vehicle) -> Option<(usize, Problem)> {
         size(*position) > 0.0 && distance(first, *position) <= SAME * size(*position).max(f64::MIN_POSITIVE)
     })?;
     let found = format!("({}, {}, {}), which is the vehicle's start {guess}", first[0], first[1], first[2]);
-    Some((0, Problem::new("position", found, format!("({x}, {y}, {z}): x east, y north, z up, in m"))))
+    Some((0, Issue::new("position", found, format!("({x}, {y}, {z}): x east, y north, z up, in m"))))
 }
 
 /// No aircraft climbs more steeply than straight up.
-fn angles(track: &FixedWingTrack) -> Option<(usize, Problem)> {
+fn angles(track: &PartialTrajectory) -> Option<(usize, Issue)> {
     let states = track.states.as_ref()?;
     let row = states.iter().position(|state| state.flight_path_rad.abs() > FRAC_PI_2)?;
     let found = states[row].flight_path_rad.to_string();
-    let problem = Problem::new("flight_path_rad", found, "a value between -π/2 and π/2");
-    Some((row, problem.remedy("if it is in degrees, name the column `flight_path_deg`")))
+    let issue = Issue::new("flight_path_rad", found, "a value between -π/2 and π/2");
+    Some((row, issue.remedy("if it is in degrees, name the column `flight_path_deg`")))
 }
 
 /// Does the track move where its headings point only if these are degrees, or compass bearings?
-fn heading(track: &FixedWingTrack) -> Option<(usize, Problem)> {
+fn heading(track: &PartialTrajectory) -> Option<(usize, Issue)> {
     let states = track.states.as_ref()?;
     let mean_error = |meant: fn(f64) -> f64| {
         let pairs = states.windows(2).filter_map(|pair| {
@@ -91,11 +90,11 @@ fn heading(track: &FixedWingTrack) -> Option<(usize, Problem)> {
         return None;
     }
     let found = format!("{}, ...: the track moves elsewhere, but fits if these are {guess}", states[0].heading_rad);
-    Some((0, Problem::new("heading_rad", found, "radians, counterclockwise from east").remedy(remedy)))
+    Some((0, Issue::new("heading_rad", found, "radians, counterclockwise from east").remedy(remedy)))
 }
 
 /// Does the track move as fast as it says only in other units?
-fn speed(track: &FixedWingTrack) -> Option<(usize, Problem)> {
+fn speed(track: &PartialTrajectory) -> Option<(usize, Issue)> {
     let states = track.states.as_ref()?;
     let said = mean(states.windows(2).map(|pair| f64::midpoint(pair[0].speed_mps, pair[1].speed_mps)))?;
     let moved_m: f64 = states.windows(2).map(|pair| distance(pair[0].position_m(), pair[1].position_m())).sum();
@@ -108,7 +107,7 @@ fn speed(track: &FixedWingTrack) -> Option<(usize, Problem)> {
         None => return None,
     };
     let found = format!("{said:.3} on average, where positions move by {moved_mps:.3} m per s: it looks like {guess}");
-    Some((0, Problem::new("speed_mps", found, "times in s, positions in m and speeds in m/s")))
+    Some((0, Issue::new("speed_mps", found, "times in s, positions in m and speeds in m/s")))
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {

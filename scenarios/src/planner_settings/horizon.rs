@@ -34,7 +34,7 @@ pub struct Horizon {
     pub moves_as_printed: Option<bool>,
     /// Potential field of the planner `rhc-apf`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub field: Option<Field>,
+    pub field: Option<PotentialField>,
 }
 
 /// Cost map of a receding horizon.
@@ -66,10 +66,10 @@ pub enum Sampler {
 /// Potential field.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct Field {
+pub struct PotentialField {
     /// Beside a cost map (eq. 16), or instead of it (eq. 17).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub form: Option<FieldForm>,
+    pub form: Option<PotentialFieldForm>,
     /// Repulsion with the bracket squared (Khatib), or as the paper prints it (eq. 3).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repulsion: Option<RepulsionForm>,
@@ -87,7 +87,7 @@ pub struct Field {
 /// What a potential field stands beside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum FieldForm {
+pub enum PotentialFieldForm {
     /// Repulsion beside a cost map (eq. 16).
     WithCostMap,
     /// Attraction and repulsion, no cost map (eq. 17).

@@ -1,18 +1,18 @@
 //! The vehicles against each other, at their starts and at their goals.
 
 use super::quantity::positive_if_given;
-use crate::{Problem, Scenario, Vehicle, Waypoint};
+use crate::{Issue, Scenario, Vehicle, Waypoint};
 
-pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
-    let mut problems: Vec<Problem> =
+pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
+    let mut issues: Vec<Issue> =
         positive_if_given("fleet.separation_m", scenario.fleet.separation_m).into_iter().collect();
     for (later, vehicle) in scenario.vehicles.iter().enumerate() {
         for other in &scenario.vehicles[..later] {
-            problems.extend(too_close(scenario, format!("vehicles[{later}].start"), vehicle, other, |v| &v.start));
-            problems.extend(too_close(scenario, format!("vehicles[{later}].goal"), vehicle, other, |v| &v.goal));
+            issues.extend(too_close(scenario, format!("vehicles[{later}].start"), vehicle, other, |v| &v.start));
+            issues.extend(too_close(scenario, format!("vehicles[{later}].goal"), vehicle, other, |v| &v.goal));
         }
     }
-    problems
+    issues
 }
 
 /// Do two bodies overlap, or is their separation violated already, at the ends that `end` picks?
@@ -22,19 +22,19 @@ fn too_close(
     vehicle: &Vehicle,
     other: &Vehicle,
     end: impl Fn(&Vehicle) -> &Waypoint,
-) -> Option<Problem> {
+) -> Option<Issue> {
     let (a, b) = (end(vehicle), end(other));
     let horizontal_m = (a.x_m - b.x_m).hypot(a.y_m - b.y_m);
     let distance_m = horizontal_m.hypot(a.z_m - b.z_m);
     let touching_m = body_radius_m(scenario, vehicle) + body_radius_m(scenario, other);
     if distance_m < touching_m {
         let found = format!("a point {distance_m:.3} m from that of `{}`: the two bodies overlap", other.name);
-        return Some(Problem::new(field, found, format!("{touching_m} m or more, the sum of the body radii")));
+        return Some(Issue::new(field, found, format!("{touching_m} m or more, the sum of the body radii")));
     }
     let separation_m = scenario.fleet.separation_m?;
     (horizontal_m < separation_m).then(|| {
         let found = format!("a point {horizontal_m:.3} m (horizontally) from that of `{}`", other.name);
-        Problem::new(field, found, format!("{separation_m} m or more, the separation of the fleet"))
+        Issue::new(field, found, format!("{separation_m} m or more, the separation of the fleet"))
             .remedy("move one of the two, or lower fleet.separation_m")
     })
 }

@@ -2,9 +2,7 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{
-    Collocation, Convergence, Formulation, Horizon, Objective, PlannerSettings, Problem, Scenario, TrustRegion,
-};
+use crate::{Collocation, Convergence, Formulation, Horizon, Issue, Objective, PlannerSettings, Scenario, TrustRegion};
 
 /// Fewest and most intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
@@ -20,36 +18,36 @@ const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
 const SEARCH: std::ops::RangeInclusive<usize> = 1..=10_000;
 
 /// A flight that the planner is to plan for, and that may not be flown.
-pub(super) fn flight_time(scenario: &Scenario) -> Option<Problem> {
+pub(super) fn flight_time(scenario: &Scenario) -> Option<Issue> {
     let flight_time_s = scenario.planner.collocation.as_ref()?.flight_time_s.filter(|time_s| *time_s > 0.0)?;
     let (step_s, most_s) = (scenario.simulation.step_s, scenario.simulation.max_duration_s);
     (!(step_s..=most_s).contains(&flight_time_s)).then(|| {
         let expected = format!("from {step_s} s, a step, to {most_s} s: simulation.max_duration_s");
-        Problem::new("planner.collocation.flight_time_s", format!("{flight_time_s} s"), expected)
+        Issue::new("planner.collocation.flight_time_s", format!("{flight_time_s} s"), expected)
     })
 }
 
-pub(super) fn problems(settings: &PlannerSettings) -> Vec<Problem> {
-    let mut problems = outside_problems(settings);
+pub(super) fn issues(settings: &PlannerSettings) -> Vec<Issue> {
+    let mut issues = outside_issues(settings);
     if let Some(intervals) = settings.intervals.filter(|intervals| !INTERVALS.contains(intervals)) {
         let expected = format!("a whole number from {} to {}", INTERVALS.start(), INTERVALS.end());
-        problems.push(Problem::new("planner.intervals", intervals.to_string(), expected));
+        issues.push(Issue::new("planner.intervals", intervals.to_string(), expected));
     }
     if settings.max_iterations == Some(0) {
-        problems.push(Problem::new("planner.max_iterations", "0", "1 or more"));
+        issues.push(Issue::new("planner.max_iterations", "0", "1 or more"));
     }
-    problems.extend(settings.margin_m.and_then(|margin_m| not_negative("planner.margin_m", margin_m)));
-    problems.extend(positive_if_given("planner.penalty", settings.penalty));
-    problems.extend(settings.time_bound_release.and_then(time_bound_release));
-    problems.extend(settings.trust_region.iter().flat_map(trust_region));
-    problems.extend(settings.convergence.iter().flat_map(convergence));
-    problems.extend(settings.collocation.iter().flat_map(collocation));
-    problems.extend(settings.horizon.iter().flat_map(horizon));
-    problems
+    issues.extend(settings.margin_m.and_then(|margin_m| not_negative("planner.margin_m", margin_m)));
+    issues.extend(positive_if_given("planner.penalty", settings.penalty));
+    issues.extend(settings.time_bound_release.and_then(time_bound_release));
+    issues.extend(settings.trust_region.iter().flat_map(trust_region));
+    issues.extend(settings.convergence.iter().flat_map(convergence));
+    issues.extend(settings.collocation.iter().flat_map(collocation));
+    issues.extend(settings.horizon.iter().flat_map(horizon));
+    issues
 }
 
 /// What only a planner with a command needs, or must have.
-fn outside_problems(settings: &PlannerSettings) -> Vec<Problem> {
+fn outside_issues(settings: &PlannerSettings) -> Vec<Issue> {
     let Some(command) = &settings.command else {
         let lost = [
             ("time_limit_s", settings.time_limit_s.is_some()),
@@ -58,30 +56,30 @@ fn outside_problems(settings: &PlannerSettings) -> Vec<Problem> {
         ];
         let without = |(key, _): (&str, bool)| {
             let found = "an option of planners outside the harness";
-            let problem = Problem::new(format!("planner.{key}"), found, "`planner.command` beside it, or not this key");
-            problem.remedy("the planners of the harness have options of their own: see `harness schema scenario`")
+            let issue = Issue::new(format!("planner.{key}"), found, "`planner.command` beside it, or not this key");
+            issue.remedy("the planners of the harness have options of their own: see `harness schema scenario`")
         };
         return lost.into_iter().filter(|(_, is_given)| *is_given).map(without).collect();
     };
-    let mut problems: Vec<Problem> = entity_name("planner.name", &settings.name).into_iter().collect();
+    let mut issues: Vec<Issue> = entity_name("planner.name", &settings.name).into_iter().collect();
     if command.first().is_none_or(String::is_empty) {
-        problems.push(Problem::new(
+        issues.push(Issue::new(
             "planner.command",
             "no program",
             "a program and its arguments, as [\"python3\", \"planner.py\"]",
         ));
     }
-    problems.extend(positive_if_given("planner.time_limit_s", settings.time_limit_s));
-    problems
+    issues.extend(positive_if_given("planner.time_limit_s", settings.time_limit_s));
+    issues
 }
 
-fn time_bound_release(share: f64) -> Option<Problem> {
+fn time_bound_release(share: f64) -> Option<Issue> {
     let expected = "a share from 0 to below 1";
     (!(0.0..1.0).contains(&share) && share.is_finite())
-        .then(|| Problem::new("planner.time_bound_release", share.to_string(), expected))
+        .then(|| Issue::new("planner.time_bound_release", share.to_string(), expected))
 }
 
-fn trust_region(region: &TrustRegion) -> Vec<Problem> {
+fn trust_region(region: &TrustRegion) -> Vec<Issue> {
     let half_widths = [
         positive("planner.trust_region.position_m", region.position_m),
         positive("planner.trust_region.altitude_m", region.altitude_m),
@@ -93,18 +91,18 @@ fn trust_region(region: &TrustRegion) -> Vec<Problem> {
     half_widths.into_iter().flatten().chain(shrink).collect()
 }
 
-fn convergence(tolerances: &Convergence) -> Vec<Problem> {
-    let problems = [
+fn convergence(tolerances: &Convergence) -> Vec<Issue> {
+    let issues = [
         positive("planner.convergence.position_m", tolerances.position_m),
         positive("planner.convergence.altitude_m", tolerances.altitude_m),
         positive("planner.convergence.speed_mps", tolerances.speed_mps),
         positive("planner.convergence.heading_deg", tolerances.heading_deg),
         positive("planner.convergence.flight_path_deg", tolerances.flight_path_deg),
     ];
-    problems.into_iter().flatten().collect()
+    issues.into_iter().flatten().collect()
 }
 
-fn collocation(options: &Collocation) -> Vec<Problem> {
+fn collocation(options: &Collocation) -> Vec<Issue> {
     let counts = [
         ("segments", options.segments, SEGMENTS),
         ("points", options.points, POINTS),
@@ -117,23 +115,19 @@ fn collocation(options: &Collocation) -> Vec<Problem> {
         positive_if_given("planner.collocation.impact_ns", options.impact_ns),
     ];
     let no_time = (options.objective == Some(Objective::Effort) && options.flight_time_s.is_none()).then(|| {
-        Problem::new(
-            "planner.collocation.flight_time_s",
-            "nothing",
-            "a duration: the objective `effort` leaves it open",
-        )
-        .remedy("add `flight_time_s`, or minimise `time`")
+        Issue::new("planner.collocation.flight_time_s", "nothing", "a duration: the objective `effort` leaves it open")
+            .remedy("add `flight_time_s`, or minimise `time`")
     });
     let is_complementary = options.formulation == Some(Formulation::Complementarity);
     let idle_phases = (is_complementary && options.cable.is_some()).then(|| {
-        Problem::new("planner.collocation.cable", "phases", "none: the formulation `complementarity` has none")
+        Issue::new("planner.collocation.cable", "phases", "none: the formulation `complementarity` has none")
             .remedy("leave `cable` out, or set `formulation = \"phases\"`")
     });
     let quantities = quantities.into_iter().flatten();
     out_of_range.into_iter().chain(quantities).chain(no_time).chain(idle_phases).collect()
 }
 
-fn horizon(options: &Horizon) -> Vec<Problem> {
+fn horizon(options: &Horizon) -> Vec<Issue> {
     let counts = [
         ("steps", options.steps, STEPS),
         ("particles", options.particles, PARTICLES),
@@ -150,15 +144,15 @@ fn horizon(options: &Horizon) -> Vec<Problem> {
     out_of_range("horizon", counts).into_iter().chain(quantities.into_iter().flatten()).collect()
 }
 
-/// One problem for every count in `planner.TABLE` outside its range.
+/// One issue for every count in `planner.TABLE` outside its range.
 fn out_of_range<const N: usize>(
     table: &str,
     counts: [(&str, Option<usize>, std::ops::RangeInclusive<usize>); N],
-) -> Vec<Problem> {
-    let problem = |(name, count, range): (&str, Option<usize>, std::ops::RangeInclusive<usize>)| {
+) -> Vec<Issue> {
+    let issue = |(name, count, range): (&str, Option<usize>, std::ops::RangeInclusive<usize>)| {
         let count = count.filter(|count| !range.contains(count))?;
         let expected = format!("a whole number from {} to {}", range.start(), range.end());
-        Some(Problem::new(format!("planner.{table}.{name}"), count.to_string(), expected))
+        Some(Issue::new(format!("planner.{table}.{name}"), count.to_string(), expected))
     };
-    counts.into_iter().filter_map(problem).collect()
+    counts.into_iter().filter_map(issue).collect()
 }

@@ -1,14 +1,14 @@
 //! The simulation: step, duration, tracker, and disturbances.
 
 use super::quantity::{above_up_to, not_negative, positive};
-use crate::{GustPulse, Gusts, Planning, PlanningClock, Problem, Simulation};
+use crate::{GustPulse, Gusts, Issue, Planning, PlanningClock, Simulation};
 
 /// Longest step that the simulator takes, s.
 const LONGEST_STEP_S: f64 = 0.1;
 /// Most steps of a flight: more than a day at the default step, and as many as a log can hold.
 const MOST_STEPS: f64 = 1e7;
 
-pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
+pub(super) fn issues(simulation: &Simulation) -> Vec<Issue> {
     let tracker = &simulation.tracker;
     let rules = [
         above_up_to("simulation.step_s", simulation.step_s, 0.0, LONGEST_STEP_S),
@@ -35,23 +35,23 @@ pub(super) fn problems(simulation: &Simulation) -> Vec<Problem> {
     rules.into_iter().flatten().chain(steps).chain(gusts).chain(pulses).chain(planning(simulation)).collect()
 }
 
-fn too_many_steps(simulation: &Simulation) -> Option<Problem> {
+fn too_many_steps(simulation: &Simulation) -> Option<Issue> {
     let Simulation { step_s, max_duration_s, .. } = simulation;
     let steps = max_duration_s / step_s;
     (*step_s > 0.0 && *max_duration_s > 0.0 && steps > MOST_STEPS).then(|| {
         let found = format!("{max_duration_s} s, {steps:.1e} steps of {step_s} s");
-        Problem::new("simulation.max_duration_s", found, format!("{MOST_STEPS:.0} steps at most"))
+        Issue::new("simulation.max_duration_s", found, format!("{MOST_STEPS:.0} steps at most"))
             .remedy("take longer steps, or a shorter flight")
     })
 }
 
-fn pulse((index, pulse): (usize, &GustPulse)) -> Vec<Problem> {
+fn pulse((index, pulse): (usize, &GustPulse)) -> Vec<Issue> {
     let field = format!("simulation.wind.pulses[{index}]");
     let start = not_negative(&format!("{field}.start_s"), pulse.start_s);
     start.into_iter().chain(positive(&format!("{field}.duration_s"), pulse.duration_s)).collect()
 }
 
-fn planning(simulation: &Simulation) -> Vec<Problem> {
+fn planning(simulation: &Simulation) -> Vec<Issue> {
     let Planning { period_s, deadline_s, time, median_s, spread, recorded_s } = &simulation.planning;
     let rules = [
         positive("simulation.planning.period_s", *period_s),
@@ -60,11 +60,11 @@ fn planning(simulation: &Simulation) -> Vec<Problem> {
         not_negative("simulation.planning.spread", *spread),
         (*period_s > 0.0 && *period_s < simulation.step_s).then(|| {
             let expected = format!("{} s, the simulator's step, or more", simulation.step_s);
-            Problem::new("simulation.planning.period_s", period_s.to_string(), expected)
+            Issue::new("simulation.planning.period_s", period_s.to_string(), expected)
         }),
         (*time == PlanningClock::Recorded && recorded_s.is_empty()).then(|| {
             let expected = "planning times, s: `time` is `recorded`";
-            Problem::new("simulation.planning.recorded_s", "none", expected).remedy("add them, or use `modelled` times")
+            Issue::new("simulation.planning.recorded_s", "none", expected).remedy("add them, or use `modelled` times")
         }),
     ];
     let recorded = recorded_s.iter().enumerate();
@@ -73,7 +73,7 @@ fn planning(simulation: &Simulation) -> Vec<Problem> {
     rules.into_iter().flatten().chain(recorded).collect()
 }
 
-fn gusts(gusts: &Gusts) -> Vec<Problem> {
+fn gusts(gusts: &Gusts) -> Vec<Issue> {
     let rules = [
         not_negative("simulation.wind.gusts.wind_at_20ft_mps", gusts.wind_at_20ft_mps),
         not_negative("simulation.wind.gusts.sigma_aloft_mps", gusts.sigma_aloft_mps),

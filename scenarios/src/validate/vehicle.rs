@@ -6,33 +6,33 @@ mod slung_load;
 
 use super::identifier::entity_names;
 use super::quantity::inside;
-use crate::{Model, Problem, Scenario, Vehicle, World, nearest};
+use crate::{Issue, Model, Scenario, Vehicle, World, closest_name};
 
-pub(super) fn problems(scenario: &Scenario) -> Vec<Problem> {
+pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     if scenario.vehicles.is_empty() {
-        return vec![Problem::new("vehicles", "none", "one vehicle at least").remedy("add a `[[vehicles]]` table")];
+        return vec![Issue::new("vehicles", "none", "one vehicle at least").remedy("add a `[[vehicles]]` table")];
     }
-    let mut problems = entity_names("vehicles", scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()));
-    problems.extend(of_another_family(scenario));
+    let mut issues = entity_names("vehicles", scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()));
+    issues.extend(of_another_family(scenario));
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
-        problems.extend(unknown_model(scenario, index, vehicle));
+        issues.extend(unknown_model(scenario, index, vehicle));
         for (end, waypoint) in [("start", &vehicle.start), ("goal", &vehicle.goal)] {
             let field = format!("vehicles[{index}].{end}");
-            problems.extend(outside_map(&scenario.world, &field, waypoint.position_m()));
-            problems.extend(inside_obstacle(&scenario.world, &field, waypoint.position_m()));
-            problems.extend(match scenario.models.get(&vehicle.model) {
-                Some(Model::FixedWing(model)) => fixed_wing::problems(model, &field, waypoint),
-                Some(Model::SlungLoad(model)) => slung_load::problems(model, &scenario.world, &field, waypoint),
-                Some(Model::Multirotor(model)) => multirotor::problems(model, &scenario.world, &field, waypoint),
+            issues.extend(outside_map(&scenario.world, &field, waypoint.position_m()));
+            issues.extend(inside_obstacle(&scenario.world, &field, waypoint.position_m()));
+            issues.extend(match scenario.models.get(&vehicle.model) {
+                Some(Model::FixedWing(model)) => fixed_wing::issues(model, &field, waypoint),
+                Some(Model::SlungLoad(model)) => slung_load::issues(model, &scenario.world, &field, waypoint),
+                Some(Model::Multirotor(model)) => multirotor::issues(model, &scenario.world, &field, waypoint),
                 None => Vec::new(),
             });
         }
     }
-    problems
+    issues
 }
 
 /// Simulation and verdict are for one family at a time.
-fn of_another_family(scenario: &Scenario) -> Option<Problem> {
+fn of_another_family(scenario: &Scenario) -> Option<Issue> {
     let mut families = scenario
         .vehicles
         .iter()
@@ -42,10 +42,10 @@ fn of_another_family(scenario: &Scenario) -> Option<Problem> {
     let (index, other, other_family) = families.find(|(_, _, other)| *other != family)?;
     let found = format!("\"{}\", a {other_family}", other.model);
     let expected = format!("a {family} like `{}`: all vehicles of a scenario are of one family", first.name);
-    Some(Problem::new(format!("vehicles[{index}].model"), found, expected).remedy("make it a scenario of its own"))
+    Some(Issue::new(format!("vehicles[{index}].model"), found, expected).remedy("make it a scenario of its own"))
 }
 
-fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option<Problem> {
+fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option<Issue> {
     let names: Vec<&str> = scenario.models.names().collect();
     if names.contains(&vehicle.model.as_str()) {
         return None;
@@ -54,27 +54,27 @@ fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option
         [] => "the name of a model".to_owned(),
         names => format!("the name of a model: {}", names.join(", ")),
     };
-    let remedy = match nearest(&vehicle.model, names) {
+    let remedy = match closest_name(&vehicle.model, names) {
         Some(name) => format!("did you mean \"{name}\"?"),
         None => format!("define it in a table [models.FAMILY.{}]", vehicle.model),
     };
-    Some(Problem::new(format!("vehicles[{index}].model"), format!("\"{}\"", vehicle.model), expected).remedy(remedy))
+    Some(Issue::new(format!("vehicles[{index}].model"), format!("\"{}\"", vehicle.model), expected).remedy(remedy))
 }
 
-fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Problem> {
+fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Issue> {
     let axes = ["x_m", "y_m", "z_m"].into_iter().zip(position_m).zip(world.map.axes());
     axes.filter_map(|((axis, value), range)| inside(&format!("{field}.{axis}"), value, range, "the map")).collect()
 }
 
-fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Problem> {
+fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Issue> {
     let cylinders =
         world.cylinders.iter().map(|cylinder| (cylinder.name.clone(), cylinder.signed_distance_m(x_m, y_m)));
     let at_height =
         world.flat_obstacles().into_iter().filter(|prism| prism.z_m.is_none_or(|range| range.contains(z_m)));
     let prisms = at_height.map(|prism| (prism.name.clone(), prism.signed_distance_m([x_m, y_m])));
-    let problem = |(name, distance_m): (String, f64)| {
+    let issue = |(name, distance_m): (String, f64)| {
         let found = format!("({x_m}, {y_m}) m, {:.3} m inside `{name}`", -distance_m);
-        Problem::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
+        Issue::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
     };
-    cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(problem).collect()
+    cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(issue).collect()
 }

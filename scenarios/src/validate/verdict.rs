@@ -1,9 +1,9 @@
 //! The limits of the verdict, and the checks that it names.
 
 use super::quantity::{not_negative, positive_if_given};
-use crate::{CHECKS, Problem, VerdictLimits, check_spec, nearest};
+use crate::{CHECKS, Issue, VerdictLimits, check_spec, closest_name};
 
-pub(super) fn problems(limits: &VerdictLimits) -> Vec<Problem> {
+pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
     let positive_ones = [
         ("tracking_max_m", limits.tracking_max_m),
         ("tracking_rms_m", limits.tracking_rms_m),
@@ -23,20 +23,20 @@ pub(super) fn problems(limits: &VerdictLimits) -> Vec<Problem> {
     rules.chain(others).flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
 }
 
-fn share(field: &str, value: f64) -> Option<Problem> {
-    (!(0.0..=1.0).contains(&value)).then(|| Problem::new(field, value.to_string(), "a share from 0 to 1"))
+fn share(field: &str, value: f64) -> Option<Issue> {
+    (!(0.0..=1.0).contains(&value)).then(|| Issue::new(field, value.to_string(), "a share from 0 to 1"))
 }
 
-fn unknown_checks(field: &str, names: &[String]) -> Vec<Problem> {
+fn unknown_checks(field: &str, names: &[String]) -> Vec<Issue> {
     let is_unknown = |(_, name): &(usize, &String)| check_spec(name).is_none();
     names.iter().enumerate().filter(is_unknown).map(|(index, name)| unknown_check(field, index, name)).collect()
 }
 
-fn unknown_check(field: &str, index: usize, name: &str) -> Problem {
-    let remedy = match nearest(name, CHECKS.iter().map(|check| check.name)) {
+fn unknown_check(field: &str, index: usize, name: &str) -> Issue {
+    let remedy = match closest_name(name, CHECKS.iter().map(|check| check.name)) {
         Some(known) => format!("did you mean \"{known}\"?"),
         None => format!("the checks are {}", CHECKS.iter().map(|check| check.name).collect::<Vec<_>>().join(", ")),
     };
     let expected = "the full name of a check, as \"flight.separation\"";
-    Problem::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)
+    Issue::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)
 }

@@ -2,39 +2,35 @@
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
-use crate::{BoxObstacle, Gate, MovingCylinder, Prism, Problem, World, nearest};
+use crate::{BoxObstacle, Gate, Issue, MovingCylinder, Prism, World, closest_name};
 
-pub(super) fn problems(world: &World) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    problems.extend(ordered("world.map.x_m", world.map.x_m));
-    problems.extend(ordered("world.map.y_m", world.map.y_m));
-    problems.extend(ordered("world.map.z_m", world.map.z_m));
-    problems.extend(entity_names("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str())));
+pub(super) fn issues(world: &World) -> Vec<Issue> {
+    let mut issues = Vec::new();
+    issues.extend(ordered("world.map.x_m", world.map.x_m));
+    issues.extend(ordered("world.map.y_m", world.map.y_m));
+    issues.extend(ordered("world.map.z_m", world.map.z_m));
+    issues.extend(entity_names("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str())));
     for (index, cylinder) in world.cylinders.iter().enumerate() {
-        problems.extend(positive(&format!("world.cylinders[{index}].radius_m"), cylinder.radius_m));
+        issues.extend(positive(&format!("world.cylinders[{index}].radius_m"), cylinder.radius_m));
     }
-    problems.extend(entity_names("world.boxes", world.boxes.iter().map(|block| block.name.as_str())));
-    problems.extend(world.boxes.iter().enumerate().flat_map(|(index, block)| of_box(index, block)));
-    problems.extend(entity_names("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str())));
-    problems.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| of_prism(index, prism)));
-    problems.extend(entity_names("world.moving", world.moving.iter().map(|moving| moving.name.as_str())));
-    problems.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
-    problems.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
-    problems.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| of_gate(index, gate)));
-    problems.extend(names_of_two_kinds(world));
-    problems.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
-    problems
+    issues.extend(entity_names("world.boxes", world.boxes.iter().map(|block| block.name.as_str())));
+    issues.extend(world.boxes.iter().enumerate().flat_map(|(index, block)| of_box(index, block)));
+    issues.extend(entity_names("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str())));
+    issues.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| of_prism(index, prism)));
+    issues.extend(entity_names("world.moving", world.moving.iter().map(|moving| moving.name.as_str())));
+    issues.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
+    issues.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
+    issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| of_gate(index, gate)));
+    issues.extend(names_of_two_kinds(world));
+    issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
+    issues
 }
 
-fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Problem> {
+fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
     let field = format!("world.moving[{index}]");
     let path = (!moving.has_a_path()).then(|| {
         let found = format!("{} corners, or two in a row that are the same", moving.path_m.len());
-        Problem::new(
-            format!("{field}.path_m"),
-            found,
-            "two corners at least, each at some distance from the one before",
-        )
+        Issue::new(format!("{field}.path_m"), found, "two corners at least, each at some distance from the one before")
     });
     let rules = [
         positive(&format!("{field}.radius_m"), moving.radius_m),
@@ -46,19 +42,19 @@ fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Problem> {
 }
 
 /// A name that is hidden must be there to be hidden.
-fn hidden(world: &World, index: usize, name: &str) -> Option<Problem> {
+fn hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
     let still = World { moving: Vec::new(), ..world.clone() };
     let names: Vec<&str> = still.obstacle_names().collect();
     let expected = "the name of a cylinder, a box or a prism, or \"*\" for all of them";
-    let problem = Problem::new(format!("world.hidden[{index}]"), format!("\"{name}\""), expected);
+    let issue = Issue::new(format!("world.hidden[{index}]"), format!("\"{name}\""), expected);
     let is_known = name == "*" || names.contains(&name);
-    (!is_known).then(|| match nearest(name, names) {
-        Some(known) => problem.remedy(format!("did you mean \"{known}\"?")),
-        None => problem.remedy("what moves has to be sensed in any case"),
+    (!is_known).then(|| match closest_name(name, names) {
+        Some(known) => issue.remedy(format!("did you mean \"{known}\"?")),
+        None => issue.remedy("what moves has to be sensed in any case"),
     })
 }
 
-fn of_box(index: usize, block: &BoxObstacle) -> Vec<Problem> {
+fn of_box(index: usize, block: &BoxObstacle) -> Vec<Issue> {
     let field = format!("world.boxes[{index}]");
     let [length_m, width_m] = block.size_m;
     let sizes = [positive(&format!("{field}.size_m[0]"), length_m), positive(&format!("{field}.size_m[1]"), width_m)];
@@ -66,7 +62,7 @@ fn of_box(index: usize, block: &BoxObstacle) -> Vec<Problem> {
     sizes.into_iter().flatten().chain(z_m).collect()
 }
 
-fn of_gate(index: usize, gate: &Gate) -> Vec<Problem> {
+fn of_gate(index: usize, gate: &Gate) -> Vec<Issue> {
     let windows = [("quadrotor", &gate.quadrotor), ("load", &gate.load)];
     let faces = windows.into_iter().flat_map(|(whose, window)| {
         let named = ["x_m", "y_m", "z_m"].into_iter().zip(window.axes());
@@ -75,11 +71,11 @@ fn of_gate(index: usize, gate: &Gate) -> Vec<Problem> {
     faces.collect()
 }
 
-fn of_prism(index: usize, prism: &Prism) -> Vec<Problem> {
+fn of_prism(index: usize, prism: &Prism) -> Vec<Issue> {
     let field = format!("world.prisms[{index}]");
     let shape = (!prism.is_convex()).then(|| {
         let found = format!("{} corners that make no convex polygon", prism.corners_m.len());
-        Problem::new(format!("{field}.corners_m"), found, "the corners of a convex polygon in order, three at least")
+        Issue::new(format!("{field}.corners_m"), found, "the corners of a convex polygon in order, three at least")
             .remedy("list the corners in the order in which the edge passes them; split what is not convex")
     });
     let z_m = prism.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range));
@@ -87,24 +83,24 @@ fn of_prism(index: usize, prism: &Prism) -> Vec<Problem> {
 }
 
 /// A name that obstacles of two kinds share. (Within one kind it is reported with the kind.)
-fn names_of_two_kinds(world: &World) -> Vec<Problem> {
+fn names_of_two_kinds(world: &World) -> Vec<Issue> {
     let kinds: [(&str, Vec<&str>); 4] = [
         ("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str()).collect()),
         ("world.boxes", world.boxes.iter().map(|block| block.name.as_str()).collect()),
         ("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str()).collect()),
         ("world.moving", world.moving.iter().map(|moving| moving.name.as_str()).collect()),
     ];
-    let mut problems = Vec::new();
+    let mut issues = Vec::new();
     for (later, (kind, names)) in kinds.iter().enumerate() {
         for (index, name) in names.iter().enumerate() {
             if let Some((earlier, _)) = kinds[..later].iter().find(|(_, others)| others.contains(name)) {
                 let expected = format!("a name of its own; an obstacle in {earlier} has this one already");
-                problems.push(
-                    Problem::new(format!("{kind}[{index}].name"), format!("\"{name}\""), expected)
+                issues.push(
+                    Issue::new(format!("{kind}[{index}].name"), format!("\"{name}\""), expected)
                         .remedy("rename one of the two"),
                 );
             }
         }
     }
-    problems
+    issues
 }

@@ -1,6 +1,6 @@
 //! The smallest scenario that uses every part, and what loading says about a changed copy of it.
 
-use scenarios::{Fault, LoadError, Scenario};
+use scenarios::{LoadError, LocatedIssue, Scenario};
 
 /// Valid; each test changes one place. Lines are counted from 1.
 pub const TEXT: &str = r#"name = "minimal"
@@ -85,18 +85,18 @@ pub fn load_changed(old: &str, new: &str) -> Result<Scenario, LoadError> {
     scenarios::parse("minimal.toml", &TEXT.replace(old, new))
 }
 
-/// The faults of the changed scenario.
-pub fn faults(old: &str, new: &str) -> Vec<Fault> {
-    load_changed(old, new).expect_err("the change should have been refused").faults().to_vec()
+/// The issues of the changed scenario.
+pub fn issues(old: &str, new: &str) -> Vec<LocatedIssue> {
+    load_changed(old, new).expect_err("the change should have been refused").issues().to_vec()
 }
 
-/// Asserts that the changed scenario has a single fault, at this field, line and column, whose `found` and `expected`
+/// Asserts that the changed scenario has a single issue, at this field, line and column, whose `found` and `expected`
 /// contain these words.
 #[track_caller]
-pub fn assert_fault(old: &str, new: &str, (field, line, column): (&str, usize, usize), found: &str, expected: &str) {
-    let faults = faults(old, new);
-    let [fault] = faults.as_slice() else { panic!("expected one fault, found {faults:#?}") };
-    assert_eq!((fault.problem.field.as_str(), fault.line, fault.column), (field, line, column), "{fault}");
-    assert!(fault.problem.found.contains(found), "{fault}");
-    assert!(fault.problem.expected.contains(expected), "{fault}");
+pub fn assert_issue(old: &str, new: &str, (field, line, column): (&str, usize, usize), found: &str, expected: &str) {
+    let issues = issues(old, new);
+    let [issue] = issues.as_slice() else { panic!("expected one issue, found {issues:#?}") };
+    assert_eq!((issue.issue.field.as_str(), issue.line, issue.column), (field, line, column), "{issue}");
+    assert!(issue.issue.found.contains(found), "{issue}");
+    assert!(issue.issue.expected.contains(expected), "{issue}");
 }

@@ -5,7 +5,7 @@ use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use scenarios::{Fault, LoadError, Scenario, Source};
+use scenarios::{LoadError, LocatedIssue, Scenario, ScenarioFile};
 
 use super::{headline, scenario_field};
 use crate::error::Error;
@@ -29,7 +29,7 @@ pub struct Finding<'a> {
     /// The question.
     pub scenario: &'a Scenario,
     /// The file that it stands in.
-    pub source: &'a Source,
+    pub source: &'a ScenarioFile,
 }
 
 /// One line per annotation, for the worst few failures: each points to the line of the scenario file in which the limit
@@ -53,8 +53,8 @@ pub fn annotations(findings: &[Finding<'_>]) -> Vec<String> {
 /// One line per fault of a file that is no scenario.
 pub fn annotations_of(error: &Error) -> Vec<String> {
     let Error::Load(error @ LoadError::Invalid(invalid)) = error else { return Vec::new() };
-    let line = |fault: &Fault| command(&invalid.name, fault.line, "bad input", &fault.problem.to_string());
-    error.faults().iter().take(MOST_ANNOTATIONS).map(line).collect()
+    let line = |fault: &LocatedIssue| command(&invalid.name, fault.line, "bad input", &fault.issue.to_string());
+    error.issues().iter().take(MOST_ANNOTATIONS).map(line).collect()
 }
 
 /// Appends `page` to the job's summary, if the environment names one.

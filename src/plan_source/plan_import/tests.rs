@@ -1,7 +1,7 @@
 //! What was taken away comes back, and what cannot come back is known.
 
 use scenarios::fixed_wing::{Control, State};
-use scenarios::plan_input::cartesian_states;
+use scenarios::plan_input::states_from_velocities;
 use sim::fixed_wing::flow;
 
 use super::{controls, velocities};
@@ -13,7 +13,7 @@ fn flown(step_s: f64, control: impl Fn(f64) -> Control, count: usize) -> (Vec<f6
     let mut states = vec![State::from_array([0.0, 0.0, 400.0, 35.0, 0.3, 0.01])];
     for (k, pair) in controls.windows(2).enumerate() {
         let end = *flow(&states[k], [pair[0], pair[1]], times_s[k], step_s, 0.1).last().expect("an end");
-        states.extend(cartesian_states(&[end.position_m.into()], &[end.velocity_mps.into()]));
+        states.extend(states_from_velocities(&[end.position_m.into()], &[end.velocity_mps.into()]));
     }
     (times_s, states, controls)
 }
@@ -50,7 +50,7 @@ fn positions_alone_are_enough_where_they_are_dense() {
     let (times_s, states, controls) = flown(0.1, manoeuvre, 300);
     let positions_m: Vec<[f64; 3]> = states.iter().map(State::position_m).collect();
     let velocities_mps = velocities::of(&times_s, &positions_m, states[0].velocity_mps());
-    let rebuilt = cartesian_states(&positions_m, &velocities_mps);
+    let rebuilt = states_from_velocities(&positions_m, &velocities_mps);
     let off = rebuilt.iter().zip(&states).map(|(a, b)| (a.speed_mps - b.speed_mps).abs()).fold(0.0, f64::max);
     assert!(off < 1e-4, "{off} m/s");
     let (found, left) = controls::fit(&times_s, &rebuilt);

@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 use super::super::columns::Columns;
-use super::super::{Places, Track};
-use super::{describe, problem};
-use crate::Problem;
+use super::super::{ColumnTable, RowLocations};
+use super::{describe, issue};
+use crate::Issue;
 
 /// Values by the names of their columns.
 type Values = BTreeMap<String, Vec<f64>>;
 
 /// Reads the trajectory that stands at `index` of the document.
-pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result<Track, Problem> {
+pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result<ColumnTable, Issue> {
     let field = format!("trajectories[{index}]");
     let Value::Object(trajectory) = trajectory else {
-        return Err(problem(&field, describe(trajectory), "an object"));
+        return Err(issue(&field, describe(trajectory), "an object"));
     };
     let vehicle = said(trajectory, &field, known)?;
     let times = trajectory.get("times_s").or_else(|| trajectory.get("t_s"));
@@ -34,13 +34,13 @@ pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result
     }
     if let Some((name, column)) = columns.iter().find(|(_, column)| column.len() != times_s.len()) {
         let expected = format!("{}, one per time", times_s.len());
-        return Err(problem(&format!("{field}.{name}"), format!("{} values", column.len()), &expected));
+        return Err(issue(&format!("{field}.{name}"), format!("{} values", column.len()), &expected));
     }
-    Ok(Track { vehicle, places: Places::Trajectory(index), times_s, columns, planner_nodes })
+    Ok(ColumnTable { vehicle, places: RowLocations::Trajectory(index), times_s, columns, planner_nodes })
 }
 
 /// What the trajectory says of itself in words: the vehicle; family and interpolation must be what they can be.
-fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result<String, Problem> {
+fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result<String, Issue> {
     let words = [
         ("family", known.family, "the family of the scenario's vehicles"),
         ("interpolation", "first-order-hold", "the only interpolation of controls that is flown"),
@@ -48,27 +48,27 @@ fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result
     for (key, wanted, why) in words {
         if let Some(other) = trajectory.get(key).filter(|value| **value != wanted) {
             let expected = format!("\"{wanted}\", {why}");
-            return Err(problem(&format!("{field}.{key}"), other.to_string(), &expected));
+            return Err(issue(&format!("{field}.{key}"), other.to_string(), &expected));
         }
     }
     match trajectory.get("vehicle").and_then(Value::as_str) {
         Some(vehicle) => Ok(vehicle.to_owned()),
         None => {
             let found = trajectory.get("vehicle").map_or_else(|| "nothing".into(), describe);
-            Err(problem(&format!("{field}.vehicle"), found, "the name of the vehicle"))
+            Err(issue(&format!("{field}.vehicle"), found, "the name of the vehicle"))
         }
     }
 }
 
 /// From one object per node to one column per number in it.
-fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) -> Result<(), Problem> {
+fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) -> Result<(), Issue> {
     let Value::Array(nodes) = nodes else {
-        return Err(problem(field, describe(nodes), "an array, one object per node"));
+        return Err(issue(field, describe(nodes), "an array, one object per node"));
     };
     for (index, node) in nodes.iter().enumerate() {
         let inner = format!("{field}[{index}]");
         let Value::Object(node) = node else {
-            return Err(problem(&inner, describe(node), "an object with named values"));
+            return Err(issue(&inner, describe(node), "an object with named values"));
         };
         for (key, value) in node {
             let inner = format!("{inner}.{key}");
@@ -77,7 +77,7 @@ fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) 
                 column.push(number);
                 if column.len() != index + 1 {
                     let found = "a value that earlier nodes do not have";
-                    return Err(problem(&inner, found.into(), "the same keys at every node"));
+                    return Err(issue(&inner, found.into(), "the same keys at every node"));
                 }
             }
         }
@@ -86,25 +86,25 @@ fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) 
 }
 
 /// The columns that a key of a node stands for: itself, or one for each number of its array.
-fn parts(key: &str, value: &Value, field: &str, known: &Columns) -> Result<Vec<(String, f64)>, Problem> {
+fn parts(key: &str, value: &Value, field: &str, known: &Columns) -> Result<Vec<(String, f64)>, Issue> {
     let Some((_, names)) = known.arrays.iter().find(|(name, _)| *name == key) else {
         return Ok(vec![(key.to_owned(), number(value, field)?)]);
     };
     let values = numbers(value, field)?;
     if values.len() != names.len() {
-        return Err(problem(field, format!("{} values", values.len()), &format!("{} numbers", names.len())));
+        return Err(issue(field, format!("{} values", values.len()), &format!("{} numbers", names.len())));
     }
     Ok(names.iter().map(|name| (*name).to_owned()).zip(values).collect())
 }
 
 /// Numbers, or words in a column of words.
-fn column(value: &Value, field: &str, name: &str, known: &Columns) -> Result<Vec<f64>, Problem> {
-    let Value::Array(values) = value else { return Err(problem(field, describe(value), "an array over time")) };
+fn column(value: &Value, field: &str, name: &str, known: &Columns) -> Result<Vec<f64>, Issue> {
+    let Value::Array(values) = value else { return Err(issue(field, describe(value), "an array over time")) };
     let cell = |(index, value): (usize, &Value)| {
         let field = format!("{field}[{index}]");
         match value.as_str() {
             Some(word) => {
-                known.word(name, word).ok_or_else(|| problem(&field, describe(value), &known.expectation(name)))
+                known.word(name, word).ok_or_else(|| issue(&field, describe(value), &known.expectation(name)))
             }
             None => number(value, &field),
         }
@@ -112,19 +112,19 @@ fn column(value: &Value, field: &str, name: &str, known: &Columns) -> Result<Vec
     values.iter().enumerate().map(cell).collect()
 }
 
-fn indices(value: &Value, field: &str) -> Result<Vec<usize>, Problem> {
-    serde_json::from_value(value.clone()).map_err(|_| problem(field, describe(value), "an array of indices of nodes"))
+fn indices(value: &Value, field: &str) -> Result<Vec<usize>, Issue> {
+    serde_json::from_value(value.clone()).map_err(|_| issue(field, describe(value), "an array of indices of nodes"))
 }
 
-fn numbers(value: &Value, field: &str) -> Result<Vec<f64>, Problem> {
-    let Value::Array(values) = value else { return Err(problem(field, describe(value), "an array of numbers")) };
+fn numbers(value: &Value, field: &str) -> Result<Vec<f64>, Issue> {
+    let Value::Array(values) = value else { return Err(issue(field, describe(value), "an array of numbers")) };
     values.iter().enumerate().map(|(index, value)| number(value, &format!("{field}[{index}]"))).collect()
 }
 
 /// A number; `null`, which is how our own files write what is none, is NaN.
-fn number(value: &Value, field: &str) -> Result<f64, Problem> {
+fn number(value: &Value, field: &str) -> Result<f64, Issue> {
     match value {
         Value::Null => Ok(f64::NAN),
-        _ => value.as_f64().ok_or_else(|| problem(field, describe(value), "a number")),
+        _ => value.as_f64().ok_or_else(|| issue(field, describe(value), "a number")),
     }
 }

@@ -3,13 +3,13 @@
 use crate::multirotor::{Airframe, GRAVITY_MPS2, Limits, Model, Plant};
 use crate::validate::identifier::entity_name;
 use crate::validate::quantity::{above_up_to, not_negative, ordered, positive, positive_if_given};
-use crate::{Problem, Range};
+use crate::{Issue, Range};
 
 use super::planning_inside_physical;
 
-pub(super) fn problems(name: &str, model: &Model) -> Vec<Problem> {
+pub(super) fn issues(name: &str, model: &Model) -> Vec<Issue> {
     let field = format!("models.multirotor.{name}");
-    let mut problems: Vec<Problem> = entity_name(&field, name).into_iter().collect();
+    let mut issues: Vec<Issue> = entity_name(&field, name).into_iter().collect();
     let positive_ones = [
         ("mass_kg", model.mass_kg),
         ("body_radius_m", model.body_radius_m),
@@ -19,23 +19,23 @@ pub(super) fn problems(name: &str, model: &Model) -> Vec<Problem> {
         ("planning_limits.speed_mps", model.planning_limits.speed_mps),
         ("planning_limits.acceleration_mps2", model.planning_limits.acceleration_mps2),
     ];
-    problems.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
-    problems.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
-    problems.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
-    problems.extend(no_airframe(&field, model));
-    problems.extend(model.airframe.iter().flat_map(|airframe| of_airframe(&format!("{field}.airframe"), airframe)));
-    problems.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(&field, model, airframe)));
-    problems
+    issues.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
+    issues.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
+    issues.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
+    issues.extend(no_airframe(&field, model));
+    issues.extend(model.airframe.iter().flat_map(|airframe| of_airframe(&format!("{field}.airframe"), airframe)));
+    issues.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(&field, model, airframe)));
+    issues
 }
 
-fn no_airframe(field: &str, model: &Model) -> Option<Problem> {
+fn no_airframe(field: &str, model: &Model) -> Option<Issue> {
     (model.plant == Plant::Quadrotor && model.airframe.is_none()).then(|| {
         let expected = "a table with inertia, lever arm and thrusts: the plant is a quadrotor";
-        Problem::new(format!("{field}.airframe"), "nothing", expected).remedy("add it, or fly a `point-mass`")
+        Issue::new(format!("{field}.airframe"), "nothing", expected).remedy("add it, or fly a `point-mass`")
     })
 }
 
-fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Problem> {
+fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Issue> {
     let [ix, iy, iz] = airframe.inertia_kgm2;
     let positive_ones = [
         ("inertia_kgm2[0]", ix),
@@ -56,13 +56,13 @@ fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Problem> {
 }
 
 /// Four rotors have to carry the weight, tilted as far as the planned acceleration asks for.
-fn room_to_hover(field: &str, model: &Model, airframe: &Airframe) -> Option<Problem> {
+fn room_to_hover(field: &str, model: &Model, airframe: &Airframe) -> Option<Issue> {
     let hover_n = model.mass_kg * GRAVITY_MPS2 / 4.0;
     let needed_n = model.mass_kg * GRAVITY_MPS2.hypot(model.planning_limits.acceleration_mps2) / 4.0;
     let Range { min, max } = airframe.thrust_n;
     (min < max && !(min < hover_n && needed_n < max)).then(|| {
         let expected = format!("less than {hover_n:.3} N, which holds it still, to more than {needed_n:.3} N, planned");
-        Problem::new(format!("{field}.airframe.thrust_n"), airframe.thrust_n.to_string(), expected)
+        Issue::new(format!("{field}.airframe.thrust_n"), airframe.thrust_n.to_string(), expected)
             .remedy("give the rotors more thrust, or plan with less acceleration")
     })
 }

@@ -3,22 +3,22 @@
 use crate::slung_load::{Limits, Model};
 use crate::validate::identifier::entity_name;
 use crate::validate::quantity::{not_negative, ordered, positive, positive_if_given};
-use crate::{Problem, Range};
+use crate::{Issue, Range};
 
 use super::planning_inside_physical;
 
-pub(super) fn problems(name: &str, model: &Model) -> Vec<Problem> {
+pub(super) fn issues(name: &str, model: &Model) -> Vec<Issue> {
     let field = format!("models.slung-load.{name}");
-    let mut problems: Vec<Problem> = entity_name(&field, name).into_iter().collect();
-    problems.extend(quantities(&field, model));
-    problems.extend(limits(&format!("{field}.limits"), &model.limits));
-    problems.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
-    problems.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
-    problems.extend(room_to_hover(&field, model));
-    problems
+    let mut issues: Vec<Issue> = entity_name(&field, name).into_iter().collect();
+    issues.extend(quantities(&field, model));
+    issues.extend(limits(&format!("{field}.limits"), &model.limits));
+    issues.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
+    issues.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
+    issues.extend(room_to_hover(&field, model));
+    issues
 }
 
-fn quantities(field: &str, model: &Model) -> Vec<Problem> {
+fn quantities(field: &str, model: &Model) -> Vec<Issue> {
     let positive_ones = [
         ("mass_kg", model.mass_kg),
         ("inertia_kgm2[0]", model.inertia_kgm2[0]),
@@ -39,25 +39,25 @@ fn quantities(field: &str, model: &Model) -> Vec<Problem> {
     positive_ones.chain(drag).chain(lag).collect()
 }
 
-fn limits(field: &str, limits: &Limits) -> Vec<Problem> {
-    let mut problems: Vec<Problem> =
+fn limits(field: &str, limits: &Limits) -> Vec<Issue> {
+    let mut issues: Vec<Issue> =
         named(limits).into_iter().filter_map(|(name, range)| ordered(&format!("{field}.{name}"), range)).collect();
-    problems.extend(positive(&format!("{field}.tension_n"), limits.tension_n));
-    problems.extend(not_negative(&format!("{field}.thrust_n"), limits.thrust_n.min).map(|problem| {
-        Problem::new(problem.field, limits.thrust_n.to_string(), "a least thrust of 0 or more: rotors do not pull down")
+    issues.extend(positive(&format!("{field}.tension_n"), limits.tension_n));
+    issues.extend(not_negative(&format!("{field}.thrust_n"), limits.thrust_n.min).map(|issue| {
+        Issue::new(issue.field, limits.thrust_n.to_string(), "a least thrust of 0 or more: rotors do not pull down")
     }));
     if limits.attitude_deg.min <= -90.0 || limits.attitude_deg.max >= 90.0 {
         let expected = "both ends strictly between -90 and 90 deg";
-        problems.push(Problem::new(format!("{field}.attitude_deg"), limits.attitude_deg.to_string(), expected));
+        issues.push(Issue::new(format!("{field}.attitude_deg"), limits.attitude_deg.to_string(), expected));
     }
-    problems
+    issues
 }
 
-fn room_to_hover(field: &str, model: &Model) -> Option<Problem> {
+fn room_to_hover(field: &str, model: &Model) -> Option<Issue> {
     let (hover_n, thrust_n) = (model.hover_thrust_n(), model.planning_limits.thrust_n);
     (thrust_n.min < thrust_n.max && !(thrust_n.min < hover_n && hover_n < thrust_n.max)).then(|| {
         let expected = format!("a range around {hover_n:.3} N, with which each rotor holds quadrotor and load still");
-        Problem::new(format!("{field}.planning_limits.thrust_n"), thrust_n.to_string(), expected)
+        Issue::new(format!("{field}.planning_limits.thrust_n"), thrust_n.to_string(), expected)
             .remedy("give the rotors more thrust, or the vehicle less mass")
     })
 }

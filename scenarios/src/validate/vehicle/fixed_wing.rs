@@ -2,9 +2,9 @@
 
 use crate::fixed_wing::Model;
 use crate::validate::quantity::inside;
-use crate::{Problem, Waypoint};
+use crate::{Issue, Waypoint};
 
-pub(super) fn problems(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+pub(super) fn issues(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let limits = &model.planning_limits;
     let quantities = [
         ("z_m", waypoint.z_m, limits.altitude_m, "the planning limits of altitude, m"),
@@ -18,7 +18,7 @@ pub(super) fn problems(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<P
     ];
     let check = |(name, value, range, of)| inside(&format!("{field}.{name}"), value, range, of);
     let load = waypoint.load.map(|_| {
-        Problem::new(format!("{field}.load"), "a load", "nothing: a fixed wing carries none").remedy("remove it")
+        Issue::new(format!("{field}.load"), "a load", "nothing: a fixed wing carries none").remedy("remove it")
     });
     quantities.into_iter().filter_map(check).chain(load).collect()
 }

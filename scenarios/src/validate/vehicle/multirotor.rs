@@ -1,37 +1,37 @@
 //! Start and goal of a multirotor: body and all in the open, on the map, at rest.
 
 use crate::multirotor::Model;
-use crate::{Problem, Waypoint, World};
+use crate::{Issue, Waypoint, World};
 
-pub(super) fn problems(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
-    let mut problems = too_near_edges(model, world, field, waypoint);
-    problems.extend(too_near_obstacles(model, world, field, waypoint));
+pub(super) fn issues(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+    let mut issues = too_near_edges(model, world, field, waypoint);
+    issues.extend(too_near_obstacles(model, world, field, waypoint));
     if field.ends_with(".start") {
-        problems.extend(under_moving(model, world, field, waypoint));
+        issues.extend(under_moving(model, world, field, waypoint));
     }
     if waypoint.speed_mps != 0.0 && waypoint.speed_mps.is_finite() {
-        let problem = Problem::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0, or nothing");
-        problems.push(problem.remedy("remove it: multirotors begin and end at rest"));
+        let issue = Issue::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0, or nothing");
+        issues.push(issue.remedy("remove it: multirotors begin and end at rest"));
     }
-    problems.extend(waypoint.load.map(|_| {
-        Problem::new(format!("{field}.load"), "a load", "nothing: this vehicle carries none").remedy("remove it")
+    issues.extend(waypoint.load.map(|_| {
+        Issue::new(format!("{field}.load"), "a load", "nothing: this vehicle carries none").remedy("remove it")
     }));
-    problems
+    issues
 }
 
-fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let axes = ["x_m", "y_m", "z_m"].into_iter().zip(waypoint.position_m()).zip(world.map.axes());
     let is_near = |margin_m: f64| (0.0..model.body_radius_m).contains(&margin_m);
     axes.filter(|((_, value), range)| is_near(range.margin(*value)))
         .map(|((axis, value), range)| {
             let expected = format!("{} m, the body's radius, or more from the ends of {range}", model.body_radius_m);
-            Problem::new(format!("{field}.{axis}"), value.to_string(), expected).remedy("move the point, or the frame")
+            Issue::new(format!("{field}.{axis}"), value.to_string(), expected).remedy("move the point, or the frame")
         })
         .collect()
 }
 
 /// A point inside an obstacle is reported for every family; here it is the body that has no room.
-fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let [x_m, y_m, z_m] = waypoint.position_m();
     let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
     let flat = world.flat_obstacles();
@@ -40,7 +40,7 @@ fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Wayp
     cylinders.chain(prisms).filter(is_near).map(|(name, distance_m)| no_room(model, field, &name, distance_m)).collect()
 }
 
-fn under_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Problem> {
+fn under_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let good = world.moving.iter().filter(|moving| moving.has_a_path());
     good.filter_map(|moving| {
         let distance_m = moving.signed_distance_m(0.0, waypoint.position_m());
@@ -49,8 +49,8 @@ fn under_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) 
     .collect()
 }
 
-fn no_room(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Problem {
+fn no_room(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Issue {
     let found = format!("a point {distance_m:.3} m from `{obstacle}`");
     let expected = format!("{} m, the body's radius, or more", model.body_radius_m);
-    Problem::new(field, found, expected).remedy("move the point or the obstacle")
+    Issue::new(field, found, expected).remedy("move the point or the obstacle")
 }

@@ -1,7 +1,7 @@
 //! The cases of every experiment.
 
 use planners::Planner;
-use scenarios::{CostMap, Field, FieldForm, Horizon, RepulsionForm, Sampler, Scenario};
+use scenarios::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler, Scenario};
 use serde::Serialize;
 
 use super::Plan;
@@ -106,12 +106,12 @@ pub fn all(plan: &Plan) -> Vec<Case> {
             add(Experiment::Swarms, scenario, name, planner, options);
         }
     }
-    add(Experiment::Fields, map, "with cost map, squared", "rhc-apf", field(FieldForm::WithCostMap, true));
-    add(Experiment::Fields, map, "with cost map, printed", "rhc-apf", field(FieldForm::WithCostMap, false));
-    add(Experiment::Fields, map, "alone, squared", "rhc-apf", field(FieldForm::Alone, true));
-    add(Experiment::Fields, map, "alone, printed", "rhc-apf", field(FieldForm::Alone, false));
+    add(Experiment::Fields, map, "with cost map, squared", "rhc-apf", field(PotentialFieldForm::WithCostMap, true));
+    add(Experiment::Fields, map, "with cost map, printed", "rhc-apf", field(PotentialFieldForm::WithCostMap, false));
+    add(Experiment::Fields, map, "alone, squared", "rhc-apf", field(PotentialFieldForm::Alone, true));
+    add(Experiment::Fields, map, "alone, printed", "rhc-apf", field(PotentialFieldForm::Alone, false));
     add(Experiment::DynamicMap, &plan.pop_up, "rhc-fpso", "rhc-fpso", usual());
-    add(Experiment::DynamicMap, &plan.pop_up, "rhc-apf, alone", "rhc-apf", field(FieldForm::Alone, true));
+    add(Experiment::DynamicMap, &plan.pop_up, "rhc-apf, alone", "rhc-apf", field(PotentialFieldForm::Alone, true));
     add(Experiment::DynamicMap, &plan.pop_up, "rhc", "rhc", usual());
     for scenario in [map, &plan.trap] {
         for (name, sampler) in [
@@ -127,10 +127,10 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     cases
 }
 
-fn field(form: FieldForm, is_squared: bool) -> Horizon {
+fn field(form: PotentialFieldForm, is_squared: bool) -> Horizon {
     let repulsion = if is_squared { RepulsionForm::Squared } else { RepulsionForm::Printed };
     Horizon {
-        field: Some(Field { form: Some(form), repulsion: Some(repulsion), ..Field::default() }),
+        field: Some(PotentialField { form: Some(form), repulsion: Some(repulsion), ..PotentialField::default() }),
         ..Horizon::default()
     }
 }

@@ -1,12 +1,12 @@
-use super::Track;
+use super::ColumnTable;
 use crate::slung_load::{Cable, Trajectory};
 use crate::{Family, Interpolation, fixed_wing, multirotor, slung_load};
 
 /// The planned motion of one vehicle as far as it was given.
 #[derive(Clone, Debug, PartialEq)]
-pub enum GivenTrack {
+pub enum ImportedTrajectory {
     /// Of a fixed wing: what is missing can be reconstructed.
-    FixedWing(FixedWingTrack),
+    FixedWing(PartialTrajectory),
     /// Of a quadrotor with a load: whole.
     SlungLoad(Trajectory),
     /// Of a multirotor: whole.
@@ -15,7 +15,7 @@ pub enum GivenTrack {
 
 /// The planned motion of one fixed-wing aircraft: velocities and controls complete at every node, or not at all.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FixedWingTrack {
+pub struct PartialTrajectory {
     /// Name of the vehicle.
     pub vehicle: String,
     /// Times of the nodes, s, from 0, increasing.
@@ -28,11 +28,11 @@ pub struct FixedWingTrack {
     pub controls: Option<Vec<fixed_wing::Control>>,
 }
 
-impl GivenTrack {
+impl ImportedTrajectory {
     /// From a track whose columns have been checked: each complete group of columns becomes what it stands for.
-    pub(super) fn of(track: &Track, family: Family) -> Self {
+    pub(super) fn of(track: &ColumnTable, family: Family) -> Self {
         match family {
-            Family::FixedWing => Self::FixedWing(FixedWingTrack::of(track)),
+            Family::FixedWing => Self::FixedWing(PartialTrajectory::of(track)),
             Family::SlungLoad => Self::SlungLoad(slung_load_trajectory(track)),
             Family::Multirotor => Self::Multirotor(multirotor_trajectory(track)),
         }
@@ -48,14 +48,14 @@ impl GivenTrack {
     }
 }
 
-impl FixedWingTrack {
-    fn of(track: &Track) -> Self {
+impl PartialTrajectory {
+    fn of(track: &ColumnTable) -> Self {
         let positions_m: Vec<[f64; 3]> = rows(track, ["x_m", "y_m", "z_m"]).unwrap_or_default();
         let polar = rows(track, ["speed_mps", "heading_rad", "flight_path_rad"]);
         let cartesian = || rows(track, ["vx_mps", "vy_mps", "vz_mps"]);
         let states = match polar {
             Some(polar) => Some(polar_states(&positions_m, &polar)),
-            None => cartesian().map(|velocities_mps| cartesian_states(&positions_m, &velocities_mps)),
+            None => cartesian().map(|velocities_mps| states_from_velocities(&positions_m, &velocities_mps)),
         };
         let controls = rows(track, ["n_x", "n_y", "n_z"]);
         let controls = controls.map(|rows| rows.into_iter().map(fixed_wing::Control::from_array).collect());
@@ -63,7 +63,7 @@ impl FixedWingTrack {
     }
 }
 
-fn slung_load_trajectory(track: &Track) -> Trajectory {
+fn slung_load_trajectory(track: &ColumnTable) -> Trajectory {
     let columns = slung_load::CSV_COLUMNS;
     let nodes = 0..track.times_s.len();
     let value = |column: usize, node: usize| track.columns.get(columns[column]).map_or(f64::NAN, |values| values[node]);
@@ -81,7 +81,7 @@ fn slung_load_trajectory(track: &Track) -> Trajectory {
     }
 }
 
-fn multirotor_trajectory(track: &Track) -> multirotor::Trajectory {
+fn multirotor_trajectory(track: &ColumnTable) -> multirotor::Trajectory {
     let positions_m = rows(track, ["x_m", "y_m", "z_m"]).unwrap_or_default();
     let velocities_mps = rows(track, ["vx_mps", "vy_mps", "vz_mps"]).unwrap_or_default();
     let states = positions_m.into_iter().zip(velocities_mps);
@@ -93,7 +93,7 @@ fn multirotor_trajectory(track: &Track) -> multirotor::Trajectory {
 }
 
 /// States from positions and world-frame velocities at the same nodes, m and m/s; headings without jumps of 2π.
-pub fn cartesian_states(positions_m: &[[f64; 3]], velocities_mps: &[[f64; 3]]) -> Vec<fixed_wing::State> {
+pub fn states_from_velocities(positions_m: &[[f64; 3]], velocities_mps: &[[f64; 3]]) -> Vec<fixed_wing::State> {
     let polar: Vec<[f64; 3]> = velocities_mps
         .iter()
         .map(|[x, y, z]| {
@@ -121,7 +121,7 @@ fn near(angle_rad: f64, last_rad: f64) -> f64 {
 }
 
 /// Three columns as one triple per row; `None` if one of them is missing.
-fn rows(track: &Track, names: [&str; 3]) -> Option<Vec<[f64; 3]>> {
+fn rows(track: &ColumnTable, names: [&str; 3]) -> Option<Vec<[f64; 3]>> {
     let [a, b, c] = names.map(|name| track.columns.get(name));
     let (a, b, c) = (a?, b?, c?);
     Some((0..track.times_s.len()).map(|row| [a[row], b[row], c[row]]).collect())

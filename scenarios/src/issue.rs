@@ -2,7 +2,7 @@ use std::fmt;
 
 /// What is wrong with one field of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
+pub struct Issue {
     /// Path of the field from the root of the document, as `vehicles[3].start.x_m`.
     pub field: String,
     /// What stands there.
@@ -13,8 +13,8 @@ pub struct Problem {
     pub remedy: String,
 }
 
-impl Problem {
-    /// A problem with `field`.
+impl Issue {
+    /// A issue with `field`.
     pub fn new(field: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { field: field.into(), found: found.into(), expected: expected.into(), remedy: String::new() }
     }
@@ -26,7 +26,7 @@ impl Problem {
     }
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for Issue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: found {}, expected {}", self.field, self.found, self.expected)
     }

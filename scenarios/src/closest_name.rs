@@ -1,7 +1,7 @@
 /// The candidate that `word` was probably meant to be: the one with the fewest edits (insertions, deletions,
 /// substitutions), if a third of the longer word or less has to change. A unit that is missing or too much (`mass` for
 /// `mass_kg`) counts as one edit.
-pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+pub fn closest_name<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     candidates
         .into_iter()
         .map(|candidate| (edits(word, candidate), candidate))
@@ -37,7 +37,7 @@ fn edit_distance(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{edit_distance, nearest};
+    use super::{closest_name, edit_distance};
 
     #[test]
     fn edit_distances_of_the_textbook() {
@@ -49,9 +49,9 @@ mod tests {
     #[test]
     fn a_typo_finds_its_word_and_nonsense_finds_none() {
         let keys = ["margin_m", "max_iterations", "name"];
-        assert_eq!(nearest("margins_m", keys), Some("margin_m"));
-        assert_eq!(nearest("margin", keys), Some("margin_m"));
-        assert_eq!(nearest("nam", keys), Some("name"));
-        assert_eq!(nearest("colour", keys), None);
+        assert_eq!(closest_name("margins_m", keys), Some("margin_m"));
+        assert_eq!(closest_name("margin", keys), Some("margin_m"));
+        assert_eq!(closest_name("nam", keys), Some("name"));
+        assert_eq!(closest_name("colour", keys), None);
     }
 }
