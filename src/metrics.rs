@@ -20,7 +20,7 @@ use self::trajectory_error::VehicleErrors;
 use crate::{families, verdict};
 
 pub use in_loop::InLoopMetrics;
-pub use over_time::{Nearest, clearance_in_space_over_time, clearance_over_time, separation_over_time};
+pub use over_time::{DistanceSample, clearance_in_space_over_time, clearance_over_time, separation_over_time};
 pub use slung_load::{CableSwitch, SlungLoadMetrics};
 
 /// Everything that was measured of a plan and its flight.

@@ -35,7 +35,7 @@ const RECORDINGS: [&str; 3] = ["flight.rrd", "flight.mcap", "flight.parquet"];
 pub struct Outputs {
     /// The recordings.
     pub recorders: Vec<Box<dyn Recorder>>,
-    /// Planned and flown paths as TUM files?
+    /// PlannedMotions and flown paths as TUM files?
     pub tum: bool,
     /// Is every flight repeated with finer steps?
     pub refine_step: bool,

@@ -4,7 +4,7 @@
 
 mod arrival;
 mod bernstein;
-mod blocks;
+mod broad_phase;
 pub mod case;
 mod closest;
 mod compare;
@@ -17,18 +17,18 @@ mod flown_reference;
 mod integration;
 mod integrity;
 mod judge;
+mod map_bounds;
 mod motion;
 pub mod multirotor;
-mod on_the_map;
 mod physics;
 mod provenance;
 
+mod collision;
 #[cfg(test)]
 mod random;
 mod rotors;
 mod separation;
 pub mod slung_load;
-mod touch;
 mod tracking;
 mod worst;
 
@@ -38,8 +38,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use arrival::duration_s as flown_duration_s;
-pub use closest::{Approach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
-pub use flown::{Flown, FlownVehicle};
+pub use closest::{ClosestApproach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
+pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
 pub use judge::{judge, judge_imported, judge_with};
@@ -51,7 +51,7 @@ pub use tracking::{
 };
 
 /// Checks whose margins say most about how close it was, by their names without the group.
-pub const TELLING: [&str; 3] = ["separation", "clearance", "tracking_max"];
+pub const KEY_CHECKS: [&str; 3] = ["separation", "clearance", "tracking_max"];
 
 /// What the judge found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -140,8 +140,8 @@ impl Check {
     }
 
     /// Does its margin say how close it was, to one who asks for a single line?
-    pub fn is_telling(&self) -> bool {
-        TELLING.contains(&self.question())
+    pub fn is_key(&self) -> bool {
+        KEY_CHECKS.contains(&self.question())
     }
 
     /// When and between whom, for people: `83.10 s, uav-3 and uav-5`; nothing if neither is known.

@@ -6,7 +6,7 @@ use sim::Flight;
 
 use super::flight::{self, Dispersion};
 use super::{FlightMetrics, Metrics, PlanMetrics, SmallestDistances, finite};
-use crate::verdict::fixed_wing::{Planned, clearance_at_nodes};
+use crate::verdict::fixed_wing::{PlannedMotions, clearance_at_nodes};
 use crate::verdict::{self, Motion};
 
 /// Measures a flyable plan and, if there is one, its flight.
@@ -23,7 +23,7 @@ fn of_flight(scenario: &Scenario, plan: &Plan, flight: &Flight) -> Option<Flight
 }
 
 fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
-    let planned = Planned::new(scenario, plan);
+    let planned = PlannedMotions::new(scenario, plan);
     let trajectories = || plan.trajectories.iter().map(scenarios::Trajectory::fixed_wing);
     let states = |value: fn(&scenarios::fixed_wing::State) -> f64| {
         Dispersion::over(trajectories().map(|trajectory| trajectory.states.iter().map(value)))

@@ -4,7 +4,7 @@ use scenarios::{Plan, Scenario};
 use sim::{Flight, Sample};
 
 use super::{FlightMetrics, SmallestDistances, finite};
-use crate::verdict::{self, Flown, Motion};
+use crate::verdict::{self, FlownMotions, Motion};
 
 /// Figures of a flight; `None` if its logs cannot be matched with the vehicles.
 ///
@@ -15,7 +15,7 @@ pub fn measure(
     flight: &Flight,
     distances: impl FnOnce(&[Motion]) -> SmallestDistances,
 ) -> Option<FlightMetrics> {
-    let flown = &Flown::new(scenario, plan, flight).ok()?;
+    let flown = &FlownMotions::new(scenario, plan, flight).ok()?;
     let vehicles = || flown.vehicles.iter();
     let speed = Dispersion::over(vehicles().map(|vehicle| vehicle.judged.iter().map(airspeed_mps)));
     let altitude = Dispersion::over(vehicles().map(|vehicle| vehicle.judged.iter().map(|sample| sample.position_m[2])));

@@ -6,7 +6,7 @@ use crate::verdict::multirotor::Clearances;
 
 /// The smallest distance at one instant, and between whom.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
+pub struct DistanceSample {
     /// When, s.
     pub t_s: f64,
     /// How far, m.
@@ -18,7 +18,7 @@ pub struct Nearest {
 /// Smallest horizontal distance between any two of `motions`, every `step_s` from 0 s on, while at least two last.
 ///
 /// For a plot: the smallest of all, over continuous time, is in the verdict.
-pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<Nearest> {
+pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
         // a sweep from west to east: nobody farther east than the best so far can be nearer
         present.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
@@ -35,7 +35,7 @@ pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<Nearest> {
 
 /// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, every `step_s` from
 /// 0 s on. With a single motion it is that vehicle's own clearance.
-pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f64) -> Vec<Nearest> {
+pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
         for (i, position_m) in present.iter() {
             for (m, cylinder) in cylinders.iter().enumerate() {
@@ -47,7 +47,7 @@ pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f
 
 /// Smallest distance in space from the surface of any multirotor to anything at all, every `step_s` from 0 s on. `who` holds
 /// the vehicle twice.
-pub fn clearance_in_space_over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<Nearest> {
+pub fn clearance_in_space_over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<DistanceSample> {
     let clearances = Clearances::new(scenario);
     at_instants(motions, step_s, |present, nearest| {
         for (i, position_m) in present.iter() {
@@ -56,7 +56,7 @@ pub fn clearance_in_space_over_time(scenario: &Scenario, motions: &[Motion], ste
     })
 }
 
-impl Nearest {
+impl DistanceSample {
     fn consider(&mut self, distance_m: f64, who: [usize; 2]) {
         if distance_m < self.distance_m || (distance_m == self.distance_m && who < self.who) {
             (self.distance_m, self.who) = (distance_m, who);
@@ -68,14 +68,18 @@ impl Nearest {
 type Present = Vec<(usize, [f64; 3])>;
 
 /// Calls `look` with the motions that last at each instant. Panics if `step_s` is not positive.
-fn at_instants(motions: &[Motion], step_s: f64, look: impl Fn(&mut Present, &mut Nearest) + Sync) -> Vec<Nearest> {
+fn at_instants(
+    motions: &[Motion],
+    step_s: f64,
+    look: impl Fn(&mut Present, &mut DistanceSample) + Sync,
+) -> Vec<DistanceSample> {
     assert!(step_s > 0.0, "a step of {step_s} s leads nowhere");
     let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
     let nearest_at = |step: usize| {
         let t_s = step as f64 * step_s;
         let positions = motions.iter().map(|motion| motion.position_m(t_s)).enumerate();
         let mut present = positions.filter_map(|(index, position_m)| Some((index, position_m?))).collect();
-        let mut nearest = Nearest { t_s, distance_m: f64::INFINITY, who: [0, 0] };
+        let mut nearest = DistanceSample { t_s, distance_m: f64::INFINITY, who: [0, 0] };
         look(&mut present, &mut nearest);
         Some(nearest).filter(|nearest| nearest.distance_m.is_finite())
     };

@@ -8,8 +8,8 @@ use sim::slung_load::{Body, Parts};
 use sim::{EventKind, Flight};
 
 use super::{Metrics, finite};
-use crate::verdict::slung_load::{Flown, Planned};
-use crate::verdict::{Flown as Tracked, largest_tracking_error, root_mean_square_tracking_error, saturation};
+use crate::verdict::slung_load::{FlownMotion, PlannedMotion};
+use crate::verdict::{FlownMotions as Tracked, largest_tracking_error, root_mean_square_tracking_error, saturation};
 
 /// Figures of a quadrotor with a slung load. A figure that is absent could not be measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,7 +59,7 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
 
 fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> SlungLoadMetrics {
     let mut metrics = SlungLoadMetrics { flight_time_s: plan.flight_time_s().and_then(finite), ..Default::default() };
-    if let Ok(planned) = Planned::new(scenario, plan) {
+    if let Ok(planned) = PlannedMotion::new(scenario, plan) {
         of_plan(scenario, &planned, &mut metrics);
     }
     if let Some(flight) = flight {
@@ -68,7 +68,7 @@ fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Slun
     metrics
 }
 
-fn of_plan(scenario: &Scenario, planned: &Planned, metrics: &mut SlungLoadMetrics) {
+fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoadMetrics) {
     let parts = Parts::of(scenario.slung_load_model(&scenario.vehicles[0]));
     let reach_m = |body: &Body| body.cable_m().xy().norm() - parts.body_radius_m();
     for pair in planned.knots.windows(2) {
@@ -92,8 +92,8 @@ fn of_flight(scenario: &Scenario, plan: &Plan, flight: &Flight, metrics: &mut Sl
         _ => None,
     });
     metrics.flown_switches = switches.collect();
-    if let Ok(flown) = Flown::new(flight) {
-        metrics.flown_swing_deg = largest(flown.course.instants().iter().map(|instant| swing_deg(&instant.body)));
+    if let Ok(flown) = FlownMotion::new(flight) {
+        metrics.flown_swing_deg = largest(flown.motion.samples().iter().map(|sample| swing_deg(&sample.body)));
         let tracked =
             flown.log.loads.iter().zip(&flown.log.samples).filter(|(_, sample)| sample.t_s <= flight.plan_end_s);
         metrics.load_tracking_max_m = largest(tracked.map(|(load, _)| {

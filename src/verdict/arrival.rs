@@ -9,7 +9,7 @@ use scenarios::{CheckSpec, Plan, Scenario};
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
-use crate::verdict::flown::{Flown, FlownVehicle};
+use crate::verdict::flown::{FlownMotions, FlownVehicle};
 use crate::verdict::motion::Motion;
 
 /// Largest distance from a goal to the last node.
@@ -32,7 +32,7 @@ pub fn check_planned_goals(spec: &CheckSpec, scenario: &Scenario, motions: Evide
 }
 
 /// Largest distance from a goal at the closest approach in flight.
-pub fn check_flown_goals(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown_goals(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     goal_answer(spec, scenario, flown, |flown| {
         let mut farthest: Option<(f64, Measurement)> = None;
         for vehicle in &flown.vehicles {
@@ -57,7 +57,7 @@ pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Eviden
 }
 
 /// Difference between the earliest and the latest arrival in flight.
-pub fn check_flown_arrival(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown_arrival(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     arrival_answer(spec, scenario, flown, |flown| {
         spread(flown.vehicles.iter().map(|vehicle| {
             let arrival_s = vehicle.arrival_s().ok_or_else(|| never_near(vehicle))?;
@@ -76,7 +76,7 @@ pub fn check_planned_duration(spec: &CheckSpec, scenario: &Scenario, plan: Evide
 }
 
 /// Time until the last vehicle has arrived; to the end of its log for one that does not arrive.
-pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     match flown {
         Err(reason) => spec.fail(reason),
         Ok(flown) => spec.at_most(Measurement::value(duration_s(flown)), scenario.simulation.max_duration_s),
@@ -84,7 +84,7 @@ pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: Eviden
 }
 
 /// Time until the last vehicle has arrived; to the end of its log for one that does not arrive, s.
-pub fn duration_s(flown: &Flown<'_>) -> f64 {
+pub fn duration_s(flown: &FlownMotions<'_>) -> f64 {
     flown.vehicles.iter().map(|vehicle| vehicle.arrival_s().unwrap_or(vehicle.log_end_s)).fold(0.0, f64::max)
 }
 

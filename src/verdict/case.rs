@@ -5,7 +5,7 @@ use scenarios::{CheckSpec, Family, Group, Plan, Scenario, checks_of};
 use sim::Flight;
 
 use crate::verdict::evidence::{Decide, Evidence};
-use crate::verdict::flown::Flown;
+use crate::verdict::flown::FlownMotions;
 use crate::verdict::{Check, arrival, conditions, flight_integrity, integrity, tracking};
 
 /// Why the groups `nodes` and `plan` are skipped for a plan that came into being during the flight.
@@ -19,7 +19,7 @@ pub struct Case<'a> {
     pub plan: &'a Plan,
     flyable: Result<(), String>,
     flight: Result<&'a Flight, String>,
-    flown: Result<Flown<'a>, String>,
+    flown: Result<FlownMotions<'a>, String>,
 }
 
 impl<'a> Case<'a> {
@@ -27,7 +27,7 @@ impl<'a> Case<'a> {
     pub fn new(scenario: &'a Scenario, plan: &'a Plan, flight: Option<&'a Flight>) -> Self {
         let flyable = integrity::is_flyable(scenario, plan);
         let flight = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
-        let flown = flight.clone().and_then(|flight| Flown::new(scenario, plan, flight));
+        let flown = flight.clone().and_then(|flight| FlownMotions::new(scenario, plan, flight));
         Self { scenario, plan, flyable, flight, flown }
     }
 
@@ -42,7 +42,7 @@ impl<'a> Case<'a> {
     }
 
     /// The flight, its logs matched with the vehicles.
-    pub fn flown(&self) -> Evidence<'_, Flown<'a>> {
+    pub fn flown(&self) -> Evidence<'_, FlownMotions<'a>> {
         self.flown.as_ref().map_err(String::as_str)
     }
 
@@ -80,7 +80,7 @@ impl<'a> Case<'a> {
     /// The number of crashes.
     ///
     /// - `flown`: to look for contacts that the log does not tell of
-    pub fn crash(&self, spec: &CheckSpec, flown: Evidence<'_, Flown<'_>>) -> Check {
+    pub fn crash(&self, spec: &CheckSpec, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
         self.logged(spec, |flight| flight_integrity::check_crash(spec, self.scenario, flight, flown))
     }
 

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use scenarios::Cylinder;
 
 use crate::verdict::bernstein;
-use crate::verdict::blocks::{Block, Blocks, Frame};
+use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m); of motions that
 /// are known at samples only, farther by what they may [deviate](Motion::deviation_m) from their curves, twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Approach {
+pub struct ClosestApproach {
     /// No distance is smaller, m.
     pub lower_m: f64,
     /// A distance that is reached at `at_s`, m.
@@ -34,7 +34,7 @@ pub struct Approach {
 }
 
 /// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
-pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
+pub fn between_vehicles(motions: &[Motion]) -> Option<ClosestApproach> {
     let reaches: Vec<Reach> =
         motions.iter().map(|motion| Reach { radius_m: 0.0, deviation_m: motion.deviation_m() }).collect();
     sweep(motions, &reaches, Search::new(), horizontal)
@@ -42,7 +42,7 @@ pub fn between_vehicles(motions: &[Motion]) -> Option<Approach> {
 
 /// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
 /// `None` if no two touch.
-pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<Approach> {
+pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
     let reaches: Vec<Reach> = radii_m.iter().map(|&radius_m| Reach { radius_m, deviation_m: 0.0 }).collect();
     sweep(motions, &reaches, Search::below(0.0), |relative_m| relative_m)
 }
@@ -57,7 +57,7 @@ fn sweep(
     reaches: &[Reach],
     mut search: Search,
     seen: fn([[f64; 3]; 4]) -> [[f64; 3]; 4],
-) -> Option<Approach> {
+) -> Option<ClosestApproach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let widest_m = 2.0 * reaches.iter().map(|reach| reach.total_m()).fold(0.0, f64::max);
@@ -86,7 +86,7 @@ fn sweep(
 
 /// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, negative inside.
 /// `None` without either.
-pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approach> {
+pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<ClosestApproach> {
     let frame = Frame::over(motions);
     let mut search = Search::new();
     for (i, motion) in motions.iter().enumerate() {
@@ -108,7 +108,7 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Approa
 }
 
 /// Smallest distance, in space, from `motion` to `point_m` from the time `from_s` on. `None` if it ends before.
-pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<Approach> {
+pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<ClosestApproach> {
     let mut search = Search::new();
     for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
         let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
@@ -221,10 +221,10 @@ impl Search {
         }
     }
 
-    fn found(&self) -> Option<Approach> {
+    fn found(&self) -> Option<ClosestApproach> {
         let (at_s, who, deviation_m) = self.at?;
         let lower_m = self.lower_m.min(self.upper_m);
-        Some(Approach { lower_m, upper_m: self.upper_m + 2.0 * deviation_m, at_s, who })
+        Some(ClosestApproach { lower_m, upper_m: self.upper_m + 2.0 * deviation_m, at_s, who })
     }
 }
 
@@ -232,7 +232,7 @@ impl Search {
 mod tests {
     use scenarios::Cylinder;
 
-    use super::{Approach, between_vehicles, to_cylinders, to_point};
+    use super::{ClosestApproach, between_vehicles, to_cylinders, to_point};
     use crate::verdict::motion::{Knot, Motion};
     use crate::verdict::random::Uniform;
 
@@ -247,7 +247,7 @@ mod tests {
         Motion::new("uav", (0..=steps).map(knot).collect()).unwrap()
     }
 
-    fn assert_is(approach: &Approach, distance_m: f64, at_s: f64) {
+    fn assert_is(approach: &ClosestApproach, distance_m: f64, at_s: f64) {
         assert!(approach.lower_m <= distance_m + 1e-12 && distance_m <= approach.upper_m + 1e-9, "{approach:?}");
         assert!(approach.upper_m - approach.lower_m <= 1e-9, "{approach:?}");
         assert!((approach.at_s - at_s).abs() < 1e-4, "{approach:?}, not {at_s} s");

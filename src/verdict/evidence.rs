@@ -2,7 +2,7 @@
 
 use scenarios::CheckSpec;
 
-use crate::verdict::closest::Approach;
+use crate::verdict::closest::ClosestApproach;
 use crate::verdict::{Check, Status};
 
 /// What a check is made from, or why there is nothing to make it from.
@@ -32,7 +32,7 @@ impl Measurement {
     }
 
     /// A distance known within bounds, at its instant.
-    pub fn approach(approach: &Approach) -> Self {
+    pub fn approach(approach: &ClosestApproach) -> Self {
         Self::bounds(approach.lower_m, approach.upper_m).at(approach.at_s)
     }
 
@@ -149,14 +149,14 @@ mod tests {
 
     use super::{Decide, Measurement};
     use crate::verdict::Status;
-    use crate::verdict::closest::Approach;
+    use crate::verdict::closest::ClosestApproach;
 
     fn spec() -> &'static CheckSpec {
         check_spec("plan.separation").expect("a declared check")
     }
 
     fn bounds(lower_m: f64, upper_m: f64) -> Measurement {
-        Measurement::approach(&Approach { lower_m, upper_m, at_s: 1.0, who: [0, 1] })
+        Measurement::approach(&ClosestApproach { lower_m, upper_m, at_s: 1.0, who: [0, 1] })
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod planned;
 use scenarios::{CheckSpec, Family};
 
 pub use clearance::at_nodes as clearance_at_nodes;
-pub use planned::Planned;
+pub use planned::PlannedMotions;
 
 use crate::verdict::case::Case;
 use crate::verdict::evidence::{Decide, Evidence};
@@ -17,12 +17,12 @@ use crate::verdict::{Check, arrival, separation};
 
 /// Every check of a fixed-wing fleet.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
-    let planned = case.flyable().map_err(str::to_owned).and_then(|plan| Planned::new(case.scenario, plan));
+    let planned = case.flyable().map_err(str::to_owned).and_then(|plan| PlannedMotions::new(case.scenario, plan));
     let planned = planned.as_ref().map_err(String::as_str);
     case.checks(Family::FixedWing, |spec| check(spec, case, planned))
 }
 
-fn check(spec: &CheckSpec, case: &Case<'_>, planned: Evidence<'_, Planned>) -> Check {
+fn check(spec: &CheckSpec, case: &Case<'_>, planned: Evidence<'_, PlannedMotions>) -> Check {
     let (scenario, plan, flyable, flown) = (case.scenario, case.plan, case.flyable(), case.flown());
     let planned_motions = planned.map(|planned| planned.motions.as_slice());
     let flown_motions = flown.map(|flown| flown.motions.as_slice());

@@ -4,13 +4,13 @@ use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
 use sim::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
+use crate::verdict::collision;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
-use crate::verdict::flown::Flown;
+use crate::verdict::flown::FlownMotions;
 use crate::verdict::flown_reference;
 use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
 use crate::verdict::multirotor::planning;
-use crate::verdict::touch;
 
 /// Longest distance between two samples, in steps of the simulator: what rounding leaves above 1.
 const LONGEST_GAP_STEPS: f64 = 1.001;
@@ -59,10 +59,15 @@ pub fn check_complete(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight
 /// Number of crashes. A flight that goes through something without a word of it in its log has crashed too.
 ///
 /// `flown`: the same flight, to look for oneself
-pub fn check_crash(spec: &CheckSpec, scenario: &Scenario, flight: &Flight, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_crash(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    flight: &Flight,
+    flown: Evidence<'_, FlownMotions<'_>>,
+) -> Check {
     let mut crashes = flight.events.iter().filter_map(crash);
     let Some((t_s, concerned)) = crashes.next() else {
-        let unlogged = flown.ok().and_then(|flown| touch::deepest(scenario, &flown.motions));
+        let unlogged = flown.ok().and_then(|flown| collision::deepest(scenario, &flown.motions));
         return match unlogged {
             None => spec.at_most(Measurement::value(0.0), 0.0),
             Some(touch) => spec.at_most(touch.with_reason("they touch, although the log tells of no crash"), 0.0),

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 use sim::{Flight, Sample, VehicleLog};
 
-use crate::verdict::closest::{self, Approach};
+use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::motion::{Knot, Motion};
 
 /// An arrival is looked for from this long before the planned one to the end of the log, s.
@@ -17,7 +17,7 @@ const LOG_END_S: f64 = 1e-6;
 /// A vehicle is judged until its planned end, or until it arrives if that is later; a vehicle that does not arrive,
 /// until its log ends. The coasting after that is no part of the mission.
 #[derive(Clone, Debug)]
-pub struct Flown<'a> {
+pub struct FlownMotions<'a> {
     /// The motion of every vehicle while it is judged.
     pub motions: Vec<Motion>,
     /// Every vehicle's log, in the same order.
@@ -36,10 +36,10 @@ pub struct FlownVehicle<'a> {
     /// End of the log, s.
     pub log_end_s: f64,
     /// Closest approach to the goal, from 10 s before the planned arrival on; `None` if the log ends before.
-    pub approach: Option<Approach>,
+    pub approach: Option<ClosestApproach>,
 }
 
-impl<'a> Flown<'a> {
+impl<'a> FlownMotions<'a> {
     /// Matches the logs with the vehicles of a flyable plan. Refuses with the reason if they cannot be.
     pub fn new(scenario: &'a Scenario, plan: &Plan, flight: &'a Flight) -> Result<Self, String> {
         let (logs, vehicles) = (flight.vehicles.len(), scenario.vehicles.len());
@@ -95,10 +95,10 @@ fn part_that_counts<'a>(
 }
 
 /// A vehicle that hovers at its goal has arrived when its plan ends; `None` if the log ends before.
-fn hovering(motion: &Motion, planned_end_s: f64, goal_m: [f64; 3]) -> Option<Approach> {
+fn hovering(motion: &Motion, planned_end_s: f64, goal_m: [f64; 3]) -> Option<ClosestApproach> {
     let position_m = motion.position_m(planned_end_s)?;
     let distance_m = (0..3).map(|axis| (position_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
-    Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s: planned_end_s, who: [0, 0] })
+    Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s: planned_end_s, who: [0, 0] })
 }
 
 /// The samples up to the first one at or beyond `t_s`.

@@ -52,7 +52,7 @@ impl Integration {
     }
 
     /// Takes back what is decided by less than the disagreement: checks of the flight that are in metres.
-    pub fn doubt(&self, checks: &mut [Check]) {
+    pub fn mark_undecided(&self, checks: &mut [Check]) {
         let of_flight =
             |check: &&mut Check| check.name.starts_with("flight.") && check.name != DYNAMICS && check.unit == "m";
         for check in checks.iter_mut().filter(of_flight) {
@@ -111,7 +111,7 @@ mod tests {
 
     fn doubted(disagreement_m: Option<f64>, mut check: Check) -> Status {
         let integration = Integration { method: Method::FinerSteps, disagreement_m, half_to_quarter_m: None };
-        integration.doubt(std::slice::from_mut(&mut check));
+        integration.mark_undecided(std::slice::from_mut(&mut check));
         check.status
     }
 

@@ -31,10 +31,10 @@ pub fn judge_with(
 ) -> Verdict {
     let case = Case::new(scenario, plan, flight);
     let mut checks = (families::of(scenario.family()).checks)(&case);
-    provenance.qualify(&mut checks);
+    provenance.mark_undecided(&mut checks);
     let integration = integration.or_else(|| Integration::by_replay(&checks));
     if let Some(integration) = &integration {
-        integration.doubt(&mut checks);
+        integration.mark_undecided(&mut checks);
     }
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     apply_check_policy(scenario, &mut checks);

@@ -8,7 +8,7 @@ mod rest;
 
 use scenarios::{CheckSpec, Family, Plan};
 
-pub use clearance::{Clearances, Closest, closest};
+pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::Case;
 use crate::verdict::evidence::{Decide, Evidence};

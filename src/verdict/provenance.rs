@@ -37,7 +37,7 @@ impl Provenance {
 
     /// Takes back what the checks of an incomplete plan cannot say: questions about what was not given are skipped, and
     /// what is decided by less than the reconstruction's error becomes undecided.
-    pub(super) fn qualify(&self, checks: &mut [Check]) {
+    pub(super) fn mark_undecided(&self, checks: &mut [Check]) {
         let Some(reconstruction) = &self.reconstruction else { return };
         for check in checks {
             match check.name.as_str() {
@@ -51,7 +51,7 @@ impl Provenance {
                                   is right, give its controls, or nodes closer together";
                     check.reason = Some(remark.into());
                 }
-                name if name.starts_with("plan.") => reconstruction.doubt(check),
+                name if name.starts_with("plan.") => reconstruction.mark_undecided(check),
                 _ => {}
             }
         }
@@ -60,7 +60,7 @@ impl Provenance {
 
 impl Reconstruction {
     /// Whether the limit is kept cannot be told if the margin is smaller than the error.
-    fn doubt(&self, check: &mut Check) {
+    fn mark_undecided(&self, check: &mut Check) {
         let error = match check.unit.as_str() {
             "m" => self.position_m,
             "m/s" => self.velocity_mps,
@@ -123,7 +123,7 @@ mod tests {
 
     fn qualified(provenance: &Provenance, check: Check) -> Check {
         let mut checks = [check];
-        provenance.qualify(&mut checks);
+        provenance.mark_undecided(&mut checks);
         let [check] = checks;
         check
     }

@@ -6,7 +6,7 @@
 use scenarios::{CheckSpec, Plan, Scenario};
 
 use crate::verdict::Check;
-use crate::verdict::closest::{self, Approach};
+use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::compare::{exceeds, is_smaller};
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
@@ -31,7 +31,7 @@ fn answer<T: ?Sized>(
     spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Option<Approach>,
+    measure: impl Fn(&T) -> Option<ClosestApproach>,
 ) -> Check {
     let Some(limit_m) = scenario.fleet.separation_m else { return spec.skip("the fleet has no rule for it") };
     if scenario.vehicles.len() < 2 {
@@ -48,15 +48,15 @@ fn answer<T: ?Sized>(
 }
 
 /// Smallest horizontal distance between two vehicles at nodes that they share. `None` if they share none.
-pub fn at_nodes(plan: &Plan) -> Option<Approach> {
-    let mut nearest: Option<Approach> = None;
+pub fn at_nodes(plan: &Plan) -> Option<ClosestApproach> {
+    let mut nearest: Option<ClosestApproach> = None;
     for (i, first) in plan.trajectories.iter().enumerate() {
         for (j, second) in plan.trajectories.iter().enumerate().skip(i + 1) {
             for (node, (&at_s, _)) in first.times_s().iter().zip(second.times_s()).enumerate() {
                 let [a, b] = [first, second].map(|trajectory| trajectory.nodes().position_m(node));
                 let distance_m = (a[0] - b[0]).hypot(a[1] - b[1]);
                 if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
-                    nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, j] });
+                    nearest = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, j] });
                 }
             }
         }

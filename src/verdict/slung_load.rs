@@ -1,30 +1,30 @@
 //! The judge of quadrotors with slung loads.
 
-mod behind;
 mod cable;
 mod clearance;
 mod closest;
-mod course;
-mod end;
 mod flown;
 mod gates;
 mod limits;
+mod motion;
 mod physics;
 mod planned;
-mod span;
-mod surroundings;
+mod search_interval;
+mod separating_plane;
+mod shape_pairs;
+mod terminal_conditions;
 
 use scenarios::slung_load::{Model, Trajectory};
 use scenarios::{CheckSpec, Family, Vehicle};
 
 pub use cable::TENSION_WINDOW_S;
-pub use flown::Flown;
-pub use planned::Planned;
+pub use flown::FlownMotion;
+pub use planned::PlannedMotion;
 
-use self::end::End;
 use self::gates::Gates;
-use self::limits::Limited;
-use self::surroundings::Surroundings;
+use self::limits::LimitChecks;
+use self::shape_pairs::ShapePairs;
+use self::terminal_conditions::TerminalConditions;
 use crate::verdict::case::Case;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
@@ -46,12 +46,12 @@ struct SlungLoadCase<'a> {
     case: &'a Case<'a>,
     vehicle: &'a Vehicle,
     model: &'a Model,
-    surroundings: Surroundings<'a>,
-    limited: Limited<'a>,
-    end: End<'a>,
+    shape_pairs: ShapePairs<'a>,
+    limited: LimitChecks<'a>,
+    end: TerminalConditions<'a>,
     gates: Gates<'a>,
-    planned: Result<Planned, String>,
-    flown: Result<Flown<'a>, String>,
+    planned: Result<PlannedMotion, String>,
+    flown: Result<FlownMotion<'a>, String>,
 }
 
 impl<'a> SlungLoadCase<'a> {
@@ -61,12 +61,12 @@ impl<'a> SlungLoadCase<'a> {
             case,
             vehicle,
             model: scenario.slung_load_model(vehicle),
-            surroundings: Surroundings::of(scenario, vehicle),
-            limited: Limited::of(scenario, vehicle),
-            end: End::of(scenario, vehicle),
+            shape_pairs: ShapePairs::of(scenario, vehicle),
+            limited: LimitChecks::of(scenario, vehicle),
+            end: TerminalConditions::of(scenario, vehicle),
             gates: Gates::of(scenario, vehicle),
-            planned: case.flyable().map_err(str::to_owned).and_then(|plan| Planned::new(scenario, plan)),
-            flown: case.flight().map_err(str::to_owned).and_then(Flown::new),
+            planned: case.flyable().map_err(str::to_owned).and_then(|plan| PlannedMotion::new(scenario, plan)),
+            flown: case.flight().map_err(str::to_owned).and_then(FlownMotion::new),
         }
     }
 
@@ -76,21 +76,21 @@ impl<'a> SlungLoadCase<'a> {
         let trajectory = self.trajectory();
         let planned = self.planned.as_ref().map_err(String::as_str);
         let flown = self.flown.as_ref().map_err(String::as_str);
-        let planned_course = planned.map(|planned| &planned.course);
-        let flown_course = flown.map(|flown| &flown.course);
+        let planned_motion = planned.map(|planned| &planned.motion);
+        let flown_motion = flown.map(|flown| &flown.motion);
         let log = flown.map(|flown| flown.log);
         let end_s = self.case.plan.flight_time_s().unwrap_or(f64::NAN);
         match spec.name {
             "nodes.separation" => separation::check_nodes(spec, scenario, self.case.flyable()),
-            "nodes.clearance" => self.surroundings.check_nodes(spec, trajectory),
-            "nodes.envelope" => self.surroundings.check_envelope_nodes(spec, trajectory, envelope_m),
+            "nodes.clearance" => self.shape_pairs.check_nodes(spec, trajectory),
+            "nodes.envelope" => self.shape_pairs.check_envelope_nodes(spec, trajectory, envelope_m),
             "nodes.state_limits" => self.limited.check_node_states(spec, trajectory),
             "nodes.control_limits" => self.limited.check_node_thrusts(spec, trajectory),
             "nodes.goal" => self.end.check_node_goal(spec, trajectory),
             "nodes.gates" => self.gates.check_nodes(spec, trajectory),
             "plan.separation" => separation::check(spec, scenario, planned.map(|planned| &planned.motions[..1])),
-            "plan.clearance" => self.surroundings.check(spec, planned_course),
-            "plan.envelope" => self.surroundings.check_envelope(spec, planned_course, envelope_m),
+            "plan.clearance" => self.shape_pairs.check(spec, planned_motion),
+            "plan.envelope" => self.shape_pairs.check_envelope(spec, planned_motion, envelope_m),
             "plan.state_limits" => self.limited.check_planned_states(spec, planned),
             "plan.control_limits" => self.limited.check_planned_thrusts(spec, trajectory),
             "plan.dynamics" => check_defects(spec, name, planned, limits.dynamics_m),
@@ -100,13 +100,13 @@ impl<'a> SlungLoadCase<'a> {
             "plan.tension" => cable::check_planned_tension(spec, self.model, name, planned),
             "plan.slack" => cable::check_planned_cable(spec, self.model, trajectory, planned, limits.dynamics_m),
             "plan.swing" => self.limited.check_planned_swing(spec, planned),
-            "plan.gates" => self.gates.check(spec, planned_course),
+            "plan.gates" => self.gates.check(spec, planned_motion),
             // Body, cable and load are judged by their true shapes: what touches has no clearance.
             "flight.crash" => self.case.crash(spec, Err("")),
             "flight.separation" => separation::check(spec, scenario, flown.map(|flown| &flown.motions[..1])),
-            "flight.clearance" => self.surroundings.check(spec, flown_course),
+            "flight.clearance" => self.shape_pairs.check(spec, flown_motion),
             "flight.envelope" => {
-                self.surroundings.check_envelope(spec, flown_course, envelope_m.map(|_| FLOWN_ENVELOPE_M))
+                self.shape_pairs.check_envelope(spec, flown_motion, envelope_m.map(|_| FLOWN_ENVELOPE_M))
             }
             "flight.state_limits" => self.limited.check_flown_states(spec, flown),
             "flight.control_limits" => self.limited.check_flown_thrusts(spec, log),
@@ -116,7 +116,7 @@ impl<'a> SlungLoadCase<'a> {
             "flight.tension" => cable::check_flown_tension(spec, self.model, log),
             "flight.slack" => cable::check_flown_cable(spec, trajectory, self.case.flight(), limits.switch_s),
             "flight.swing" => self.limited.check_flown_swing(spec, flown),
-            "flight.gates" => self.gates.check(spec, flown_course),
+            "flight.gates" => self.gates.check(spec, flown_motion),
             _ => self.case.shared(spec),
         }
     }
@@ -127,7 +127,7 @@ impl<'a> SlungLoadCase<'a> {
 }
 
 /// Largest defect of the plan.
-fn check_defects(spec: &CheckSpec, vehicle: &str, planned: Evidence<'_, Planned>, limit_m: f64) -> Check {
+fn check_defects(spec: &CheckSpec, vehicle: &str, planned: Evidence<'_, PlannedMotion>, limit_m: f64) -> Check {
     let worst = planned.map(|planned| {
         planned.defects.iter().copied().reduce(|a, b| if is_larger(b.defect_m, a.defect_m) { b } else { a })
     });

@@ -10,20 +10,20 @@ use sim::Sample;
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
-use crate::verdict::flown::Flown;
+use crate::verdict::flown::FlownMotions;
 
 /// Largest distance from the plan.
-pub fn check_largest(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_largest(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     answer(spec, flown, largest, scenario.limits().tracking_max_m)
 }
 
 /// Largest root mean square of the distance from the plan.
-pub fn check_root_mean_square(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_root_mean_square(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     answer(spec, flown, |samples| (root_mean_square(samples), None), scenario.limits().tracking_rms_m)
 }
 
 /// Largest share of the steps in which the command was cut off, in [0, 1].
-pub fn check_saturation(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_saturation(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     answer(spec, flown, |samples| (saturation(samples), None), scenario.limits().saturation)
 }
 
@@ -55,7 +55,7 @@ fn squared_error_m2(sample: &Sample) -> f64 {
 
 fn answer(
     spec: &CheckSpec,
-    flown: Evidence<'_, Flown<'_>>,
+    flown: Evidence<'_, FlownMotions<'_>>,
     measure: impl Fn(&[Sample]) -> (f64, Option<f64>),
     limit: f64,
 ) -> Check {

@@ -1,7 +1,7 @@
 //! Which checks decide: skipped, advisory, required ones; and what the verdict says of the planner.
 
 use harness::metrics::{Metrics, clearance_over_time, measure, separation_over_time};
-use harness::verdict::{Flown, Outcome, Status, Verdict};
+use harness::verdict::{FlownMotions, Outcome, Status, Verdict};
 use scenarios::PlanStatus;
 
 use crate::fleet::{Case, check, factors};
@@ -219,7 +219,7 @@ fn distances_over_time_agree_with_the_verdict() {
         sample.position_m[1] -= 2.0 * sample.t_s;
         sample.velocity_mps[1] = -2.0;
     }
-    let flown = Flown::new(&case.scenario, &case.plan, case.flight.as_ref().unwrap()).unwrap();
+    let flown = FlownMotions::new(&case.scenario, &case.plan, case.flight.as_ref().unwrap()).unwrap();
     let separation = separation_over_time(&flown.motions, 0.5);
     assert_eq!(separation.len(), 41);
     for nearest in &separation {

@@ -4,7 +4,7 @@ use scenarios::PlanStatus;
 
 use crate::number_format::{given_quantity, quantity, signed_quantity};
 use crate::report::Report;
-use crate::verdict::{Check, Outcome, Status, TELLING};
+use crate::verdict::{Check, KEY_CHECKS, Outcome, Status};
 
 /// Failed checks that the line names; the others are counted.
 const FAILURES_NAMED: usize = 3;
@@ -36,7 +36,7 @@ pub(super) fn warnings(report: &Report) -> impl Iterator<Item = &Check> {
 
 /// For each telling name the check with the smallest margin over all groups.
 fn smallest_margins(report: &Report) -> String {
-    let margins: Vec<String> = TELLING.iter().filter_map(|name| smallest_margin(&report.checks, name)).collect();
+    let margins: Vec<String> = KEY_CHECKS.iter().filter_map(|name| smallest_margin(&report.checks, name)).collect();
     match margins.as_slice() {
         [] => "every deciding check passed".into(),
         margins => format!("smallest margins: {}", margins.join("; ")),

@@ -6,7 +6,7 @@
 use scenarios::{CheckSpec, Plan, Scenario, World};
 
 use crate::verdict::Check;
-use crate::verdict::closest::{self, Approach};
+use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
@@ -25,7 +25,7 @@ fn answer<T: ?Sized>(
     spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Option<Approach>,
+    measure: impl Fn(&T) -> Option<ClosestApproach>,
 ) -> Check {
     if scenario.world.cylinders.is_empty() {
         return spec.skip("there are no obstacles");
@@ -42,15 +42,15 @@ fn answer<T: ?Sized>(
 }
 
 /// Smallest distance of a node to an obstacle's surface. `None` without nodes or obstacles.
-pub fn at_nodes(world: &World, plan: &Plan) -> Option<Approach> {
-    let mut nearest: Option<Approach> = None;
+pub fn at_nodes(world: &World, plan: &Plan) -> Option<ClosestApproach> {
+    let mut nearest: Option<ClosestApproach> = None;
     for (i, trajectory) in plan.trajectories.iter().enumerate() {
         for (node, &at_s) in trajectory.times_s().iter().enumerate() {
             let [x_m, y_m, _] = trajectory.nodes().position_m(node);
             for (m, cylinder) in world.cylinders.iter().enumerate() {
                 let distance_m = cylinder.signed_distance_m(x_m, y_m);
                 if nearest.is_none_or(|nearest| is_smaller(distance_m, nearest.upper_m)) {
-                    nearest = Some(Approach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, m] });
+                    nearest = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, m] });
                 }
             }
         }

@@ -5,14 +5,19 @@
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
-use super::planned::Planned;
+use super::planned::PlannedMotions;
 use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 
 /// Largest distance between the end of an interval and the next node: the larger of |Δp| and |Δv| times the interval's
 /// length, m.
-pub fn check_defects(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
+pub fn check_defects(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    planned: Evidence<'_, PlannedMotions>,
+) -> Check {
     let planned = match planned {
         Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,
@@ -33,7 +38,12 @@ pub fn check_defects(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned
 }
 
 /// Largest distance between the last node and where the controls lead, open loop from the start, m.
-pub fn check_rollout(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: Evidence<'_, Planned>) -> Check {
+pub fn check_rollout(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    planned: Evidence<'_, PlannedMotions>,
+) -> Check {
     let planned = match planned {
         Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,

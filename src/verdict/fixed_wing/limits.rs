@@ -13,9 +13,9 @@ use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
 use crate::verdict::Check;
 use crate::verdict::evidence::Evidence;
-use crate::verdict::flown::Flown;
+use crate::verdict::flown::FlownMotions;
+use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::Motion;
-use crate::verdict::on_the_map::OnTheMap;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 
 /// States at the nodes against the planning limits.
@@ -43,8 +43,8 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evid
     })
 }
 
-/// Flown states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+/// FlownMotions states against the physical limits.
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     check_limits(spec, flown, |flown, worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario, physical).zip(logs) {
@@ -70,7 +70,7 @@ pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: Evide
 }
 
 /// Controls that acted in flight against the physical limits.
-pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     check_limits(spec, flown, |flown, worst| {
         for (limited, vehicle) in limited_vehicles(scenario, physical).zip(&flown.vehicles) {
             for sample in vehicle.judged {
@@ -107,7 +107,7 @@ fn limited_vehicles<'a>(
 ) -> impl Iterator<Item = Limited<'a>> {
     scenario.vehicles.iter().map(move |vehicle| Limited {
         vehicle: &vehicle.name,
-        map: OnTheMap::new(scenario, &vehicle.name),
+        map: MapBounds::new(scenario, &vehicle.name),
         limits: limits(scenario.fixed_wing_model(vehicle)),
     })
 }
@@ -115,7 +115,7 @@ fn limited_vehicles<'a>(
 /// A vehicle and what it has to stay inside.
 struct Limited<'a> {
     vehicle: &'a str,
-    map: OnTheMap<'a>,
+    map: MapBounds<'a>,
     limits: Limits,
 }
 

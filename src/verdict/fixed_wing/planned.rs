@@ -15,7 +15,7 @@ const OPEN_LOOP_STEP_S: f64 = 0.25;
 
 /// The motions that a plan's controls cause.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct PlannedMotions {
     /// One per vehicle. At every node the motion jumps from where the interval before it ends to the node itself.
     pub motions: Vec<Motion>,
     /// Per vehicle, the end of every interval.
@@ -24,7 +24,7 @@ pub struct Planned {
     pub open_loop_ends: Vec<Knot>,
 }
 
-impl Planned {
+impl PlannedMotions {
     /// Integrates `plan`, which is flyable. Refuses one that lasts longer than the scenario allows, or whose controls
     /// lead out of the numbers that can be judged.
     pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {

@@ -12,8 +12,8 @@ use sim::multirotor::Surroundings;
 use crate::verdict::Check;
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::map_bounds::extremes_m;
 use crate::verdict::motion::{Motion, Segment};
-use crate::verdict::on_the_map::extremes_m;
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-4;
@@ -24,7 +24,7 @@ const FRAME: &str = "map frame";
 
 /// The closest that a vehicle came to something.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Closest {
+pub struct ObstacleApproach {
     /// The distance is not smaller than this, m.
     pub lower_m: f64,
     /// It is not larger than this, m.
@@ -53,7 +53,7 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, 
             for (vehicle, motion) in motions.iter().enumerate() {
                 for knot in motion.knots() {
                     let (distance_m, obstacle) = clearances.at(vehicle, knot.t_s, knot.position_m);
-                    consider(&mut best, distance_m, || Closest {
+                    consider(&mut best, distance_m, || ObstacleApproach {
                         lower_m: distance_m,
                         upper_m: distance_m,
                         at_s: knot.t_s,
@@ -68,7 +68,7 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, 
 }
 
 /// The closest that any vehicle comes to anything. `None` without vehicles.
-pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
+pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ObstacleApproach> {
     let surroundings = Surroundings::of(&scenario.world);
     let mut best = None;
     let (mut spans, mut unsure_m) = (0, f64::INFINITY);
@@ -89,14 +89,14 @@ pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<Closest> {
         }
     }
     // Whatever was not looked at more closely is no nearer than this.
-    best.map(|best| Closest {
+    best.map(|best| ObstacleApproach {
         lower_m: (best.upper_m - RESOLUTION_M).min(unsure_m),
         upper_m: best.upper_m + 2.0 * motions[best.vehicle].deviation_m(),
         ..best
     })
 }
 
-fn answer(spec: &CheckSpec, scenario: &Scenario, closest: Result<Option<Closest>, &str>) -> Check {
+fn answer(spec: &CheckSpec, scenario: &Scenario, closest: Result<Option<ObstacleApproach>, &str>) -> Check {
     match closest {
         Err(reason) => spec.fail(reason),
         Ok(None) => spec.fail("no vehicle could be compared with an obstacle at any time"),
@@ -107,7 +107,7 @@ fn answer(spec: &CheckSpec, scenario: &Scenario, closest: Result<Option<Closest>
     }
 }
 
-fn consider(best: &mut Option<Closest>, distance_m: f64, found: impl FnOnce() -> Closest) {
+fn consider(best: &mut Option<ObstacleApproach>, distance_m: f64, found: impl FnOnce() -> ObstacleApproach) {
     if best.as_ref().is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
         *best = Some(found());
     }
@@ -141,11 +141,11 @@ impl<'a> Clearances<'a> {
     }
 }
 
-fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<Closest>) {
+fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<ObstacleApproach>) {
     for (axis, range) in scenario.world.map.axes().into_iter().enumerate() {
         for (value, at_s) in extremes_m(motion, axis) {
             let distance_m = range.margin(value) - reach_m;
-            consider(best, distance_m, || Closest {
+            consider(best, distance_m, || ObstacleApproach {
                 lower_m: distance_m,
                 upper_m: distance_m,
                 at_s,
@@ -163,7 +163,7 @@ struct Search<'a> {
     /// How far the vehicle reaches from its curve, m.
     reach_m: f64,
     vehicle: usize,
-    best: &'a mut Option<Closest>,
+    best: &'a mut Option<ObstacleApproach>,
     /// How many spans were looked at.
     spans: &'a mut usize,
     /// What a span could hold that was given up, m.
@@ -177,7 +177,7 @@ impl Search<'_> {
         let t_s = segment.instant_s(middle);
         let position_m = segment.during(segment.t_s[0], t_s).points_m[3];
         let distance_m = self.surroundings.distance_m(self.obstacle, t_s, position_m) - self.reach_m;
-        consider(self.best, distance_m, || Closest {
+        consider(self.best, distance_m, || ObstacleApproach {
             lower_m: distance_m,
             upper_m: distance_m,
             at_s: t_s,

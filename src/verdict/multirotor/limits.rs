@@ -12,10 +12,10 @@ use sim::{Actuation, Commanded, Sample};
 use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::Evidence;
+use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::{Motion, Segment};
-use crate::verdict::on_the_map::OnTheMap;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
-use crate::verdict::{Check, Flown};
+use crate::verdict::{Check, FlownMotions};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
 const ROTATION_TOLERANCE: f64 = 1e-6;
@@ -47,8 +47,8 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evid
     })
 }
 
-/// Flown states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+/// FlownMotions states against the physical limits.
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     check_limits(spec, flown, |flown, worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
@@ -61,7 +61,7 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence
     })
 }
 
-/// Planned accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
+/// PlannedMotions accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
 /// limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
 pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
     check_limits(spec, motions, |motions, worst| {
@@ -77,7 +77,7 @@ pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: Evide
 }
 
 /// What acted in flight against the physical limits.
-pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     check_limits(spec, flown, |flown, worst| {
         for (limited, vehicle) in limited_vehicles(scenario).zip(&flown.vehicles) {
             for sample in vehicle.judged {
@@ -93,14 +93,14 @@ fn limited_vehicles(scenario: &Scenario) -> impl Iterator<Item = Limited<'_>> {
         let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
         let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
         let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
-        Limited { vehicle: &vehicle.name, map: OnTheMap::new(scenario, &vehicle.name), model, promised }
+        Limited { vehicle: &vehicle.name, map: MapBounds::new(scenario, &vehicle.name), model, promised }
     })
 }
 
 /// A vehicle and what it has to stay inside.
 struct Limited<'a> {
     vehicle: &'a str,
-    map: OnTheMap<'a>,
+    map: MapBounds<'a>,
     model: &'a Model,
     /// What its planner promised to keep, widened by what a solver may leave.
     promised: Limits,

@@ -5,7 +5,7 @@ use scenarios::{CheckSpec, Plan, Scenario};
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use crate::verdict::motion::Motion;
-use crate::verdict::{Check, Flown};
+use crate::verdict::{Check, FlownMotions};
 
 /// Speed at the end of the plan.
 pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
@@ -16,7 +16,7 @@ pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_
 }
 
 /// Speed in flight when the plan ends.
-pub fn check_flown(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flown: Evidence<'_, Flown<'_>>) -> Check {
+pub fn check_flown(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
     answer(spec, scenario, flown, |flown, index| {
         let end_s = plan.trajectories.get(index)?.end_s()?;
         // A thousandth of a millisecond is rounding, not time.

@@ -4,7 +4,7 @@ use scenarios::slung_load::{Cable, Model, Trajectory};
 use sim::slung_load::SHORTEST_PHASE_S;
 use sim::{EventKind, Flight, VehicleLog};
 
-use super::planned::Planned;
+use super::planned::PlannedMotion;
 use crate::verdict::Check;
 use crate::verdict::compare::{exceeds, is_larger, is_smaller};
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
@@ -17,7 +17,12 @@ const PUSH_N: f64 = 1e-3;
 
 /// The plan's tension: never below 0 in a taut cable, which cannot push, and its mean, impacts included, below what the
 /// cable bears.
-pub fn check_planned_tension(spec: &CheckSpec, model: &Model, vehicle: &str, planned: Evidence<'_, Planned>) -> Check {
+pub fn check_planned_tension(
+    spec: &CheckSpec,
+    model: &Model,
+    vehicle: &str,
+    planned: Evidence<'_, PlannedMotion>,
+) -> Check {
     let planned = match planned {
         Err(reason) => return spec.fail(reason),
         Ok(planned) => planned,
@@ -86,7 +91,7 @@ pub fn check_planned_cable(
     spec: &CheckSpec,
     model: &Model,
     trajectory: Evidence<'_, Trajectory>,
-    planned: Evidence<'_, Planned>,
+    planned: Evidence<'_, PlannedMotion>,
     limit_m: f64,
 ) -> Check {
     let (trajectory, planned) = match trajectory.and_then(|trajectory| Ok((trajectory, planned?))) {
@@ -108,7 +113,7 @@ pub fn check_planned_cable(
     }
 }
 
-/// Largest difference between the instants at which the planned and the flown cable become taut or slack. Phases shorter
+/// Largest difference between the samples at which the planned and the flown cable become taut or slack. Phases shorter
 /// than 10 ms do not count; one that has no counterpart fails.
 pub fn check_flown_cable(
     spec: &CheckSpec,

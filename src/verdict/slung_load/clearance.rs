@@ -3,18 +3,18 @@
 use scenarios::slung_load::Trajectory;
 use sim::slung_load::{GROUND, Part};
 
-use super::closest::Closest;
-use super::course::Course;
-use super::surroundings::{Shape, Surroundings};
+use super::closest::ClosestApproach;
+use super::motion::SlungLoadMotion;
+use super::shape_pairs::{Shape, ShapePairs};
 use crate::verdict::Check;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 use scenarios::CheckSpec;
 
-impl Surroundings<'_> {
+impl ShapePairs<'_> {
     /// Body, cable and load against every obstacle, the body against the ground as well; the limit is 0.
-    pub fn check(&self, spec: &CheckSpec, course: Evidence<'_, Course>) -> Check {
+    pub fn check(&self, spec: &CheckSpec, motion: Evidence<'_, SlungLoadMotion>) -> Check {
         let shapes = self.parts();
-        self.answer(spec, &shapes, course.map(|course| self.closest(course, &shapes)), 0.0)
+        self.answer(spec, &shapes, motion.map(|motion| self.closest(motion, &shapes)), 0.0)
     }
 
     /// The same at the planner's own nodes.
@@ -25,9 +25,14 @@ impl Surroundings<'_> {
     }
 
     /// The envelope circle against every obstacle, if the scenario asks for it.
-    pub fn check_envelope(&self, spec: &CheckSpec, course: Evidence<'_, Course>, limit_m: Option<f64>) -> Check {
+    pub fn check_envelope(
+        &self,
+        spec: &CheckSpec,
+        motion: Evidence<'_, SlungLoadMotion>,
+        limit_m: Option<f64>,
+    ) -> Check {
         let shapes = self.envelopes();
-        let closest = course.map(|course| self.closest(course, &shapes));
+        let closest = motion.map(|motion| self.closest(motion, &shapes));
         limit_m.map_or_else(|| no_envelope(spec), |limit_m| self.answer(spec, &shapes, closest, limit_m))
     }
 
@@ -47,7 +52,7 @@ impl Surroundings<'_> {
         &self,
         spec: &CheckSpec,
         shapes: &[Shape],
-        closest: Result<Option<Closest>, &str>,
+        closest: Result<Option<ClosestApproach>, &str>,
         limit_m: f64,
     ) -> Check {
         if shapes.is_empty() {

@@ -1,7 +1,7 @@
 //! The smallest signed distance over continuous time, by branch and bound.
 //!
 //! Within a span of time no point of a shape moves farther from where it is in the middle than its largest speed allows,
-//! which bounds the distance from below; and nothing is nearer than the [plane](super::behind) between the two, which is a
+//! which bounds the distance from below; and nothing is nearer than the [plane](super::separating_plane) between the two, which is a
 //! bound of second order. Spans are halved until the bounds meet. No sampling: an edge that is cut between two samples is
 //! found.
 
@@ -10,10 +10,10 @@ use std::collections::BinaryHeap;
 use scenarios::slung_load::Trajectory;
 use sim::slung_load::{Body, OVERHANG_M};
 
-use super::behind;
-use super::course::{Course, Speeds};
-use super::span::Span;
-use super::surroundings::{Shape, Surroundings};
+use super::motion::{SlungLoadMotion, Speeds};
+use super::search_interval::SearchInterval;
+use super::separating_plane;
+use super::shape_pairs::{Shape, ShapePairs};
 use crate::verdict::compare::{exceeds, is_smaller};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -25,7 +25,7 @@ const MOST_SPANS: usize = 400_000;
 
 /// A smallest distance with bounds, deviations of the true motion from the curves taken off.
 #[derive(Clone, Copy, Debug)]
-pub struct Closest {
+pub struct ClosestApproach {
     /// Bounds, m.
     pub lower_m: f64,
     pub upper_m: f64,
@@ -36,35 +36,41 @@ pub struct Closest {
     pub shape: Shape,
 }
 
-impl Surroundings<'_> {
+impl ShapePairs<'_> {
     /// Smallest distance at the planner's own nodes.
-    pub fn closest_node(&self, trajectory: &Trajectory, shapes: &[Shape]) -> Option<Closest> {
-        let mut best: Option<Closest> = None;
+    pub fn closest_node(&self, trajectory: &Trajectory, shapes: &[Shape]) -> Option<ClosestApproach> {
+        let mut best: Option<ClosestApproach> = None;
         for node in trajectory.planner_nodes() {
             let body = Body::from(&trajectory.states[node]);
             for &shape in shapes {
                 let distance_m = self.distance_m(shape, &body);
                 if best.is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
                     let at_s = trajectory.times_s[node];
-                    best = Some(Closest { lower_m: distance_m, upper_m: distance_m, deviation_m: 0.0, at_s, shape });
+                    best = Some(ClosestApproach {
+                        lower_m: distance_m,
+                        upper_m: distance_m,
+                        deviation_m: 0.0,
+                        at_s,
+                        shape,
+                    });
                 }
             }
         }
         best
     }
 
-    /// Smallest distance of any of the shapes over the whole course. `None` without a segment.
-    pub fn closest(&self, course: &Course, shapes: &[Shape]) -> Option<Closest> {
+    /// Smallest distance of any of the shapes over the whole motion. `None` without a segment.
+    pub fn closest(&self, motion: &SlungLoadMotion, shapes: &[Shape]) -> Option<ClosestApproach> {
         let mut spans = BinaryHeap::new();
-        let mut best: Option<Closest> = None;
+        let mut best: Option<ClosestApproach> = None;
         // In wide strides first, so that most of what lies between is known to be farther away at a glance.
-        let segments: Vec<usize> = course.segments().collect();
+        let segments: Vec<usize> = motion.segments().collect();
         for segment in (0..STRIDE).flat_map(|first| segments.iter().copied().skip(first).step_by(STRIDE)) {
-            let speeds = course.speeds(segment);
+            let speeds = motion.speeds(segment);
             spans.extend(
                 shapes
                     .iter()
-                    .filter_map(|&shape| self.measured(course, shape, segment, [0.0, 1.0], &speeds, &mut best)),
+                    .filter_map(|&shape| self.measured(motion, shape, segment, [0.0, 1.0], &speeds, &mut best)),
             );
         }
         let mut looked_at = spans.len();
@@ -74,33 +80,33 @@ impl Surroundings<'_> {
             let is_close = lower_m >= upper_m - RESOLUTION_M;
             if is_close || looked_at >= MOST_SPANS || lower_m.is_nan() {
                 let known_m = lower_m.min(upper_m - RESOLUTION_M);
-                return best.map(|best| Closest { lower_m: known_m, ..best }.or_nan(lower_m));
+                return best.map(|best| ClosestApproach { lower_m: known_m, ..best }.or_nan(lower_m));
             }
-            let speeds = course.speeds(span.segment);
+            let speeds = motion.speeds(span.segment);
             for half in span.halves() {
-                spans.extend(self.measured(course, span.of, span.segment, half, &speeds, &mut best));
+                spans.extend(self.measured(motion, span.of, span.segment, half, &speeds, &mut best));
             }
             looked_at += 2;
         }
         // Nothing was left to look at: everything else is farther away than this, but for the resolution.
-        best.map(|best| Closest { lower_m: best.upper_m - RESOLUTION_M, ..best })
+        best.map(|best| ClosestApproach { lower_m: best.upper_m - RESOLUTION_M, ..best })
     }
 
     /// Looks at the middle of a span, and bounds what it cannot be below. `None` if that is no closer than the best.
     fn measured(
         &self,
-        course: &Course,
+        motion: &SlungLoadMotion,
         shape: Shape,
         segment: usize,
         share: [f64; 2],
         speeds: &Speeds,
-        best: &mut Option<Closest>,
-    ) -> Option<Span<Shape>> {
+        best: &mut Option<ClosestApproach>,
+    ) -> Option<SearchInterval<Shape>> {
         let middle = f64::midpoint(share[0], share[1]);
-        let body = course.at(segment, middle);
-        let deviation_m = self.deviation_m(shape, course.deviation(segment));
-        let moved_m = self.speed_mps(shape, speeds) * course.duration_s(segment) * (share[1] - share[0]) / 2.0;
-        let is_far = |distance_m: f64, best: &Option<Closest>| {
+        let body = motion.at(segment, middle);
+        let deviation_m = self.deviation_m(shape, motion.deviation(segment));
+        let moved_m = self.speed_mps(shape, speeds) * motion.duration_s(segment) * (share[1] - share[0]) / 2.0;
+        let is_far = |distance_m: f64, best: &Option<ClosestApproach>| {
             best.is_some_and(|best| distance_m - moved_m >= best.upper_m - RESOLUTION_M)
         };
         if is_far(self.at_least_m(shape, &body) - deviation_m, best) {
@@ -110,21 +116,21 @@ impl Surroundings<'_> {
         let distance_m = distance_m - deviation_m;
         let lower_m = match (shape, plane) {
             (Shape::Part(part, _), Some(plane)) if moved_m < OVERHANG_M && !distance_m.is_nan() => {
-                let in_front_m = behind::in_front_m(&plane, &self.parts, part, course, segment, share);
+                let in_front_m = separating_plane::in_front_m(&plane, &self.parts, part, motion, segment, share);
                 (distance_m - moved_m).max(in_front_m - deviation_m)
             }
             _ => distance_m - moved_m,
         };
         if best.is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
-            let at_s = course.time_s(segment, middle);
-            *best = Some(Closest { lower_m: distance_m, upper_m: distance_m, deviation_m, at_s, shape });
+            let at_s = motion.time_s(segment, middle);
+            *best = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, deviation_m, at_s, shape });
         }
         let is_worth = best.is_none_or(|best| exceeds(best.upper_m - RESOLUTION_M, lower_m));
-        is_worth.then_some(Span { bound: -lower_m, segment, share, of: shape })
+        is_worth.then_some(SearchInterval { bound: -lower_m, segment, share, of: shape })
     }
 }
 
-impl Closest {
+impl ClosestApproach {
     fn or_nan(self, lower_m: f64) -> Self {
         if lower_m.is_nan() { Self { lower_m, upper_m: lower_m, ..self } } else { self }
     }
@@ -137,8 +143,8 @@ mod tests {
     use sim::slung_load::{Body, Part, Parts};
 
     use crate::verdict::random::Uniform;
-    use crate::verdict::slung_load::course::{Course, Instant};
-    use crate::verdict::slung_load::surroundings::{Shape, Surroundings};
+    use crate::verdict::slung_load::motion::{MotionSample, SlungLoadMotion};
+    use crate::verdict::slung_load::shape_pairs::{Shape, ShapePairs};
 
     fn model() -> scenarios::slung_load::Model {
         let text = include_str!("../../../scenarios/slung/rectangle.toml");
@@ -146,19 +152,19 @@ mod tests {
         scenario.slung_load_model(&scenario.vehicles[0]).clone()
     }
 
-    fn surroundings(obstacles: Vec<Prism>) -> Surroundings<'static> {
-        Surroundings { vehicle: "carrier", parts: Parts::of(&model()), obstacles, ground_m: None }
+    fn shape_pairs(obstacles: Vec<Prism>) -> ShapePairs<'static> {
+        ShapePairs { vehicle: "carrier", parts: Parts::of(&model()), obstacles, ground_m: None }
     }
 
     fn wall(z_m: Option<scenarios::Range>) -> Prism {
         Prism { name: "wall".into(), corners_m: vec![[0.5, 0.4], [-0.5, 0.4], [-0.5, -0.4], [0.5, -0.4]], z_m }
     }
 
-    fn level(t_s: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Instant {
+    fn level(t_s: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> MotionSample {
         let load_position_m = position_m - Vector3::z() * 0.65;
         let (attitude, body_rate_radps) = (UnitQuaternion::identity(), Vector3::zeros());
         let load_velocity_mps = velocity_mps;
-        Instant {
+        MotionSample {
             t_s,
             body: Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps },
         }
@@ -171,9 +177,9 @@ mod tests {
             let direction = Vector3::new(1.0, -1.0, 0.0).normalize() * 2.0;
             let nearest_m = Vector3::new(0.5, 0.4, 1.0) + Vector3::new(1.0, 1.0, 0.0).normalize();
             let at = |t_s: f64| level(t_s, nearest_m + direction * (t_s - 1.5 - offset_s), direction);
-            let instants = (0..=steps).map(|step| at(4.0 * f64::from(step) / f64::from(steps))).collect();
-            let surroundings = surroundings(vec![wall(None)]);
-            let closest = surroundings.closest(&Course::new(instants), &surroundings.parts()).unwrap();
+            let samples = (0..=steps).map(|step| at(4.0 * f64::from(step) / f64::from(steps))).collect();
+            let shape_pairs = shape_pairs(vec![wall(None)]);
+            let closest = shape_pairs.closest(&SlungLoadMotion::new(samples), &shape_pairs.parts()).unwrap();
             let expected_m = 1.0 - model().body_radius_m();
             assert!(closest.lower_m <= expected_m + 1e-9 && expected_m <= closest.upper_m + 1e-6, "{closest:?}");
             assert!(closest.upper_m - closest.lower_m <= 1.1e-6, "{closest:?}");
@@ -181,9 +187,9 @@ mod tests {
         }
     }
 
-    fn wild(uniform: &mut Uniform) -> Course {
+    fn wild(uniform: &mut Uniform) -> SlungLoadMotion {
         let mut t_s = 0.0;
-        let instants = (0..12).map(|_| {
+        let samples = (0..12).map(|_| {
             let mut vector = |most: f64| Vector3::from_fn(|_, _| uniform.between(-most, most));
             let (position_m, velocity_mps) = (vector(2.0), vector(3.0));
             let (load_position_m, load_velocity_mps) = (position_m + vector(0.4), vector(3.0));
@@ -191,28 +197,28 @@ mod tests {
             let body_rate_radps = Vector3::zeros();
             let body = Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps };
             t_s += uniform.between(0.05, 0.6);
-            Instant { t_s, body }
+            MotionSample { t_s, body }
         });
-        Course::new(instants.collect())
+        SlungLoadMotion::new(samples.collect())
     }
 
-    /// A million instants of wild motions among two obstacles, one that ends below and above, one that does not.
+    /// A million samples of wild motions among two obstacles, one that ends below and above, one that does not.
     #[test]
     fn no_instant_of_wild_motions_is_nearer_than_the_bound() {
         let mut uniform = Uniform::seeded(11);
         let far = Prism { name: "far".into(), corners_m: vec![[2.6, 2.0], [1.7, 2.4], [1.8, 1.5]], z_m: None };
         for round in 0..25 {
-            let surroundings = surroundings(vec![wall(Some(scenarios::Range::new(-0.2, 0.3))), far.clone()]);
-            let course = wild(&mut uniform);
+            let shape_pairs = shape_pairs(vec![wall(Some(scenarios::Range::new(-0.2, 0.3))), far.clone()]);
+            let motion = wild(&mut uniform);
             for part in Part::ALL {
                 let shapes = [Shape::Part(part, 0), Shape::Part(part, 1)];
-                let closest = surroundings.closest(&course, &shapes).unwrap();
+                let closest = shape_pairs.closest(&motion, &shapes).unwrap();
                 let mut sampled_m = f64::INFINITY;
                 for _ in 0..40_000 / 3 {
                     let segment = (uniform.between(0.0, 11.0) as usize).min(10);
-                    let body = course.at(segment, uniform.between(0.0, 1.0));
+                    let body = motion.at(segment, uniform.between(0.0, 1.0));
                     sampled_m =
-                        shapes.iter().map(|shape| surroundings.distance_m(*shape, &body)).fold(sampled_m, f64::min);
+                        shapes.iter().map(|shape| shape_pairs.distance_m(*shape, &body)).fold(sampled_m, f64::min);
                 }
                 assert!(sampled_m >= closest.lower_m - 1e-9, "{round} {part:?}: {sampled_m} below {closest:?}");
                 // Overlapping shapes have a depth, which is no distance; it is not bounded from both sides.

@@ -9,8 +9,8 @@ use scenarios::slung_load::Trajectory;
 use scenarios::{CheckSpec, Gate, Scenario, Vehicle};
 use sim::slung_load::Body;
 
-use super::course::Course;
-use super::span::Span;
+use super::motion::SlungLoadMotion;
+use super::search_interval::SearchInterval;
 use crate::verdict::Check;
 use crate::verdict::compare::{is_larger, is_smaller};
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
@@ -48,8 +48,8 @@ impl<'a> Gates<'a> {
     }
 
     /// Over continuous time.
-    pub fn check(&self, spec: &CheckSpec, course: Evidence<'_, Course>) -> Check {
-        self.answer(spec, course, deepest)
+    pub fn check(&self, spec: &CheckSpec, motion: Evidence<'_, SlungLoadMotion>) -> Check {
+        self.answer(spec, motion, deepest)
     }
 
     /// The gate in which they are least deep decides.
@@ -96,25 +96,25 @@ fn deepest_node(gate: &Gate, trajectory: &Trajectory) -> Option<Deepest> {
 }
 
 /// `None` where nothing is known of any time.
-fn deepest(gate: &Gate, course: &Course) -> Option<Deepest> {
+fn deepest(gate: &Gate, motion: &SlungLoadMotion) -> Option<Deepest> {
     let mut best: Option<Deepest> = None;
     let mut measured = |segment: usize, share: [f64; 2]| {
         let middle = f64::midpoint(share[0], share[1]);
-        let deviation = course.deviation(segment);
+        let deviation = motion.deviation(segment);
         let deviation_m = deviation.quadrotor_m.max(deviation.load_m);
-        let depth_m = depth_m(gate, &course.at(segment, middle)) - deviation_m;
+        let depth_m = depth_m(gate, &motion.at(segment, middle)) - deviation_m;
         if best.map_or(!depth_m.is_nan(), |best| depth_m > best.lower_m) {
             best =
-                Some(Deepest { lower_m: depth_m, upper_m: depth_m, deviation_m, at_s: course.time_s(segment, middle) });
+                Some(Deepest { lower_m: depth_m, upper_m: depth_m, deviation_m, at_s: motion.time_s(segment, middle) });
         }
-        let speeds = course.speeds(segment);
+        let speeds = motion.speeds(segment);
         let moved_m =
-            speeds.quadrotor_mps.max(speeds.load_mps) * course.duration_s(segment) * (share[1] - share[0]) / 2.0;
-        let span = Span { bound: depth_m + moved_m, segment, share, of: () };
+            speeds.quadrotor_mps.max(speeds.load_mps) * motion.duration_s(segment) * (share[1] - share[0]) / 2.0;
+        let span = SearchInterval { bound: depth_m + moved_m, segment, share, of: () };
         (best, Some(span).filter(|span| best.is_some_and(|best| span.bound > best.lower_m + RESOLUTION_M)))
     };
-    let mut spans: BinaryHeap<Span<()>> =
-        course.segments().filter_map(|segment| measured(segment, [0.0, 1.0]).1).collect();
+    let mut spans: BinaryHeap<SearchInterval<()>> =
+        motion.segments().filter_map(|segment| measured(segment, [0.0, 1.0]).1).collect();
     let mut looked_at = spans.len();
     while let Some(span) = spans.pop() {
         let halves = span.halves().map(|half| measured(span.segment, half));

@@ -11,21 +11,21 @@ use scenarios::{CheckSpec, Range, Scenario, Vehicle};
 use sim::slung_load::Body;
 use sim::{Actuation, VehicleLog};
 
-use super::planned::Planned;
+use super::planned::PlannedMotion;
 use crate::verdict::Check;
 use crate::verdict::evidence::Evidence;
-use crate::verdict::on_the_map::OnTheMap;
+use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 
 /// A vehicle and what it has to stay inside.
-pub struct Limited<'a> {
+pub struct LimitChecks<'a> {
     vehicle: &'a str,
-    map: OnTheMap<'a>,
+    map: MapBounds<'a>,
     promised: Limits,
     physical: Limits,
 }
 
-impl<'a> Limited<'a> {
+impl<'a> LimitChecks<'a> {
     /// A vehicle of the scenario.
     pub fn of(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
         let model = scenario.slung_load_model(vehicle);
@@ -36,7 +36,7 @@ impl<'a> Limited<'a> {
         let Limits { thrust_n, attitude_deg, cable_deg, tension_n } = model.planning_limits;
         Self {
             vehicle: &vehicle.name,
-            map: OnTheMap::new(scenario, &vehicle.name),
+            map: MapBounds::new(scenario, &vehicle.name),
             promised: Limits {
                 thrust_n: widened(thrust_n),
                 attitude_deg: widened(attitude_deg),
@@ -62,7 +62,7 @@ impl<'a> Limited<'a> {
     }
 
     /// States of the continuous plan against the physical limits.
-    pub fn check_planned_states(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+    pub fn check_planned_states(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
         check_limits(spec, planned, |planned, worst| {
             for motion in &planned.motions {
                 self.map.path(worst, motion);
@@ -73,8 +73,8 @@ impl<'a> Limited<'a> {
         })
     }
 
-    /// Flown states against the physical limits.
-    pub fn check_flown_states(&self, spec: &CheckSpec, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+    /// FlownMotion states against the physical limits.
+    pub fn check_flown_states(&self, spec: &CheckSpec, flown: Evidence<'_, super::FlownMotion<'_>>) -> Check {
         check_limits(spec, flown, |flown, worst| {
             for motion in &flown.motions {
                 self.map.path(worst, motion);
@@ -120,7 +120,7 @@ impl<'a> Limited<'a> {
     }
 
     /// Cable angles of the continuous plan against the physical limits.
-    pub fn check_planned_swing(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+    pub fn check_planned_swing(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
         check_limits(spec, planned, |planned, worst| {
             for knot in &planned.knots {
                 self.cable(worst, &knot.body, self.physical.cable_deg, knot.t_s);
@@ -129,9 +129,9 @@ impl<'a> Limited<'a> {
     }
 
     /// Cable angles in flight against the physical limits.
-    pub fn check_flown_swing(&self, spec: &CheckSpec, flown: Evidence<'_, super::Flown<'_>>) -> Check {
+    pub fn check_flown_swing(&self, spec: &CheckSpec, flown: Evidence<'_, super::FlownMotion<'_>>) -> Check {
         check_limits(spec, flown, |flown, worst| {
-            for instant in flown.course.instants() {
+            for instant in flown.motion.samples() {
                 self.cable(worst, &instant.body, self.physical.cable_deg, instant.t_s);
             }
         })

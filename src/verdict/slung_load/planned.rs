@@ -4,11 +4,11 @@ use scenarios::slung_load::{Cable, Trajectory};
 use scenarios::{Interpolation, Plan, Scenario};
 use sim::slung_load::{Body, Knot, Plant, flow, impact};
 
-use super::course::{Course, Instant};
+use super::motion::{MotionSample, SlungLoadMotion};
 use crate::verdict::compare::exceeds;
 use crate::verdict::motion::{self, Motion};
 
-/// Longest step of the integration, and distance between instants, s.
+/// Longest step of the integration, and distance between samples, s.
 const MAX_STEP_S: f64 = 0.005;
 /// A defect is what has gathered over at least this time, s, or to the next switch of the cable: a plan that is sampled
 /// densely is not excused from the equations.
@@ -16,9 +16,9 @@ const WINDOW_S: f64 = 0.1;
 
 /// The motion that a plan's thrusts cause.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct PlannedMotion {
     /// Quadrotor and load. At every node they jump from where the interval before it ends to the node itself.
-    pub course: Course,
+    pub motion: SlungLoadMotion,
     /// The quadrotor's centre, and the load's.
     pub motions: [Motion; 2],
     /// Every instant of it with thrust and tension.
@@ -39,7 +39,7 @@ pub struct Defect {
     pub defect_m: f64,
 }
 
-impl Planned {
+impl PlannedMotion {
     /// Integrates the flyable plan of the scenario's one vehicle. Refuses one that lasts longer than the scenario allows, or
     /// whose thrusts lead out of the numbers that can be judged.
     pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {
@@ -52,27 +52,27 @@ impl Planned {
         let trajectory = plan.trajectories[0].slung_load();
         let intervals = trajectory.times_s.len() - 1;
         let knots: Vec<Knot> = (0..intervals).flat_map(|interval| flown(trajectory, &plant, interval)).collect();
-        let instants = knots.iter().map(|knot| Instant { t_s: knot.t_s, body: knot.body }).collect();
-        let course = Course::new(instants).sampled();
-        let motions = motions(&trajectory.vehicle, course.instants())?;
+        let samples = knots.iter().map(|knot| MotionSample { t_s: knot.t_s, body: knot.body }).collect();
+        let motion = SlungLoadMotion::new(samples).sampled();
+        let motions = motions(&trajectory.vehicle, motion.samples())?;
         let defects = (0..intervals).map(|interval| defect(trajectory, &plant, interval)).collect();
         let impacts = impacts(trajectory, &plant);
-        Ok(Self { course, motions, knots, defects, impacts })
+        Ok(Self { motion, motions, knots, defects, impacts })
     }
 }
 
-/// The motions of quadrotor and load through these instants.
-pub fn motions(vehicle: &str, instants: &[Instant]) -> Result<[Motion; 2], String> {
+/// The motions of quadrotor and load through these samples.
+pub fn motions(vehicle: &str, samples: &[MotionSample]) -> Result<[Motion; 2], String> {
     let knot = |t_s: f64, position: nalgebra::Vector3<f64>, velocity: nalgebra::Vector3<f64>| motion::Knot {
         t_s,
         position_m: position.into(),
         velocity_mps: velocity.into(),
     };
-    let quadrotor = |at: &Instant| knot(at.t_s, at.body.position_m, at.body.velocity_mps);
-    let load = |at: &Instant| knot(at.t_s, at.body.load_position_m, at.body.load_velocity_mps);
+    let quadrotor = |at: &MotionSample| knot(at.t_s, at.body.position_m, at.body.velocity_mps);
+    let load = |at: &MotionSample| knot(at.t_s, at.body.load_position_m, at.body.load_velocity_mps);
     Ok([
-        Motion::new(vehicle, instants.iter().map(quadrotor).collect())?,
-        Motion::new(&format!("the load of {vehicle}"), instants.iter().map(load).collect())?,
+        Motion::new(vehicle, samples.iter().map(quadrotor).collect())?,
+        Motion::new(&format!("the load of {vehicle}"), samples.iter().map(load).collect())?,
     ])
 }
 

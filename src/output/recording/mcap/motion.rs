@@ -9,9 +9,9 @@ use scenarios::slung_load::Cable;
 use sim::{Actuation, Flight, VehicleLog};
 
 use super::{WORLD, channel, scene, timestamp};
-use crate::metrics::{Nearest, clearance_over_time, separation_over_time};
+use crate::metrics::{DistanceSample, clearance_over_time, separation_over_time};
 use crate::output::recording::{Run, is_drawable};
-use crate::verdict::{Flown, is_flyable};
+use crate::verdict::{FlownMotions, is_flyable};
 
 /// Time between two messages of one topic, s.
 const INTERVAL_S: f64 = 0.05;
@@ -149,11 +149,11 @@ fn log_distances(context: &Arc<Context>, run: &Run<'_>, flight: &Flight) {
     if is_flyable(run.scenario, run.plan).is_err() || run.scenario.family() == Family::SlungLoad {
         return;
     }
-    let Ok(flown) = Flown::new(run.scenario, run.plan, flight) else { return };
+    let Ok(flown) = FlownMotions::new(run.scenario, run.plan, flight) else { return };
     let separation = separation_over_time(&flown.motions, INTERVAL_S);
     let clearance = clearance_over_time(&flown.motions, &run.scenario.world.cylinders, INTERVAL_S);
     let topic: Channel<Distances> = channel(context, "/distances");
-    let at = |series: &[Nearest], index: usize| series.get(index).map(|nearest| nearest.distance_m);
+    let at = |series: &[DistanceSample], index: usize| series.get(index).map(|nearest| nearest.distance_m);
     let longest = if separation.len() > clearance.len() { &separation } else { &clearance };
     for (index, instant) in longest.iter().enumerate() {
         let message = Distances {

@@ -115,7 +115,7 @@ fn ends(scenario: &Scenario) -> SceneEntity {
     SceneEntity { spheres: starts.collect(), cubes: goals.collect(), ..entity("starts and goals") }
 }
 
-/// Planned paths dim, flown paths bright.
+/// PlannedMotions paths dim, flown paths bright.
 fn paths(run: &Run<'_>) -> Vec<SceneEntity> {
     let count = run.scenario.vehicles.len();
     let strip = |id: String, points: Vec<[f64; 3]>, colour: [u8; 3]| {

@@ -2,8 +2,8 @@
 
 use scenarios::Family;
 
-use crate::metrics::{Nearest, clearance_in_space_over_time, clearance_over_time, separation_over_time};
-use crate::verdict::{Flown, is_flyable};
+use crate::metrics::{DistanceSample, clearance_in_space_over_time, clearance_over_time, separation_over_time};
+use crate::verdict::{FlownMotions, is_flyable};
 
 use super::Run;
 use super::decimation::Curve;
@@ -24,7 +24,7 @@ impl Distances {
     /// Of the flight in `run`, if there is one.
     pub fn of(run: &Run<'_>) -> Self {
         let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
-        let Some(Ok(flown)) = flight.map(|flight| Flown::new(run.scenario, run.plan, flight)) else {
+        let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
             return Self::default();
         };
         let cylinders = &run.scenario.world.cylinders;
@@ -45,7 +45,7 @@ impl Distances {
 
 /// The curve through `series` and through the worst instant of the check: it lies between two instants of the series, and
 /// the picture must not look better than the verdict.
-fn with_worst(run: &Run<'_>, check: &str, series: &[Nearest]) -> Option<Curve> {
+fn with_worst(run: &Run<'_>, check: &str, series: &[DistanceSample]) -> Option<Curve> {
     let check = run.verdict.checks.iter().find(|candidate| candidate.name == check);
     let worst = check.and_then(|check| Some((check.at_s?, check.value?)));
     let mut points: Vec<(f64, f64)> = series.iter().map(|nearest| (nearest.t_s, nearest.distance_m)).collect();

@@ -47,15 +47,15 @@ fn checks(run: &Run<'_>) -> String {
 fn urgency(check: &Check) -> usize {
     match check.status {
         Status::Fail | Status::Undecided => usize::from(check.advisory),
-        Status::Pass if is_telling(check) => 2,
+        Status::Pass if is_key(check) => 2,
         Status::Pass => 3,
         Status::Skip => 4,
     }
 }
 
 /// Does it say how close the flight was?
-pub fn is_telling(check: &Check) -> bool {
-    check.is_telling() && check.name.starts_with("flight.")
+pub fn is_key(check: &Check) -> bool {
+    check.is_key() && check.name.starts_with("flight.")
 }
 
 fn row(check: &Check) -> String {

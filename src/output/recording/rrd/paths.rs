@@ -21,7 +21,7 @@ pub const TRAIL_S: f64 = 20.0;
 /// Time between two updates of a trail, s.
 const TRAIL_INTERVAL_S: f64 = 1.0;
 
-/// Planned paths, thin and dim: a cubic through the positions and velocities of the nodes.
+/// PlannedMotions paths, thin and dim: a cubic through the positions and velocities of the nodes.
 pub fn log_planned(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     let count = run.scenario.vehicles.len();
     for (index, trajectory) in run.plan.trajectories.iter().enumerate() {
@@ -48,7 +48,7 @@ pub fn log_alternatives(stream: &RecordingStream, run: &Run<'_>) -> Logged {
     Ok(())
 }
 
-/// Flown paths, bright, over their whole length, and the trail behind each aircraft, thick.
+/// FlownMotions paths, bright, over their whole length, and the trail behind each aircraft, thick.
 pub fn log_flown(stream: &RecordingStream, flight: &Flight) -> Logged {
     for (index, log) in flight.vehicles.iter().enumerate() {
         let colour = palette::opaque(palette::vehicle(index, flight.vehicles.len()));

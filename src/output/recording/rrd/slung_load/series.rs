@@ -11,7 +11,7 @@ use super::super::decimation::Curve;
 use super::super::series::{end_s, log_limit};
 use super::super::{Logged, Run, SIM_TIME, entity, palette, sim_times};
 use crate::verdict::is_flyable;
-use crate::verdict::slung_load::{Flown, Planned, TENSION_WINDOW_S};
+use crate::verdict::slung_load::{FlownMotion, PlannedMotion, TENSION_WINDOW_S};
 
 /// Most points of one series.
 const MOST_POINTS: usize = 2000;
@@ -68,7 +68,7 @@ fn log_tension(stream: &RecordingStream, run: &Run<'_>, model: &Model, log: &Veh
     let swing: Curve = log.samples.iter().zip(&log.loads).map(swing_deg).collect();
     curve_of(stream, "swing", "flown", palette::vehicle(0, 1), swing)?;
     if let Some(planned) =
-        is_flyable(run.scenario, run.plan).ok().and_then(|()| Planned::new(run.scenario, run.plan).ok())
+        is_flyable(run.scenario, run.plan).ok().and_then(|()| PlannedMotion::new(run.scenario, run.plan).ok())
     {
         let curve: Curve = planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n)).collect();
         curve_of(stream, "tension", "planned, without impacts", palette::FLEET, curve)?;
@@ -89,13 +89,13 @@ fn log_tracking(stream: &RecordingStream, log: &VehicleLog, plan_end_s: f64) -> 
 
 /// Of every part and of the envelope, the distance to the obstacle that is nearest; of the body, to the ground too.
 fn log_distances(stream: &RecordingStream, run: &Run<'_>, model: &Model, flight: &Flight) -> Logged {
-    let Ok(flown) = Flown::new(flight) else { return Ok(()) };
+    let Ok(flown) = FlownMotion::new(flight) else { return Ok(()) };
     let (obstacles, parts) = (run.scenario.world.flat_obstacles(), Parts::of(model));
     let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
     let stride = (DISTANCE_STEP_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
     // What nothing is near to has no curve: infinite points are left out.
     let curve = |distance_m: &dyn Fn(&Body) -> f64| -> Curve {
-        flown.course.instants().iter().step_by(stride).map(|at| (at.t_s, distance_m(&at.body))).collect()
+        flown.motion.samples().iter().step_by(stride).map(|at| (at.t_s, distance_m(&at.body))).collect()
     };
     let nearest = |distance_m: &dyn Fn(&Prism) -> f64| obstacles.iter().map(distance_m).fold(f64::INFINITY, f64::min);
     for (index, part) in Part::ALL.into_iter().enumerate() {

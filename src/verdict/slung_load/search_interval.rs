@@ -1,10 +1,10 @@
-//! Spans of a course in the order in which branch and bound looks at them.
+//! Spans of a motion in the order in which branch and bound looks at them.
 
 use std::cmp::Ordering;
 
 /// A part of a segment, and a bound on how good the best of it may be. The highest bound comes first, a NaN before all.
 #[derive(Clone, Copy, Debug)]
-pub struct Span<T> {
+pub struct SearchInterval<T> {
     /// Nothing within the span is better than this.
     pub bound: f64,
     /// The segment.
@@ -15,7 +15,7 @@ pub struct Span<T> {
     pub of: T,
 }
 
-impl<T> Span<T> {
+impl<T> SearchInterval<T> {
     /// Shares of its two halves.
     pub fn halves(&self) -> [[f64; 2]; 2] {
         let [from, to] = self.share;
@@ -28,35 +28,35 @@ impl<T> Span<T> {
     }
 }
 
-impl<T> Ord for Span<T> {
+impl<T> Ord for SearchInterval<T> {
     fn cmp(&self, other: &Self) -> Ordering {
         self.rank().total_cmp(&other.rank())
     }
 }
 
-impl<T> PartialOrd for Span<T> {
+impl<T> PartialOrd for SearchInterval<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<T> PartialEq for Span<T> {
+impl<T> PartialEq for SearchInterval<T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<T> Eq for Span<T> {}
+impl<T> Eq for SearchInterval<T> {}
 
 #[cfg(test)]
 mod tests {
     use std::collections::BinaryHeap;
 
-    use super::Span;
+    use super::SearchInterval;
 
     #[test]
     fn the_most_promising_comes_first_and_what_is_not_a_number_before_all() {
-        let span = |bound: f64| Span { bound, segment: 0, share: [0.0, 1.0], of: () };
+        let span = |bound: f64| SearchInterval { bound, segment: 0, share: [0.0, 1.0], of: () };
         let mut spans = BinaryHeap::from([0.5, f64::NAN, 2.0, -1.0].map(span));
         assert!(spans.pop().is_some_and(|span| span.bound.is_nan()));
         assert_eq!(spans.pop().map(|span| span.bound), Some(2.0));

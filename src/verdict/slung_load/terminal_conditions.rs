@@ -4,20 +4,20 @@ use scenarios::slung_load::{State, Trajectory};
 use scenarios::{CheckSpec, Scenario, Vehicle};
 use sim::slung_load::Body;
 
-use super::Flown;
-use super::planned::Planned;
+use super::FlownMotion;
+use super::planned::PlannedMotion;
 use crate::verdict::Check;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
 
 /// A vehicle and where its motion should end.
-pub struct End<'a> {
+pub struct TerminalConditions<'a> {
     vehicle: &'a str,
     goal: Body,
     goal_m: f64,
     rest_mps: f64,
 }
 
-impl<'a> End<'a> {
+impl<'a> TerminalConditions<'a> {
     /// Of a vehicle of the scenario.
     pub fn of(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
         let model = scenario.slung_load_model(vehicle);
@@ -41,22 +41,22 @@ impl<'a> End<'a> {
     }
 
     /// The same at the end of the continuous plan.
-    pub fn check_planned_goal(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+    pub fn check_planned_goal(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
         self.goal(spec, planned.map(planned_end))
     }
 
     /// The same in flight, when the plan ends.
-    pub fn check_flown_goal(&self, spec: &CheckSpec, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
+    pub fn check_flown_goal(&self, spec: &CheckSpec, flown: Evidence<'_, FlownMotion<'_>>, end_s: f64) -> Check {
         self.goal(spec, flown.map(|flown| flown_end(flown, end_s)))
     }
 
     /// Speed at the end of the continuous plan, relative to the goal's.
-    pub fn check_planned_rest(&self, spec: &CheckSpec, planned: Evidence<'_, Planned>) -> Check {
+    pub fn check_planned_rest(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
         self.rest(spec, planned.map(planned_end))
     }
 
     /// The same in flight, when the plan ends.
-    pub fn check_flown_rest(&self, spec: &CheckSpec, flown: Evidence<'_, Flown<'_>>, end_s: f64) -> Check {
+    pub fn check_flown_rest(&self, spec: &CheckSpec, flown: Evidence<'_, FlownMotion<'_>>, end_s: f64) -> Check {
         self.rest(spec, flown.map(|flown| flown_end(flown, end_s)))
     }
 
@@ -99,13 +99,13 @@ impl<'a> End<'a> {
     }
 }
 
-fn planned_end(planned: &Planned) -> Option<(Body, f64)> {
+fn planned_end(planned: &PlannedMotion) -> Option<(Body, f64)> {
     planned.knots.last().map(|knot| (knot.body, knot.t_s))
 }
 
 /// Quadrotor and load at the first sample at or beyond `end_s`.
-fn flown_end(flown: &Flown<'_>, end_s: f64) -> Option<(Body, f64)> {
+fn flown_end(flown: &FlownMotion<'_>, end_s: f64) -> Option<(Body, f64)> {
     // A thousandth of a millisecond is rounding, not time.
-    let instant = flown.course.instants().iter().find(|instant| instant.t_s >= end_s - 1e-6)?;
+    let instant = flown.motion.samples().iter().find(|instant| instant.t_s >= end_s - 1e-6)?;
     Some((instant.body, instant.t_s))
 }

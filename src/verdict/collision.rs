@@ -3,7 +3,7 @@
 use scenarios::{Family, Scenario};
 use sim::multirotor::Surroundings;
 
-use crate::verdict::closest::{self, Approach};
+use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::evidence::Measurement;
 use crate::verdict::motion::Motion;
 
@@ -16,8 +16,8 @@ const GRAZE_M: f64 = 1e-3;
 pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
     let radii_m: Vec<f64> = scenario.vehicles.iter().map(|vehicle| scenario.model(vehicle).body_radius_m()).collect();
     let name = |vehicle: usize| scenario.vehicles[vehicle].name.as_str();
-    let is_touch = |approach: &Approach| approach.upper_m < -GRAZE_M;
-    let crash = |approach: &Approach| Measurement::value(1.0).at(approach.at_s).with(name(approach.who[0]));
+    let is_touch = |approach: &ClosestApproach| approach.upper_m < -GRAZE_M;
+    let crash = |approach: &ClosestApproach| Measurement::value(1.0).at(approach.at_s).with(name(approach.who[0]));
     if let Some(touch) = closest::overlap(motions, &radii_m).filter(is_touch) {
         return Some(crash(&touch).with(name(touch.who[1])));
     }
@@ -27,7 +27,7 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
     let cylinders = &scenario.world.cylinders;
     let entered = motions.iter().zip(&radii_m).enumerate().find_map(|(vehicle, (motion, radius_m))| {
         let nearest = closest::to_cylinders(std::slice::from_ref(motion), cylinders)?;
-        let touch = Approach { upper_m: nearest.upper_m - radius_m, who: [vehicle, nearest.who[1]], ..nearest };
+        let touch = ClosestApproach { upper_m: nearest.upper_m - radius_m, who: [vehicle, nearest.who[1]], ..nearest };
         is_touch(&touch).then_some(touch)
     })?;
     Some(crash(&entered).with(&cylinders[entered.who[1]].name))

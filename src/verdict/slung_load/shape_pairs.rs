@@ -3,7 +3,7 @@
 use scenarios::{Prism, Scenario, Vehicle};
 use sim::slung_load::{Body, Part, Parts, Plane};
 
-use super::course::{Deviation, Speeds};
+use super::motion::{Deviation, Speeds};
 
 /// What is kept clear of what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,14 +17,14 @@ pub enum Shape {
 }
 
 /// Vehicle and world, as far as distances are concerned.
-pub struct Surroundings<'a> {
+pub struct ShapePairs<'a> {
     pub(super) vehicle: &'a str,
     pub(super) parts: Parts,
     pub(super) obstacles: Vec<Prism>,
     pub(super) ground_m: Option<f64>,
 }
 
-impl<'a> Surroundings<'a> {
+impl<'a> ShapePairs<'a> {
     /// Of a vehicle of the scenario.
     pub fn of(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
         Self {

@@ -5,13 +5,20 @@
 
 use sim::slung_load::{Part, Parts, Plane};
 
-use super::course::Course;
+use super::motion::SlungLoadMotion;
 
 /// Smallest distance in front of the plane, m, negative behind it, of every point of a part over a share of a segment.
-pub fn in_front_m(plane: &Plane, parts: &Parts, part: Part, course: &Course, segment: usize, share: [f64; 2]) -> f64 {
-    let [quadrotor, load] = course.along(segment, share, &plane.normal);
+pub fn in_front_m(
+    plane: &Plane,
+    parts: &Parts,
+    part: Part,
+    motion: &SlungLoadMotion,
+    segment: usize,
+    share: [f64; 2],
+) -> f64 {
+    let [quadrotor, load] = motion.along(segment, share, &plane.normal);
     let nearest_m = match part {
-        Part::Body => nearest_of_disc_m(plane, parts, course, segment, share, quadrotor),
+        Part::Body => nearest_of_disc_m(plane, parts, motion, segment, share, quadrotor),
         Part::Cable => smallest(&quadrotor).min(smallest(&load)),
         Part::Load => smallest(&load) - parts.load_radius_m(),
     };
@@ -29,14 +36,14 @@ pub fn in_front_m(plane: &Plane, parts: &Parts, part: Part, course: &Course, seg
 fn nearest_of_disc_m(
     plane: &Plane,
     parts: &Parts,
-    course: &Course,
+    motion: &SlungLoadMotion,
     segment: usize,
     share: [f64; 2],
     center: [f64; 4],
 ) -> f64 {
     let (radius_m, half) = (parts.body_radius_m(), (share[1] - share[0]) / 2.0);
-    let axis = course.at(segment, f64::midpoint(share[0], share[1])).thrust_axis();
-    let turn_rad = course.turn_rad(segment);
+    let axis = motion.at(segment, f64::midpoint(share[0], share[1])).thrust_axis();
+    let turn_rad = motion.turn_rad(segment);
     let turned_rad = turn_rad.norm() * half;
     let x = axis.dot(&plane.normal);
     let reach = (1.0 - x * x).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! Quadrotor and load as a continuous motion: between dense instants a curve whose every point moves no faster than a
+//! Quadrotor and load as a continuous motion: between dense samples a curve whose every point moves no faster than a
 //! known speed.
 
 use nalgebra::Vector3;
@@ -14,21 +14,21 @@ const BRIEF_S: f64 = 1e-5;
 
 /// Quadrotor and load at one time.
 #[derive(Clone, Copy, Debug)]
-pub struct Instant {
+pub struct MotionSample {
     /// Time, s.
     pub t_s: f64,
     /// Where they are.
     pub body: Body,
 }
 
-/// A motion through instants: positions between two of them are the cubic Hermite of their positions and velocities, the
+/// A motion through samples: positions between two of them are the cubic Hermite of their positions and velocities, the
 /// attitude turns at a constant rate.
 ///
 /// Instants are dense (5 ms apart at most), so that this follows the true motion within micrometres, a point of the body
-/// within 0.1 mm. Two instants may share one time: what lies between them is a jump, not motion.
+/// within 0.1 mm. Two samples may share one time: what lies between them is a jump, not motion.
 #[derive(Clone, Debug)]
-pub struct Course {
-    instants: Vec<Instant>,
+pub struct SlungLoadMotion {
+    samples: Vec<MotionSample>,
     /// One per segment, or none if the curves are the motion.
     deviations: Vec<Deviation>,
 }
@@ -57,13 +57,13 @@ pub struct Speeds {
     pub turn_radps: f64,
 }
 
-impl Course {
-    /// Through these instants, in the order of time.
-    pub fn new(instants: Vec<Instant>) -> Self {
-        Self { instants, deviations: Vec::new() }
+impl SlungLoadMotion {
+    /// Through these samples, in the order of time.
+    pub fn new(samples: Vec<MotionSample>) -> Self {
+        Self { samples, deviations: Vec::new() }
     }
 
-    /// Takes the instants for samples of a motion that is smooth, impacts aside, from which the curves deviate between them:
+    /// Takes the samples for samples of a motion that is smooth, impacts aside, from which the curves deviate between them:
     ///
     /// ```text
     /// |p - cubic| <= h⁴/384 max|p''''|,   |angle| <= h²/8 max|ω'|              errors of interpolation
@@ -73,7 +73,7 @@ impl Course {
     /// with p'''' and ω' from the differences between neighbouring segments, doubled. In a segment that is too brief for that
     /// the motion is taken to be no farther from the curve than the curve is long.
     pub fn sampled(mut self) -> Self {
-        let mut deviations = vec![Deviation::default(); self.instants.len().saturating_sub(1)];
+        let mut deviations = vec![Deviation::default(); self.samples.len().saturating_sub(1)];
         let (lasting, brief): (Vec<usize>, Vec<usize>) =
             self.segments().partition(|segment| self.duration_s(*segment) >= BRIEF_S);
         for segment in brief {
@@ -132,24 +132,24 @@ impl Course {
         }
     }
 
-    /// The instants.
-    pub fn instants(&self) -> &[Instant] {
-        &self.instants
+    /// The samples.
+    pub fn samples(&self) -> &[MotionSample] {
+        &self.samples
     }
 
     /// The segments that last, by the index of the instant at which they begin.
     pub fn segments(&self) -> impl Iterator<Item = usize> + '_ {
-        (1..self.instants.len()).map(|end| end - 1).filter(|index| self.duration_s(*index) > 0.0)
+        (1..self.samples.len()).map(|end| end - 1).filter(|index| self.duration_s(*index) > 0.0)
     }
 
     /// Time at the share `u` in [0, 1] of a segment, s.
     pub fn time_s(&self, segment: usize, u: f64) -> f64 {
-        self.instants[segment].t_s + u * self.duration_s(segment)
+        self.samples[segment].t_s + u * self.duration_s(segment)
     }
 
     /// Length of a segment, s.
     pub fn duration_s(&self, segment: usize) -> f64 {
-        self.instants[segment + 1].t_s - self.instants[segment].t_s
+        self.samples[segment + 1].t_s - self.samples[segment].t_s
     }
 
     /// Quadrotor and load at the share `u` in [0, 1] of a segment. Velocities and rates are those of its beginning.
@@ -197,7 +197,7 @@ impl Course {
     }
 
     fn ends(&self, segment: usize) -> (&Body, &Body) {
-        (&self.instants[segment].body, &self.instants[segment + 1].body)
+        (&self.samples[segment].body, &self.samples[segment + 1].body)
     }
 
     /// Of the cubics of quadrotor and load, in Bernstein form.
@@ -224,7 +224,7 @@ mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
     use sim::slung_load::Body;
 
-    use super::{Course, Instant};
+    use super::{MotionSample, SlungLoadMotion};
 
     /// Round a circle of 1 m at 1 m/s, and the same with every instant told twice, a nanosecond later the second time.
     #[test]
@@ -236,13 +236,13 @@ mod tests {
             let attitude = UnitQuaternion::from_euler_angles(0.0, 0.0, t_s);
             let (body_rate_radps, load_velocity_mps) = (Vector3::z(), velocity_mps);
             let body = Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps };
-            Instant { t_s, body }
+            MotionSample { t_s, body }
         };
-        let once: Vec<Instant> = (0..200).map(|k| at(0.005 * f64::from(k))).collect();
+        let once: Vec<MotionSample> = (0..200).map(|k| at(0.005 * f64::from(k))).collect();
         let twice = once.iter().flat_map(|instant| [*instant, at(instant.t_s + 1e-9)]).collect();
-        let largest_m = |instants: Vec<Instant>| {
-            let course = Course::new(instants).sampled();
-            let deviations = course.segments().map(|segment| course.deviation(segment).quadrotor_m);
+        let largest_m = |samples: Vec<MotionSample>| {
+            let motion = SlungLoadMotion::new(samples).sampled();
+            let deviations = motion.segments().map(|segment| motion.deviation(segment).quadrotor_m);
             deviations.fold(0.0, f64::max)
         };
         let [smooth_m, doubled_m] = [largest_m(once), largest_m(twice)];

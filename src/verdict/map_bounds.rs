@@ -9,12 +9,12 @@ const RESOLUTION_M: f64 = 1e-9;
 
 /// A vehicle and the map that it has to stay on.
 #[derive(Clone, Copy)]
-pub struct OnTheMap<'a> {
+pub struct MapBounds<'a> {
     vehicle: &'a str,
     axes: [Range; 3],
 }
 
-impl<'a> OnTheMap<'a> {
+impl<'a> MapBounds<'a> {
     /// The vehicle of this name.
     pub fn new(scenario: &Scenario, vehicle: &'a str) -> Self {
         Self { vehicle, axes: scenario.world.map.axes() }
