@@ -112,9 +112,9 @@ fn hs71() {
     assert_optimum(&result, 17.014_017_3, &[1.0, 4.742_994, 3.821_15, 1.379_408]);
 }
 
-/// Rows that contradict each other are not called solved.
+/// Contradictory constraints.
 #[test]
-fn an_infeasible_programme_is_reported_as_such() {
+fn an_infeasible_program_is_not_reported_as_solved() {
     let function =
         |x: &[f64]| Values { f: (x[0], vec![1.0]), c: vec![(x[0] * x[0] + 1.0, vec![2.0 * x[0]])], d: vec![] };
     let (solution, _) = solve(function, vec![[-FREE, FREE]], vec![0.7]);

@@ -72,7 +72,7 @@ impl Layout {
     ///
     /// # Panics
     ///
-    /// Panics if the mesh has not as many phases as the system.
+    /// Panics unless mesh and system have the same number of phases.
     pub fn new(system: &dyn MultiphaseSystem, mesh: &Mesh) -> Self {
         let durations = durations(system.durations());
         assert_eq!(durations.len(), mesh.phases.len(), "one list of segments per phase");

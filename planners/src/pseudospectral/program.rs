@@ -103,7 +103,7 @@ impl Program for Transcription<'_> {
     }
 }
 
-/// The factorisation, compiled for every vector instruction set and dispatched at run time.
+/// The factorisation, compiled for several vector instruction sets and dispatched to the widest at run time.
 struct Factor<'a> {
     recursion: &'a mut RiccatiRecursion,
     layout: &'a Layout,

@@ -25,6 +25,16 @@ impl Radau {
     /// # Panics
     ///
     /// Panics if `n` is 0.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use planners::pseudospectral::Radau;
+    ///
+    /// let rule = Radau::new(3);
+    /// let integral: f64 = (0..3).map(|k| rule.weights[k] * rule.points[k].powi(4)).sum();
+    /// assert!((integral - 2.0 / 5.0).abs() < 1e-14);
+    /// ```
     pub fn new(n: usize) -> Self {
         assert!(n >= 1, "a segment has at least one collocation point");
         let mut points = collocation_points(n);

@@ -59,7 +59,7 @@ impl<'a> Transcription<'a> {
     ///
     /// # Panics
     ///
-    /// Panics if the mesh has not as many phases as the system.
+    /// Panics unless mesh and system have the same number of phases.
     pub fn new(system: &'a dyn MultiphaseSystem, mesh: Mesh) -> Self {
         let layout = Layout::new(system, &mesh);
         let max_order = mesh.phases.iter().flatten().map(|segment| segment.order).max().unwrap_or(1);

@@ -1,4 +1,4 @@
-//! The slung load as a [`MultiphaseSystem`]: dynamics, cost and constraints of its parts together.
+//! [`SlungLoadSystem`] as a [`MultiphaseSystem`]: its dynamics, cost and constraints put together.
 
 use super::problem::CableMode;
 use super::system::{EULER, SlungLoadSystem};
@@ -76,7 +76,7 @@ impl MultiphaseSystem for SlungLoadSystem<'_> {
     }
 }
 
-/// All derivatives at a node, compiled for every vector instruction set and dispatched at run time.
+/// All derivatives at a node, compiled for several vector instruction sets and dispatched to the widest at run time.
 struct Differentiate<'a> {
     system: &'a SlungLoadSystem<'a>,
     mode: CableMode,

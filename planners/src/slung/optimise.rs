@@ -106,6 +106,18 @@ impl Candidate<'_> {
 }
 
 /// Solves `problem` along `route`.
+///
+/// # Examples
+///
+/// ```
+/// use planners::slung::{Options, Problem, candidate_routes, optimise};
+///
+/// let problem = Problem::paper();
+/// let routes = candidate_routes(&problem);
+/// let candidate = optimise(&problem, &routes[0], &Options::default());
+/// assert!(candidate.is_solved() && candidate.is_refined);
+/// assert!((candidate.last().objective - 2433.8).abs() < 0.15);
+/// ```
 pub fn optimise<'a>(problem: &Problem, route: &'a Route, options: &Options) -> Candidate<'a> {
     let system = SlungLoadSystem::new(problem);
     let guess = Guess::new(problem, route, system.coordinates);

@@ -66,6 +66,17 @@ impl Route {
 ///
 /// - `distance_m`: distance that the routes keep, approximately, from the obstacles
 /// - `max_routes`: maximum number of routes
+///
+/// # Examples
+///
+/// ```
+/// use planners::slung::{Polygon, routes};
+///
+/// let obstacle = Polygon::rectangle([0.0, 0.5], [1.0, 2.0], 0.0);
+/// let routes = routes([-2.0, 0.0], [2.0, 0.0], &[obstacle], 0.3, 4);
+/// assert_eq!(routes.len(), 2);
+/// assert_eq!(routes[0].on_right, [true]);
+/// ```
 pub fn routes(
     start: [f64; 2],
     goal: [f64; 2],

@@ -1,6 +1,8 @@
 //! The transcription of every kind of phase: products against differences, the Riccati recursion against the products.
 
 use super::derivative_tests::{noise, problems};
+use super::polygon::Polygon;
+use super::problem::Problem;
 use super::system::{LENGTH, SlungLoadSystem};
 use crate::nlp::Program;
 use crate::pseudospectral::{Mesh, Segment, Transcription};
@@ -133,4 +135,18 @@ fn the_recursion_solves_the_newton_system() {
         }
         assert!(residual < 1e-8, "{residual}");
     }
+}
+
+/// The work arrays have no limit on the number of path constraints.
+#[test]
+fn many_obstacles_are_transcribed() {
+    let obstacle = |k: usize| Polygon::rectangle([2.0 * k as f64, 5.0], [1.0, 1.0], 0.0);
+    let obstacles = (0..30).map(obstacle).collect();
+    let problem = Problem { obstacles, ..Problem::paper() };
+    let system = SlungLoadSystem::new(&problem);
+    let mut program = Transcription::new(&system, mesh(1));
+    let Point { x, y, v } = point(&program, &system);
+    let (_, constraints) = evaluate(&mut program, &x);
+    let (_, gradient) = gradients(&mut program, &x, &y, &v);
+    assert!(constraints.iter().chain(&gradient).all(|value| value.is_finite()));
 }
