@@ -37,6 +37,44 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Version of the plan file format.
+    pub const SCHEMA: u32 = 1;
+
+    /// A solved plan without a reported objective, history, diagnostics or timings.
+    ///
+    /// - `trajectories`: one per vehicle, in the order of the scenario
+    pub fn new(
+        scenario: impl Into<String>,
+        planner: impl Into<String>,
+        seed: u64,
+        trajectories: Vec<Trajectory>,
+    ) -> Self {
+        Self {
+            schema: Self::SCHEMA,
+            scenario: scenario.into(),
+            planner: planner.into(),
+            seed,
+            status: PlanStatus::Solved,
+            reason: None,
+            objective: None,
+            trajectories,
+            history: Vec::new(),
+            diagnostics: PlanDiagnostics::default(),
+            timings: PlanTimings::default(),
+        }
+    }
+
+    /// The result of a planner that found no trajectories, with the reason.
+    pub fn no_plan(
+        scenario: impl Into<String>,
+        planner: impl Into<String>,
+        seed: u64,
+        reason: impl Into<String>,
+    ) -> Self {
+        let reason = Some(reason.into());
+        Self { status: PlanStatus::NoPlan, reason, ..Self::new(scenario, planner, seed, Vec::new()) }
+    }
+
     /// Time at which the last vehicle reaches the end of its trajectory, s; `None` without a trajectory.
     pub fn flight_time_s(&self) -> Option<f64> {
         self.trajectories.iter().filter_map(Trajectory::end_s).reduce(f64::max)

@@ -31,7 +31,7 @@ fn write_rows(nodes: &dyn Nodes, writer: &mut impl Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use crate::fixed_wing::{CSV_COLUMNS, Control, State, Trajectory};
-    use crate::{Interpolation, Plan, PlanStatus, PlanTimings};
+    use crate::{Interpolation, Plan, PlanStatus};
 
     /// Numbers that a format with a fixed number of digits would not bring back.
     const NODE: [f64; 10] = [0.1 + 0.2, -1.0 / 3.0, 1e-300, 4e22, 35.0, -0.0, f64::EPSILON, 1e-7, 123456789.123, 1.0];
@@ -45,17 +45,9 @@ mod tests {
             controls: vec![Control::CRUISE, Control::from_array(std::array::from_fn(|i| NODE[i + 7]))],
         };
         Plan {
-            schema: 1,
-            scenario: "pair".into(),
-            planner: "by-hand".into(),
-            seed: 7,
             status: PlanStatus::NotConverged,
             reason: Some("made by hand".into()),
-            objective: None,
-            trajectories: vec![trajectory.into()],
-            history: Vec::new(),
-            diagnostics: crate::PlanDiagnostics::default(),
-            timings: PlanTimings::default(),
+            ..Plan::new("pair", "by-hand", 7, vec![trajectory.into()])
         }
     }
 

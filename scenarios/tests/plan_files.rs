@@ -5,7 +5,7 @@ use std::path::Path;
 use scenarios::plan_input::{
     ImportedTrajectory, PartialTrajectory, PlanError, PlanHeader, parse_csv, parse_json, read,
 };
-use scenarios::{Interpolation, Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario, parse, slung_load};
+use scenarios::{Interpolation, Plan, Scenario, parse, slung_load};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
 const HEADER: &str = "vehicle,t_s,x_m,y_m,z_m,speed_mps,heading_rad,flight_path_rad,n_x,n_y,n_z\n";
@@ -300,19 +300,7 @@ fn slung_plan() -> (Scenario, Plan) {
         ],
         planner_nodes: vec![0, 3],
     };
-    let plan = Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: "by-hand".into(),
-        seed: 0,
-        status: PlanStatus::Solved,
-        reason: None,
-        objective: Some(3.0),
-        trajectories: vec![trajectory.into()],
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    };
+    let plan = Plan { objective: Some(3.0), ..Plan::new(&scenario.name, "by-hand", 0, vec![trajectory.into()]) };
     (scenario, plan)
 }
 

@@ -10,7 +10,7 @@ mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanStatus, Scenario};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::system_under_test::SystemUnderTest;
@@ -101,19 +101,7 @@ impl Sweep {
 
 /// No plan at all: every check that there is says so.
 fn unanswered(scenario: &Scenario) -> Plan {
-    Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: String::new(),
-        seed: 0,
-        status: PlanStatus::NoPlan,
-        reason: None,
-        objective: None,
-        trajectories: Vec::new(),
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    }
+    Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) }
 }
 
 /// Who is flown, and where.

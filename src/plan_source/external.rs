@@ -18,7 +18,7 @@ mod request;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanTimings, Scenario};
 
 use crate::plan_source::plan_import::CompletedPlan;
 
@@ -70,19 +70,7 @@ impl ExternalPlanner {
     }
 
     fn no_plan(&self, scenario: &Scenario, seed: u64, reason: String) -> Plan {
-        Plan {
-            schema: 1,
-            scenario: scenario.name.clone(),
-            planner: self.name.clone(),
-            seed,
-            status: PlanStatus::NoPlan,
-            reason: Some(reason),
-            objective: None,
-            trajectories: Vec::new(),
-            history: Vec::new(),
-            diagnostics: PlanDiagnostics::default(),
-            timings: PlanTimings::default(),
-        }
+        Plan::no_plan(&scenario.name, &self.name, seed, reason)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a flight says of the plans that were made during it.
 
 use scenarios::in_loop::ReplanStatus;
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanStatus, PlanTimings, Scenario};
 use sim::{PlanningLog, Replan};
 
 /// What was planned in the loop as one plan: of every vehicle the references that it followed, one after the other.
@@ -12,20 +12,13 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
     let wall_s = |vehicle: usize| answers(log, vehicle).map(|replan| replan.wall_s).sum::<f64>();
     let walls_s: Vec<f64> = (0..scenario.vehicles.len()).map(wall_s).collect();
     Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: planner.to_owned(),
-        seed,
         status: if idle.is_some() { PlanStatus::NoPlan } else { PlanStatus::Solved },
         reason: idle.map(|index| why_idle(scenario, log, index)),
-        objective: None,
-        trajectories: log.followed.iter().cloned().map(Into::into).collect(),
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings {
             wall_s: walls_s.iter().sum(),
             distributed_s: walls_s.iter().copied().fold(0.0, f64::max),
         },
+        ..Plan::new(&scenario.name, planner, seed, log.followed.iter().cloned().map(Into::into).collect())
     }
 }
 

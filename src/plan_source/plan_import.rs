@@ -56,17 +56,13 @@ pub fn complete(
         }
     }
     let plan = Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: planner.to_owned(),
-        seed,
         status: header.status.unwrap_or(PlanStatus::Unstated),
         reason: header.reason,
         objective: header.objective,
-        trajectories,
         history: header.history,
         diagnostics: header.diagnostics,
         timings: header.timings.unwrap_or_default(),
+        ..Plan::new(&scenario.name, planner, seed, trajectories)
     };
     CompletedPlan { plan, provenance: Provenance { reconstruction } }
 }

@@ -3,8 +3,8 @@
 use harness::verdict::{Check, Status, Verdict, judge};
 use scenarios::fixed_wing::{Control, Limits, Model, State, Trajectory};
 use scenarios::{
-    Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario,
-    Simulation, Vehicle, VerdictLimits, Waypoint, World,
+    Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlannerSettings, Range, Scenario, Simulation, Vehicle,
+    VerdictLimits, Waypoint, World,
 };
 use sim::{Actuation, Commanded, Flight, Sample, VehicleLog};
 
@@ -110,17 +110,8 @@ fn model() -> Model {
 
 fn plan(trajectories: Vec<Trajectory>) -> Plan {
     Plan {
-        schema: 1,
-        scenario: "abreast".to_owned(),
-        planner: "by-hand".to_owned(),
-        seed: 0,
-        status: PlanStatus::Solved,
-        reason: None,
         objective: Some(END_S),
-        trajectories: trajectories.into_iter().map(Into::into).collect(),
-        history: Vec::new(),
-        diagnostics: scenarios::PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
+        ..Plan::new("abreast", "by-hand", 0, trajectories.into_iter().map(Into::into).collect())
     }
 }
 

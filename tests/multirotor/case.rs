@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use harness::verdict::{Check, Status, Verdict, judge};
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, Scenario};
 use sim::{Actuation, Commanded, Flight, Sample, fly};
 
 const TEXT: &str = r#"name = "pair"
@@ -86,17 +86,8 @@ impl Case {
             Trajectory::through(name, &nodes).into()
         };
         let plan = Plan {
-            schema: 1,
-            scenario: scenario.name.clone(),
-            planner: "by-hand".into(),
-            seed: 0,
-            status: PlanStatus::Solved,
-            reason: None,
             objective: Some(5.0),
-            trajectories: vec![trajectory("uav-1", 0.0), trajectory("uav-2", 3.0)],
-            history: Vec::new(),
-            diagnostics: PlanDiagnostics::default(),
-            timings: PlanTimings::default(),
+            ..Plan::new(&scenario.name, "by-hand", 0, vec![trajectory("uav-1", 0.0), trajectory("uav-2", 3.0)])
         };
         let flight = Some(fly(&scenario, &plan, 0, &mut |_| {}));
         Self { scenario, plan, flight }

@@ -36,19 +36,17 @@ pub fn assemble(
     let dt_s = |iterate: &Iterate| if is_longest(iterate) { longest_dt_s } else { iterate.dt_s };
     let distributed_s = history.iter().map(|iteration| iteration.distributed_s).sum();
     Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: planner.to_string(),
-        seed,
         status,
         reason,
         objective: Some(objective),
-        trajectories: named
-            .map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate)).into())
-            .collect(),
         history,
-        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
+        ..Plan::new(
+            &scenario.name,
+            planner,
+            seed,
+            named.map(|(vehicle, iterate)| trajectory(&vehicle.name, iterate, dt_s(iterate)).into()).collect(),
+        )
     }
 }
 

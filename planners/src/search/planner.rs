@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use scenarios::multirotor::Trajectory;
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings, Scenario, stream};
+use scenarios::{Plan, PlanStatus, PlanTimings, Scenario, stream};
 
 use super::sparse_astar::{self, search};
 use super::timing;
@@ -80,17 +80,11 @@ fn plan(scenario: &Scenario, seed: u64, name: &str, find: impl Fn(&Ask) -> Optio
         Trajectory::through(&vehicle.name, &nodes(&motion, 0.0))
     });
     Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: name.to_owned(),
-        seed,
         status: if trajectory.is_some() { PlanStatus::Solved } else { PlanStatus::NoPlan },
         reason: trajectory.is_none().then(|| "no path was found from start to goal".to_owned()),
         objective: path.map(|path| super::length_m(&path)),
-        trajectories: trajectory.into_iter().map(Into::into).collect(),
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: begin.elapsed().as_secs_f64(), distributed_s: 0.0 },
+        ..Plan::new(&scenario.name, name, seed, trajectory.into_iter().map(Into::into).collect())
     }
 }
 

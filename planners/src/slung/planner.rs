@@ -50,17 +50,13 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let (status, reason) = status(best);
     let trajectory = solution::trajectory(&problem, best, &scenario.vehicles[0].name);
     Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: NAME.to_owned(),
-        seed,
         status,
         reason,
         objective: Some(problem.reported(best.last().objective)),
-        trajectories: vec![trajectory.into()],
         history,
         diagnostics: diagnostics(&problem, best, &candidates),
         timings: timings(elapsed),
+        ..Plan::new(&scenario.name, NAME, seed, vec![trajectory.into()])
     }
 }
 
@@ -144,19 +140,7 @@ fn iteration(problem: &Problem, mesh: &MeshIteration) -> Iteration {
 }
 
 fn without_trajectory(scenario: &Scenario, seed: u64, reason: String, elapsed: Duration) -> Plan {
-    Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: NAME.to_owned(),
-        seed,
-        status: PlanStatus::NoPlan,
-        reason: Some(reason),
-        objective: None,
-        trajectories: Vec::new(),
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
-        timings: timings(elapsed),
-    }
+    Plan { timings: timings(elapsed), ..Plan::no_plan(&scenario.name, NAME, seed, reason) }
 }
 
 fn timings(elapsed: Duration) -> PlanTimings {

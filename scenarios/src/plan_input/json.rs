@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 
 use super::columns::Columns;
 use super::{ColumnTable, PlanDocument, PlanHeader, PlanIssue};
-use crate::{Issue, closest_name};
+use crate::{Issue, Plan, closest_name};
 
 /// Keys that a document may have. `protocol` belongs to replies of outside planners.
 const KEYS: [&str; 12] = [
@@ -28,9 +28,6 @@ const KEYS: [&str; 12] = [
     "account",
     "timings",
 ];
-/// Version of the form that is read.
-const SCHEMA: u64 = 1;
-
 /// Reads the whole text.
 pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<PlanIssue>> {
     let document: Value = serde_json::from_str(text).map_err(|error| vec![syntax(&error, text)])?;
@@ -39,7 +36,7 @@ pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<Pl
         return Err(vec![PlanIssue::new("", issue)]);
     };
     let mut issues: Vec<PlanIssue> = unknown_keys(&document).collect();
-    if let Some(schema) = document.get("schema").filter(|schema| schema.as_u64() != Some(SCHEMA)) {
+    if let Some(schema) = document.get("schema").filter(|schema| schema.as_u64() != Some(Plan::SCHEMA.into())) {
         issues.push(PlanIssue::new(
             "",
             issue("schema", schema.to_string(), "1, the version of the form that this harness reads"),

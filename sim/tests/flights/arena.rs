@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use scenarios::fixed_wing::{Control, Limits, Model, State, Trajectory};
 use scenarios::{
-    Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario,
-    Simulation, Vehicle, VerdictLimits, Waypoint, World,
+    Cylinder, FleetRules, Interpolation, Map, Models, Plan, PlannerSettings, Range, Scenario, Simulation, Vehicle,
+    VerdictLimits, Waypoint, World,
 };
 use sim::Sample;
 
@@ -61,19 +61,7 @@ pub fn plan(mut trajectories: Vec<Trajectory>) -> Plan {
     for (index, trajectory) in trajectories.iter_mut().enumerate() {
         trajectory.vehicle = format!("uav-{}", index + 1);
     }
-    Plan {
-        schema: 1,
-        scenario: "arena".into(),
-        planner: "by-hand".into(),
-        seed: 0,
-        status: PlanStatus::Solved,
-        reason: None,
-        objective: None,
-        trajectories: trajectories.into_iter().map(Into::into).collect(),
-        history: vec![],
-        diagnostics: scenarios::PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    }
+    Plan::new("arena", "by-hand", 0, trajectories.into_iter().map(Into::into).collect())
 }
 
 /// Level at 400 m.

@@ -1,9 +1,9 @@
 //! A quadrotor over an empty map.
 
+use scenarios::Plan;
 use scenarios::Scenario;
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
-use scenarios::{Plan, PlanDiagnostics, PlanStatus, PlanTimings};
 
 const TEXT: &str = r#"name = "arena"
 description = "Nothing in the way."
@@ -51,19 +51,7 @@ pub fn scenario(plant: &str) -> Scenario {
 
 /// A plan through nodes.
 pub fn plan(scenario: &Scenario, nodes: &[Node]) -> Plan {
-    Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: "by-hand".into(),
-        seed: 0,
-        status: PlanStatus::Solved,
-        reason: None,
-        objective: None,
-        trajectories: vec![Trajectory::through("uav-1", nodes).into()],
-        history: Vec::new(),
-        diagnostics: PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    }
+    Plan::new(&scenario.name, "by-hand", 0, vec![Trajectory::through("uav-1", nodes).into()])
 }
 
 /// From the start to the goal in 5 s, with a turn on the way.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use scenarios::slung_load::{Cable, Control, Limits, Model, State, Trajectory};
 use scenarios::{
-    FleetRules, Interpolation, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario,
-    Simulation, Vehicle, VerdictLimits, Waypoint, World,
+    FleetRules, Interpolation, Map, Models, Plan, PlannerSettings, Range, Scenario, Simulation, Vehicle, VerdictLimits,
+    Waypoint, World,
 };
 
 /// The vehicle of Kang, Huang, Wen (2020), with a k that is not unphysical.
@@ -70,19 +70,7 @@ pub fn trajectory(nodes: &[(f64, State, [f64; 4], Cable)]) -> Trajectory {
 
 /// A plan of this trajectory.
 pub fn plan(trajectory: Trajectory) -> Plan {
-    Plan {
-        schema: 1,
-        scenario: "arena".into(),
-        planner: "by-hand".into(),
-        seed: 0,
-        status: PlanStatus::Solved,
-        reason: None,
-        objective: None,
-        trajectories: vec![trajectory.into()],
-        history: vec![],
-        diagnostics: scenarios::PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    }
+    Plan::new("arena", "by-hand", 0, vec![trajectory.into()])
 }
 
 /// Nothing to report to.

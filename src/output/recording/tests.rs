@@ -5,8 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use scenarios::{
-    FleetRules, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range, Scenario, Simulation,
-    VerdictLimits, World,
+    FleetRules, Map, Models, Plan, PlanStatus, PlannerSettings, Range, Scenario, Simulation, VerdictLimits, World,
 };
 
 use super::{Recorder, Run, record};
@@ -43,19 +42,7 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
         simulation: Simulation::default(),
         verdict: VerdictLimits::default(),
     };
-    let plan = Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: String::new(),
-        seed: 0,
-        status: PlanStatus::NoPlan,
-        reason: None,
-        objective: None,
-        trajectories: Vec::new(),
-        history: Vec::new(),
-        diagnostics: scenarios::PlanDiagnostics::default(),
-        timings: PlanTimings::default(),
-    };
+    let plan = Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };
     look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[] });
 }

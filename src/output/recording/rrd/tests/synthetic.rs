@@ -2,8 +2,8 @@
 
 use scenarios::fixed_wing::{self, Control, Limits, Model, State};
 use scenarios::{
-    Cylinder, FleetRules, Interpolation, Iteration, Map, Models, Plan, PlanStatus, PlanTimings, PlannerSettings, Range,
-    Scenario, Simulation, Trajectory, Vehicle, VerdictLimits, Waypoint, World,
+    Cylinder, FleetRules, Interpolation, Iteration, Map, Models, Plan, PlanTimings, PlannerSettings, Range, Scenario,
+    Simulation, Trajectory, Vehicle, VerdictLimits, Waypoint, World,
 };
 use sim::{Actuation, Commanded, Event, EventKind, Flight, Sample, VehicleLog};
 
@@ -163,17 +163,10 @@ fn plan(scenario: &Scenario, duration_s: f64) -> Plan {
         distributed_s: 0.002,
     };
     Plan {
-        schema: 1,
-        scenario: scenario.name.clone(),
-        planner: "by-hand".to_owned(),
-        seed: 42,
-        status: PlanStatus::Solved,
-        reason: None,
         objective: Some(duration_s),
-        trajectories: scenario.vehicles.iter().enumerate().map(trajectory).collect(),
         history: (0..17).map(iteration).collect(),
-        diagnostics: scenarios::PlanDiagnostics::default(),
         timings: PlanTimings { wall_s: 0.083, distributed_s: 0.021 },
+        ..Plan::new(&scenario.name, "by-hand", 42, scenario.vehicles.iter().enumerate().map(trajectory).collect())
     }
 }
 
