@@ -129,7 +129,7 @@ fn fly_in_loop(
     (PlannerOutput { answer: CompletedPlan::whole(plan), log: log.map(|log| log()) }, Some(flight))
 }
 
-/// Where the margins went, rung by rung.
+/// Where the margins went, step by step.
 fn waterfall(job: &Job, answer: &CompletedPlan, verdict: &Verdict) -> Vec<MarginBudget> {
     match job.plan_source.plans_in_the_loop() {
         true => margin_budget::in_the_loop(&job.scenario, &job.plan_source, job.seed, verdict),

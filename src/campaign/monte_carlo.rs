@@ -1,37 +1,37 @@
-//! Monte Carlo: the same plan flown again and again, in a world that is drawn anew each time.
+//! Monte Carlo: one plan flown many times, each time in a randomly perturbed world.
 //!
-//! A sample is a number. Everything that is drawn for it comes from streams of that number, so that many machines can
-//! share the samples among them, and any one of them can be flown again alone.
+//! A sample is identified by its number. All its random streams are derived from that number, so that machines can share the
+//! samples among them, and any single sample can be flown again.
 
-mod draw;
 mod merge;
+mod perturbation;
 mod show;
 mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
-use scenarios::{Plan, PlanStatus, Scenario};
+use scenarios::{Group, Scenario, checks_of};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::system_under_test::SystemUnderTest;
-use crate::verdict::{self, Outcome, Verdict};
+use crate::verdict::{Outcome, Verdict};
 
-pub use draw::{Draw, Spread};
 pub use merge::merge;
+pub use perturbation::{Dispersions, Perturbation};
 pub use show::text;
 pub use statistics::{CheckStatistics, Statistics, worst};
 
-/// Which of the samples are flown: those whose number leaves the rest `part - 1` when divided by `parts`.
+/// The samples that one machine flies: those whose number is `part - 1` modulo `parts`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Partition {
     /// From 1.
     pub part: usize,
-    /// How many there are.
+    /// Number of partitions.
     pub parts: usize,
 }
 
 impl Partition {
-    /// All of them.
+    /// All samples.
     pub const WHOLE: Self = Self { part: 1, parts: 1 };
 
     /// The numbers of its samples out of `samples`, counted from 0.
@@ -40,10 +40,10 @@ impl Partition {
     }
 }
 
-/// What makes samples comparable: those of one sweep agree in all of it.
+/// What all samples of one sweep have in common.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
-    /// Version of this form: 1.
+    /// Version of this format: 1.
     pub schema: u32,
     /// Version of the harness that flew.
     pub version: String,
@@ -51,13 +51,14 @@ pub struct Sweep {
     pub scenario: String,
     /// Name of the planner.
     pub planner: String,
-    /// Seed of the first sample; of each next one it is one more.
+    /// Seed of sample 0; each further sample adds one.
     pub seed: u64,
     /// Number of samples, all partitions together.
     pub samples: usize,
-    /// What is drawn.
-    pub spread: Spread,
-    /// What can be asked of a flight, with the units of the margins, in the order of the table's columns.
+    /// What is perturbed, and by how much.
+    #[serde(rename = "spread")]
+    pub dispersions: Dispersions,
+    /// Names of the checks of a flight and units of their margins, in the order of the table's columns.
     pub checks: Vec<(String, String)>,
 }
 
@@ -66,80 +67,74 @@ pub struct Sweep {
 pub struct Sample {
     /// Its number, from 0.
     pub number: usize,
-    /// What was drawn for it.
-    pub draw: Draw,
+    /// Its perturbation.
+    pub perturbation: Perturbation,
     /// The verdict in one word.
     pub verdict: Outcome,
-    /// Names of the checks that decided against it.
-    pub red: Vec<String>,
+    /// Names of the deciding checks that failed.
+    pub failed_checks: Vec<String>,
     /// The margin of every check of the flight; NaN where it has none, or one in another unit (of several quantities that
     /// a check holds against their limits now one is worst, now another).
     pub margins: Vec<f64>,
 }
 
-/// Version of the form of the results.
+/// Version of the result format.
 const SCHEMA: u32 = 1;
 
 impl Sweep {
-    /// So many samples about the question's scenario.
-    pub fn new(question: &Question<'_>, samples: usize, spread: Spread) -> Self {
-        let Question { scenario, contender } = question;
-        let verdict = verdict::judge(scenario, &unanswered(scenario), None);
-        let of_flight = verdict.checks.into_iter().filter(|check| check.name.starts_with("flight."));
+    /// A sweep of `samples` flights about the scenario of an experiment.
+    pub fn new(experiment: &Experiment<'_>, samples: usize, dispersions: Dispersions) -> Self {
+        let Experiment { scenario, system } = experiment;
+        let of_flight = checks_of(scenario.family()).filter(|check| check.group == Group::Flight);
         Self {
             schema: SCHEMA,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scenario: scenario.name.clone(),
-            planner: contender.planner().to_owned(),
+            planner: system.planner().to_owned(),
             seed: scenario.simulation.seed,
             samples,
-            spread,
-            checks: of_flight.map(|check| (check.name, check.unit)).collect(),
+            dispersions,
+            checks: of_flight.map(|check| (check.name.to_owned(), check.unit.to_owned())).collect(),
         }
     }
 }
 
-/// No plan at all: every check that there is says so.
-fn unanswered(scenario: &Scenario) -> Plan {
-    Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) }
-}
-
-/// Who is flown, and where.
-pub struct Question<'a> {
-    /// The scenario around which is drawn.
+/// The system under test and the scenario to perturb.
+pub struct Experiment<'a> {
+    /// The unperturbed scenario.
     pub scenario: &'a Scenario,
-    /// Who is flown in every sample.
-    pub contender: SystemUnderTest<'a>,
+    /// What is flown in every sample.
+    pub system: SystemUnderTest<'a>,
 }
 
-impl Question<'_> {
-    /// The scenario of one sample: as a file of its own it would give the same flight.
-    pub fn scenario_of(&self, spread: &Spread, number: usize) -> (Scenario, Draw) {
+impl Experiment<'_> {
+    /// The scenario of one sample. Run as a file of its own, it gives the same flight.
+    pub fn scenario_of(&self, dispersions: &Dispersions, number: usize) -> (Scenario, Perturbation) {
         let mut scenario = self.scenario.clone();
         let seed = scenario.simulation.seed.wrapping_add(number as u64);
         scenario.simulation.seed = seed;
-        let draw = spread.draw(seed);
-        draw.apply(&mut scenario);
-        (scenario, draw)
+        let perturbation = dispersions.draw(seed);
+        perturbation.apply(&mut scenario);
+        (scenario, perturbation)
     }
 }
 
 /// Flies a partition of the samples, on all threads, and returns them in the order of their numbers.
 ///
 /// - `flown`: is called after every flight, from any thread
-pub fn run(question: &Question<'_>, sweep: &Sweep, partition: Partition, flown: &(dyn Fn() + Sync)) -> Vec<Sample> {
+pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flown: &(dyn Fn() + Sync)) -> Vec<Sample> {
     let numbers: Vec<usize> = partition.numbers(sweep.samples).collect();
     let sample = |number: usize| {
-        let (scenario, draw) = question.scenario_of(&sweep.spread, number);
-        let verdict = question.contender.judged_in(&scenario, scenario.simulation.seed);
+        let (scenario, perturbation) = experiment.scenario_of(&sweep.dispersions, number);
+        let verdict = experiment.system.judged_in(&scenario, scenario.simulation.seed);
         flown();
-        Sample::of(number, draw, &verdict, &sweep.checks)
+        Sample::of(number, perturbation, &verdict, &sweep.checks)
     };
     numbers.into_par_iter().map(sample).collect()
 }
 
 impl Sample {
-    fn of(number: usize, draw: Draw, verdict: &Verdict, asked: &[(String, String)]) -> Self {
+    fn of(number: usize, perturbation: Perturbation, verdict: &Verdict, asked: &[(String, String)]) -> Self {
         let decisive = verdict.checks.iter().filter(|check| check.is_bad() && !check.advisory);
         let margin = |(name, unit): &(String, String)| {
             let check = verdict.checks.iter().find(|check| check.name == *name && check.unit == *unit);
@@ -147,9 +142,9 @@ impl Sample {
         };
         Self {
             number,
-            draw,
+            perturbation,
             verdict: verdict.outcome,
-            red: decisive.map(|check| check.name.clone()).collect(),
+            failed_checks: decisive.map(|check| check.name.clone()).collect(),
             margins: asked.iter().map(margin).collect(),
         }
     }

@@ -7,8 +7,8 @@
 mod fault;
 mod faults;
 mod near_misses;
+mod reference_case;
 mod show;
-mod specimen;
 
 use std::collections::BTreeSet;
 
@@ -19,8 +19,8 @@ use serde::Serialize;
 use crate::verdict::{Check, Outcome, Status};
 
 pub use fault::{Fault, NearMiss};
+pub use reference_case::ReferenceCase;
 pub use show::{markdown, text};
-pub use specimen::Specimen;
 
 /// Version of the form of `selftest.json`.
 const SCHEMA: u32 = 1;
@@ -43,9 +43,9 @@ pub struct Selftest {
 /// What became of a fault.
 #[derive(Clone, Debug, Serialize)]
 pub struct FaultResult {
-    /// Family of the specimen.
+    /// Family of the reference.
     pub family: String,
-    /// Scenario of the specimen.
+    /// Scenario of the reference.
     pub scenario: String,
     /// What was wrong.
     pub fault: &'static str,
@@ -60,9 +60,9 @@ pub struct FaultResult {
 /// What became of a near miss.
 #[derive(Clone, Debug, Serialize)]
 pub struct NearMissResult {
-    /// Family of the specimen.
+    /// Family of the reference.
     pub family: String,
-    /// Scenario of the specimen.
+    /// Scenario of the reference.
     pub scenario: String,
     /// What is nearly wrong.
     pub near_miss: &'static str,
@@ -96,7 +96,7 @@ impl Selftest {
 ///
 /// - `progress`: is told what is being done
 ///
-/// From a specimen that does not pass before anything is injected nothing can be learnt: it counts as a near miss that
+/// From a reference that does not pass before anything is injected nothing can be learnt: it counts as a near miss that
 /// turned red, and nothing is injected into it.
 pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
     let mut selftest = Selftest {
@@ -108,21 +108,21 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
     };
     for family in [Family::FixedWing, Family::SlungLoad, Family::Multirotor] {
         let mut asked = BTreeSet::new();
-        for specimen in specimen::all(family) {
-            progress(&format!("{}: planning and flying", specimen.scenario.name));
-            let specimen = specimen.flown();
-            let untouched = approach(&specimen, &NearMiss::new("nothing is changed", |_| {}));
+        for reference in reference_case::all(family) {
+            progress(&format!("{}: planning and flying", reference.scenario.name));
+            let reference = reference.flown();
+            let untouched = approach(&reference, &NearMiss::new("nothing is changed", |_| {}));
             let is_good = untouched.green;
             selftest.near_misses.push(untouched);
-            asked.extend(specimen.asked());
+            asked.extend(reference.asked());
             if !is_good {
                 continue;
             }
-            let faults = faults::of(&specimen);
-            progress(&format!("{}: {} faults", specimen.scenario.name, faults.len()));
-            selftest.faults.par_extend(faults.par_iter().map(|fault| inject(&specimen, fault)));
-            let near_misses = near_misses::of(&specimen);
-            selftest.near_misses.par_extend(near_misses.par_iter().map(|near_miss| approach(&specimen, near_miss)));
+            let faults = faults::of(&reference);
+            progress(&format!("{}: {} faults", reference.scenario.name, faults.len()));
+            selftest.faults.par_extend(faults.par_iter().map(|fault| inject(&reference, fault)));
+            let near_misses = near_misses::of(&reference);
+            selftest.near_misses.par_extend(near_misses.par_iter().map(|near_miss| approach(&reference, near_miss)));
         }
         let of_family = |fault: &&FaultResult| fault.family == family.to_string();
         let count =
@@ -135,14 +135,14 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
     selftest
 }
 
-fn inject(specimen: &Specimen, fault: &Fault) -> FaultResult {
-    let mut spoilt = specimen.clone();
-    (fault.inject)(&mut spoilt);
-    let verdict = spoilt.judge();
+fn inject(reference: &ReferenceCase, fault: &Fault) -> FaultResult {
+    let mut mutated = reference.clone();
+    (fault.inject)(&mut mutated);
+    let verdict = mutated.judge();
     let red = red(&verdict.checks);
     FaultResult {
-        family: specimen.family().to_string(),
-        scenario: specimen.scenario.name.clone(),
+        family: reference.family().to_string(),
+        scenario: reference.scenario.name.clone(),
         fault: fault.name,
         aims_at: fault.aims_at,
         caught: verdict.outcome != Outcome::Pass && red.iter().any(|check| check == fault.aims_at),
@@ -150,13 +150,13 @@ fn inject(specimen: &Specimen, fault: &Fault) -> FaultResult {
     }
 }
 
-fn approach(specimen: &Specimen, near_miss: &NearMiss) -> NearMissResult {
-    let mut close = specimen.clone();
+fn approach(reference: &ReferenceCase, near_miss: &NearMiss) -> NearMissResult {
+    let mut close = reference.clone();
     (near_miss.approach)(&mut close);
     let verdict = close.judge();
     NearMissResult {
-        family: specimen.family().to_string(),
-        scenario: specimen.scenario.name.clone(),
+        family: reference.family().to_string(),
+        scenario: reference.scenario.name.clone(),
         near_miss: near_miss.name,
         green: verdict.outcome == Outcome::Pass,
         red: red(&verdict.checks),
@@ -171,7 +171,7 @@ fn in_order(family: Family, asked: &BTreeSet<String>) -> impl Iterator<Item = &S
     scenarios::check_names(family).filter_map(|name| asked.get(name))
 }
 
-impl Specimen {
+impl ReferenceCase {
     /// The checks that are asked of it.
     fn asked(&self) -> Vec<String> {
         let checks = self.judge().checks;

@@ -4,30 +4,30 @@ use clap::Args;
 
 use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
-use crate::campaign::failure_threshold::{self, Axis, Stress};
+use crate::campaign::failure_threshold::{self, Disturbance, FailureThreshold};
 use crate::campaign::system_under_test::SystemUnderTest;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
-use crate::number_format::{number, quantity};
+use crate::number_format::quantity;
 use crate::output;
 use crate::pipeline;
 use crate::progress::Progress;
 
-/// Find the disturbance at which the verdict turns.
+/// Find the smallest disturbance that makes the plan fail
 ///
-/// The scenario is planned once (in the loop: for every flight); then it is flown with a disturbance that grows until a
-/// flight fails. Levels up to beyond the first failure are tried, so that a response which is not monotone is noticed and
-/// said. The exit code is 1 if the plan fails without any disturbance of the kind.
+/// The scenario is planned once (in-loop planners plan anew in every flight) and flown with a growing disturbance until a
+/// flight fails. Levels beyond the first failure are flown too, so that a response that is not monotone is reported. The
+/// exit code is 1 if the plan fails without the disturbance.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct StressCommand {
     /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// What grows; repeat it, or separate by commas, for several
+    /// Disturbances to vary, separated by commas
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', required = true)]
-    over: Vec<Axis>,
+    over: Vec<Disturbance>,
     #[command(flatten)]
     plan_source: AuthorArgs,
     /// Seed of everything random, instead of the scenario's own
@@ -47,7 +47,7 @@ Examples:
   harness stress scenarios/slung/rectangle.toml --over wind,mass,delay,noise
 
 Results:
-  out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and where the verdict turns";
+  out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and the bracket of the first failure";
 
 impl StressCommand {
     /// Plans, searches, prints and writes.
@@ -60,13 +60,13 @@ impl StressCommand {
         if answer.as_ref().is_some_and(tell_no_plan) {
             return Ok(Exit::Failed);
         }
-        let contender = SystemUnderTest::of(&job.plan_source, answer.as_ref());
+        let system = SystemUnderTest::of(&job.plan_source, answer.as_ref());
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
         let mut exit = Exit::Passed;
         for &over in &self.over {
             let mut flown = 0;
-            let stress = failure_threshold::run(&job.scenario, contender, over, job.seed, &mut |count| flown += count);
+            let stress = failure_threshold::run(&job.scenario, system, over, job.seed, &mut |count| flown += count);
             output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
             if !self.quiet {
                 console::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;
@@ -80,32 +80,38 @@ impl StressCommand {
 }
 
 /// The result in one line.
-fn in_words(stress: &Stress) -> String {
+fn in_words(stress: &FailureThreshold) -> String {
     let level = |level: f64| match stress.over {
-        Axis::Mass => format!("{:+.1} %", 100.0 * level),
-        Axis::Wind | Axis::Delay | Axis::Noise => quantity(level, stress.unit),
+        Disturbance::Mass => format!("{:+.1} %", 100.0 * level),
+        Disturbance::Wind | Disturbance::Delay | Disturbance::Noise => quantity(level, stress.unit),
     };
     let what = name(stress.over);
     let asked = format!("the scenario has {}", level(stress.asked));
-    let odd = if stress.is_monotone { "" } else { "; NOT MONOTONE: some stronger one passes again" };
-    match (&stress.turns, stress.trials.first(), stress.trials.last()) {
-        (Some(turn), ..) => {
-            let red = turn.red.join(", ");
-            format!("{what} {}: passes at {}, fails by {red}; {asked}{odd}", level(turn.fails), level(turn.passes))
+    let odd = if stress.is_monotone { "" } else { "; NOT MONOTONE: a stronger one passes again" };
+    match (&stress.bracket, stress.trials.first(), stress.trials.last()) {
+        (Some(bracket), ..) => {
+            let failed = bracket.failed_checks.join(", ");
+            format!(
+                "{what} {}: passes at {}, fails by {failed}; {asked}{odd}",
+                level(bracket.fails),
+                level(bracket.passes)
+            )
         }
         (None, Some(first), _) if !first.passed => {
-            format!("{what}: fails without any, by {}{odd}", first.red.join(", "))
+            format!("{what}: fails without it, by {}{odd}", first.failed_checks.join(", "))
         }
-        (None, _, Some(last)) => format!("{what}: passes up to {}, the most that is tried; {asked}", level(last.level)),
-        (None, _, None) => format!("{what}: nothing was flown, of {} levels", number(0.0, "-")),
+        (None, _, Some(last)) => {
+            format!("{what}: passes up to {}, the largest level tried; {asked}", level(last.level))
+        }
+        (None, _, None) => format!("{what}: no level was flown"),
     }
 }
 
-fn name(over: Axis) -> &'static str {
+fn name(over: Disturbance) -> &'static str {
     match over {
-        Axis::Wind => "wind",
-        Axis::Mass => "mass",
-        Axis::Delay => "delay",
-        Axis::Noise => "noise",
+        Disturbance::Wind => "wind",
+        Disturbance::Mass => "mass",
+        Disturbance::Delay => "delay",
+        Disturbance::Noise => "noise",
     }
 }

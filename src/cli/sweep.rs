@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::plan::tell_no_plan;
 use super::run::AuthorArgs;
 use super::session::start_threads;
-use crate::campaign::monte_carlo::{self, Partition, Question, Sample, Spread, Statistics, Sweep, table};
+use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
 use crate::campaign::system_under_test::SystemUnderTest;
 use crate::console;
 use crate::error::{Error, Exit};
@@ -32,7 +32,7 @@ pub struct SweepCommand {
     #[arg(short = 'n', long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     samples: u32,
     #[command(flatten)]
-    spread: SpreadArgs,
+    dispersions: SpreadArgs,
     /// Fly only part K of N parts: one for each machine, for `harness merge`
     #[arg(long, value_name = "K/N", value_parser = partition)]
     partition: Option<Partition>,
@@ -107,16 +107,16 @@ impl SweepCommand {
             progress.finish();
             return Ok(Exit::Failed);
         }
-        let contender = SystemUnderTest::of(&job.plan_source, answer.as_ref());
-        let question = Question { scenario: &job.scenario, contender };
-        let sweep = Sweep::new(&question, self.samples as usize, self.spread.about(job));
-        let samples = self.fly(&question, &sweep, progress);
+        let system = SystemUnderTest::of(&job.plan_source, answer.as_ref());
+        let experiment = Experiment { scenario: &job.scenario, system };
+        let sweep = Sweep::new(&experiment, self.samples as usize, self.dispersions.about(job));
+        let samples = self.fly(&experiment, &sweep, progress);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
         if let Some(answer) = &answer {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
         }
-        let worst = write_worst(&question, &sweep, &samples, &folder)?;
+        let worst = write_worst(&experiment, &sweep, &samples, &folder)?;
         let exit = self.shown.finish(&sweep, &samples, &folder)?;
         if let Some(number) = worst.filter(|_| !self.shown.quiet) {
             console::print(&format!("sample {number} failed most; its scenario stands in worst/"))?;
@@ -124,11 +124,11 @@ impl SweepCommand {
         Ok(exit)
     }
 
-    fn fly(&self, question: &Question<'_>, sweep: &Sweep, progress: Progress) -> Vec<Sample> {
+    fn fly(&self, experiment: &Experiment<'_>, sweep: &Sweep, progress: Progress) -> Vec<Sample> {
         let partition = self.partition.unwrap_or(Partition::WHOLE);
         let total = partition.numbers(sweep.samples).count();
         let progress = Mutex::new((progress, 0));
-        let samples = monte_carlo::run(question, sweep, partition, &|| {
+        let samples = monte_carlo::run(experiment, sweep, partition, &|| {
             if let Ok(mut progress) = progress.lock() {
                 progress.1 += 1;
                 let done = progress.1;
@@ -143,12 +143,12 @@ impl SweepCommand {
 }
 
 impl SpreadArgs {
-    fn about(&self, job: &Job) -> Spread {
+    fn about(&self, job: &Job) -> Dispersions {
         let Self { wind, mass, noise, start } = *self;
         if [wind, mass, noise, start].iter().all(Option::is_none) {
-            return Spread::usual(&job.scenario);
+            return Dispersions::usual(&job.scenario);
         }
-        Spread {
+        Dispersions {
             wind_mps: wind.unwrap_or(0.0),
             mass: mass.unwrap_or(0.0) / 100.0,
             noise_m: noise.unwrap_or(0.0),
@@ -181,16 +181,16 @@ impl Shown {
 
 /// The worst sample as a scenario, and its number, or the removal of that of an earlier sweep.
 fn write_worst(
-    question: &Question<'_>,
+    experiment: &Experiment<'_>,
     sweep: &Sweep,
     samples: &[Sample],
     folder: &Path,
 ) -> Result<Option<usize>, Error> {
     let folder = folder.join("worst");
-    let path = folder.join(format!("{}.toml", question.scenario.name));
+    let path = folder.join(format!("{}.toml", experiment.scenario.name));
     let Some(number) = monte_carlo::worst(samples) else { return output::remove_stale(&path).map(|()| None) };
     output::create_folder(&folder)?;
-    let (scenario, _) = question.scenario_of(&sweep.spread, number);
+    let (scenario, _) = experiment.scenario_of(&sweep.dispersions, number);
     output::replace_file(&path, |partial| {
         let text = format!("# Sample {number} of a sweep about {}.\n{}", scenario.name, toml::to_string(&scenario)?);
         Ok(std::fs::write(partial, text)?)

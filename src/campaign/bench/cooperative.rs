@@ -7,7 +7,7 @@ use planners::scp::parallel::PLANNER;
 use scenarios::{PlannerSettings, Scenario, Solver};
 use serde::Serialize;
 
-use super::entry::{self, Ending, Entry};
+use super::entry::{self, Entry, Outcome};
 use crate::error::Error;
 use crate::metrics::PlanMetrics;
 pub use show::{markdown, text};
@@ -51,7 +51,7 @@ pub struct Row {
     /// Solver of the subproblems.
     pub solver: &'static str,
     /// How it ended.
-    pub ending: Ending,
+    pub outcome: Outcome,
     /// Iterations of the planner.
     pub iterations: Option<usize>,
     /// Planning time, s.
@@ -97,12 +97,12 @@ fn row(mission: &Scenario, vehicles: usize, solver: Solver, name: &'static str, 
     // everything else is the paper's
     fleet.planner =
         PlannerSettings { name: PLANNER.name.to_owned(), solver: Some(solver), ..PlannerSettings::default() };
-    let Entry { ending, report } = entry::run(&fleet, PLANNER.name, limit_s)?;
+    let Entry { outcome, report } = entry::run(&fleet, PLANNER.name, limit_s)?;
     Ok(Row {
         mission: mission.name.clone(),
         vehicles,
         solver: name,
-        ending,
+        outcome,
         iterations: report.as_ref().map(|report| report.plan.iterations),
         planning_s: report.as_ref().map(|report| report.plan.wall_s),
         metrics: report.and_then(|report| report.metrics.plan),

@@ -20,7 +20,7 @@ const POLL: Duration = Duration::from_millis(5);
 /// How an entry ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Ending {
+pub enum Outcome {
     /// Every check passed.
     Pass,
     /// Some check failed.
@@ -31,7 +31,7 @@ pub enum Ending {
     TimedOut,
 }
 
-impl Ending {
+impl Outcome {
     /// In a table.
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl Ending {
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// How it ended.
-    pub ending: Ending,
+    pub outcome: Outcome,
     /// The report; nothing if the time limit came first.
     pub report: Option<Report>,
 }
@@ -65,13 +65,13 @@ pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Er
     guard.end(&mut child);
     let _ = child.wait();
     if !is_over {
-        return Ok(Entry { ending: Ending::TimedOut, report: None });
+        return Ok(Entry { outcome: Outcome::TimedOut, report: None });
     }
     let path = out.join(&scenario.name).join(planner).join("report.json");
     let text = fs::read_to_string(&path).map_err(|error| environment("read the report of a benchmark", &error))?;
     let report: Report =
         serde_json::from_str(&text).map_err(|error| environment("read the report of a benchmark", &error))?;
-    Ok(Entry { ending: ending(&report), report: Some(report) })
+    Ok(Entry { outcome: outcome(&report), report: Some(report) })
 }
 
 fn start(file: &Path, planner: &str, out: &Path) -> Result<Child, Error> {
@@ -95,11 +95,11 @@ fn ends_within(guard: &Guard, child: &mut Child, limit_s: f64) -> bool {
     true
 }
 
-fn ending(report: &Report) -> Ending {
+fn outcome(report: &Report) -> Outcome {
     match report.verdict {
-        crate::verdict::Outcome::Pass => Ending::Pass,
-        crate::verdict::Outcome::Fail => Ending::Fail,
-        crate::verdict::Outcome::NoPlan => Ending::NoPlan,
+        crate::verdict::Outcome::Pass => Outcome::Pass,
+        crate::verdict::Outcome::Fail => Outcome::Fail,
+        crate::verdict::Outcome::NoPlan => Outcome::NoPlan,
     }
 }
 

@@ -6,7 +6,7 @@ mod show;
 use scenarios::Scenario;
 use serde::Serialize;
 
-use super::entry::{self, Ending, Entry};
+use super::entry::{self, Entry, Outcome};
 use crate::error::Error;
 pub use show::{markdown, text};
 
@@ -52,7 +52,7 @@ pub struct Row {
     /// The planner.
     pub planner: &'static str,
     /// How it ended.
-    pub ending: Ending,
+    pub outcome: Outcome,
     /// What was measured; nothing if the time limit came first.
     #[serde(flatten)]
     pub measured: Option<Measured>,
@@ -117,7 +117,7 @@ fn row(
     progress(&format!("{planner} on {vehicles} vehicles of {}", scenario.name));
     let mut fleet = scenario.clone();
     fleet.vehicles.truncate(vehicles);
-    let Entry { ending, report } = entry::run(&fleet, planner, limit_s)?;
+    let Entry { outcome, report } = entry::run(&fleet, planner, limit_s)?;
     let measured = report.map(|report| {
         let check = |name: &str| report.checks.iter().find(|check| check.name == name).and_then(|check| check.value);
         let of_plan = report.metrics.plan.as_ref();
@@ -140,5 +140,5 @@ fn row(
             flight_and_verdict_s: report.timings.flying_s + report.timings.judging_s,
         }
     });
-    Ok(Row { scenario: scenario.name.clone(), vehicles, planner, ending, measured })
+    Ok(Row { scenario: scenario.name.clone(), vehicles, planner, outcome, measured })
 }

@@ -42,7 +42,7 @@ fn difference(one: &Sweep, other: &Sweep) -> Option<&'static str> {
         ("planner", one.planner != other.planner),
         ("seed", one.seed != other.seed),
         ("number of samples", one.samples != other.samples),
-        ("spread", one.spread != other.spread),
+        ("dispersions", one.dispersions != other.dispersions),
         ("list of checks", one.checks != other.checks),
     ]
     .into_iter()
@@ -66,7 +66,7 @@ fn complete(sweep: &Sweep, samples: &[Sample]) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::monte_carlo::{Draw, Spread};
+    use crate::campaign::monte_carlo::{Dispersions, Perturbation};
     use crate::verdict::Outcome;
 
     fn sweep() -> Sweep {
@@ -77,7 +77,7 @@ mod tests {
             planner: "by-hand".to_owned(),
             seed: 3,
             samples: 5,
-            spread: Spread { wind_mps: 1.0, mass: 0.0, noise_m: 0.0, start_m: 0.0 },
+            dispersions: Dispersions { wind_mps: 1.0, mass: 0.0, noise_m: 0.0, start_m: 0.0 },
             checks: vec![
                 ("flight.separation".to_owned(), "m".to_owned()),
                 ("flight.rest".to_owned(), "m/s".to_owned()),
@@ -88,7 +88,7 @@ mod tests {
     fn sample(number: usize) -> Sample {
         Sample {
             number,
-            draw: Draw {
+            perturbation: Perturbation {
                 seed: u64::MAX - number as u64,
                 wind_mps: [0.1, -0.2],
                 mass_ratios: [1.0, 1.0],
@@ -96,7 +96,11 @@ mod tests {
                 start_m: 0.0,
             },
             verdict: if number == 2 { Outcome::Fail } else { Outcome::Pass },
-            red: if number == 2 { vec!["flight.rest".into(), "flight.separation".into()] } else { Vec::new() },
+            failed_checks: if number == 2 {
+                vec!["flight.rest".into(), "flight.separation".into()]
+            } else {
+                Vec::new()
+            },
             margins: vec![number as f64, -0.5],
         }
     }

@@ -1,6 +1,6 @@
 //! A sweep on the terminal.
 
-use super::{CheckStatistics, Spread, Statistics, Sweep};
+use super::{CheckStatistics, Dispersions, Statistics, Sweep};
 use crate::number_format::{given, given_quantity, number, signed};
 use crate::output::report::table;
 
@@ -11,7 +11,7 @@ pub fn text(sweep: &Sweep, statistics: &Statistics) -> String {
         &[1, 2, 3, 4, 6],
     );
     // Nothing was ever counted that should not be: no line for each.
-    let is_idle = |check: &&CheckStatistics| check.red == 0 && check.margins == Some([0.0; 3]);
+    let is_idle = |check: &&CheckStatistics| check.failed_checks == 0 && check.margins == Some([0.0; 3]);
     for check in statistics.checks.iter().filter(|check| !is_idle(check)) {
         table.add_row(row(check));
     }
@@ -22,7 +22,7 @@ pub fn text(sweep: &Sweep, statistics: &Statistics) -> String {
         table.trim_fmt(),
         sweep.scenario,
         sweep.planner,
-        drawn(&sweep.spread),
+        drawn(&sweep.dispersions),
         100.0 * least,
         100.0 * most,
     )
@@ -34,11 +34,19 @@ fn row(check: &CheckStatistics) -> [String; 7] {
         None => [const { String::new() }; 3],
     };
     let worst = check.worst.map(|sample| sample.to_string()).unwrap_or_default();
-    [check.name.clone(), number(check.red as f64, "vehicles"), smallest, low, median, check.unit.clone(), worst]
+    [
+        check.name.clone(),
+        number(check.failed_checks as f64, "vehicles"),
+        smallest,
+        low,
+        median,
+        check.unit.clone(),
+        worst,
+    ]
 }
 
-fn drawn(spread: &Spread) -> String {
-    let Spread { wind_mps, mass, noise_m, start_m } = *spread;
+fn drawn(dispersions: &Dispersions) -> String {
+    let Dispersions { wind_mps, mass, noise_m, start_m } = *dispersions;
     let parts = [
         (wind_mps, format!("wind up to {} more", given_quantity(wind_mps, "m/s"))),
         (mass, format!("mass within {} %", given(100.0 * mass))),

@@ -26,7 +26,7 @@ pub struct CheckStatistics {
     /// Unit of the margins.
     pub unit: String,
     /// How often it decided against a flight.
-    pub red: usize,
+    pub failed_checks: usize,
     /// Smallest margin, 5 % quantile, and median of the samples that have one; absent if none has.
     pub margins: Option<[f64; 3]>,
     /// Number of the sample with the smallest margin.
@@ -49,7 +49,7 @@ impl Statistics {
             CheckStatistics {
                 name: name.clone(),
                 unit: unit.clone(),
-                red: samples.iter().filter(|sample| sample.red.contains(name)).count(),
+                failed_checks: samples.iter().filter(|sample| sample.failed_checks.contains(name)).count(),
                 margins: (!margins.is_empty()).then(|| [0.0, 0.05, 0.5].map(quantile)),
                 worst: margins.first().map(|(_, number)| *number),
             }
@@ -58,7 +58,7 @@ impl Statistics {
             samples: samples.len(),
             passed,
             pass_share_95: wilson(passed, samples.len()),
-            checks: checks.filter(|check| check.red > 0 || check.margins.is_some()).collect(),
+            checks: checks.filter(|check| check.failed_checks > 0 || check.margins.is_some()).collect(),
         }
     }
 }
@@ -67,7 +67,9 @@ impl Statistics {
 /// all passed.
 pub fn worst(samples: &[Sample]) -> Option<usize> {
     let failed = samples.iter().filter(|sample| sample.verdict != Outcome::Pass);
-    failed.max_by_key(|sample| (sample.red.len(), std::cmp::Reverse(sample.number))).map(|sample| sample.number)
+    failed
+        .max_by_key(|sample| (sample.failed_checks.len(), std::cmp::Reverse(sample.number)))
+        .map(|sample| sample.number)
 }
 
 /// Interval of a share of successes with 95 % confidence.                                              [Wilson, 1927]

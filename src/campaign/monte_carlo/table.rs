@@ -16,7 +16,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::{Row, RowAccessor};
 use parquet::schema::parser::parse_message_type;
 
-use super::{Draw, Sample, Sweep};
+use super::{Perturbation, Sample, Sweep};
 use crate::error::Error;
 use crate::output;
 use crate::verdict::Outcome;
@@ -28,7 +28,7 @@ const COLUMNS: [&str; 10] = [
     "int64 sample",
     "int64 seed",
     "binary verdict (utf8)",
-    "binary red (utf8)",
+    "binary failed_checks (utf8)",
     "double wind_east_mps",
     "double wind_north_mps",
     "double mass_ratio",
@@ -53,20 +53,20 @@ fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Par
     let schema = Arc::new(parse_message_type(&schema(sweep))?);
     let mut writer = SerializedFileWriter::new(File::create(path)?, schema, Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
-    let draws = || samples.iter().map(|sample| &sample.draw);
+    let perturbations = || samples.iter().map(|sample| &sample.perturbation);
     column::<Int64Type>(&mut group, samples.iter().map(|sample| sample.number as i64))?;
-    column::<Int64Type>(&mut group, draws().map(|draw| draw.seed.cast_signed()))?;
+    column::<Int64Type>(&mut group, perturbations().map(|perturbation| perturbation.seed.cast_signed()))?;
     column::<ByteArrayType>(&mut group, samples.iter().map(|sample| name_of(sample.verdict).into()))?;
     column::<ByteArrayType>(
         &mut group,
-        samples.iter().map(|sample| ByteArray::from(sample.red.join(AND).into_bytes())),
+        samples.iter().map(|sample| ByteArray::from(sample.failed_checks.join(AND).into_bytes())),
     )?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.wind_mps[0]))?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.wind_mps[1]))?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.mass_ratios[0]))?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.mass_ratios[1]))?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.noise_m))?;
-    column::<DoubleType>(&mut group, draws().map(|draw| draw.start_m))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.wind_mps[0]))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.wind_mps[1]))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.mass_ratios[0]))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.mass_ratios[1]))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.noise_m))?;
+    column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.start_m))?;
     for index in 0..sweep.checks.len() {
         column::<DoubleType>(&mut group, samples.iter().map(|sample| sample.margins[index]))?;
     }
@@ -93,7 +93,7 @@ fn schema(sweep: &Sweep) -> String {
 
 /// `separation_margin_m` for `flight.separation` in m.
 fn margin_column(check: &str, unit: &str) -> String {
-    let question = check.split_once('.').map_or(check, |(_, question)| question);
+    let question = check.split_once('.').map_or(check, |(_, experiment)| experiment);
     let unit: String = unit.replace('/', "p").chars().filter(char::is_ascii_alphanumeric).collect();
     let unit = if unit.is_empty() { unit } else { format!("_{unit}") };
     format!("{question}_margin{unit}")
@@ -123,7 +123,7 @@ fn sample(row: &Row, checks: usize) -> Result<Sample, ParquetError> {
     let outcome = VERDICTS.iter().find(|(name, _)| name == verdict).map(|(_, outcome)| *outcome);
     Ok(Sample {
         number: usize::try_from(row.get_long(0)?).map_err(|reason| ParquetError::External(reason.into()))?,
-        draw: Draw {
+        perturbation: Perturbation {
             seed: row.get_long(1)?.cast_unsigned(),
             wind_mps: [row.get_double(4)?, row.get_double(5)?],
             mass_ratios: [row.get_double(6)?, row.get_double(7)?],
@@ -131,7 +131,7 @@ fn sample(row: &Row, checks: usize) -> Result<Sample, ParquetError> {
             start_m: row.get_double(9)?,
         },
         verdict: outcome.ok_or_else(|| ParquetError::General(format!("`{verdict}` is no verdict")))?,
-        red: row.get_string(3)?.split(AND).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
+        failed_checks: row.get_string(3)?.split(AND).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
         margins: (0..checks).map(|index| row.get_double(COLUMNS.len() + index)).collect::<Result<_, _>>()?,
     })
 }

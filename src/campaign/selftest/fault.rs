@@ -1,4 +1,4 @@
-use super::Specimen;
+use super::ReferenceCase;
 
 /// A known fault.
 pub struct Fault {
@@ -7,7 +7,7 @@ pub struct Fault {
     /// The check that has to notice, by its full name; others may too.
     pub aims_at: &'static str,
     /// Makes it wrong.
-    pub inject: Box<dyn Fn(&mut Specimen) + Send + Sync>,
+    pub inject: Box<dyn Fn(&mut ReferenceCase) + Send + Sync>,
 }
 
 /// Something that is nearly wrong.
@@ -15,7 +15,7 @@ pub struct NearMiss {
     /// What, for a person to read.
     pub name: &'static str,
     /// Brings it close.
-    pub approach: Box<dyn Fn(&mut Specimen) + Send + Sync>,
+    pub approach: Box<dyn Fn(&mut ReferenceCase) + Send + Sync>,
 }
 
 impl Fault {
@@ -23,7 +23,7 @@ impl Fault {
     pub fn new(
         aims_at: &'static str,
         name: &'static str,
-        inject: impl Fn(&mut Specimen) + Send + Sync + 'static,
+        inject: impl Fn(&mut ReferenceCase) + Send + Sync + 'static,
     ) -> Self {
         Self { name, aims_at, inject: Box::new(inject) }
     }
@@ -31,7 +31,7 @@ impl Fault {
 
 impl NearMiss {
     /// Something that must pass.
-    pub fn new(name: &'static str, approach: impl Fn(&mut Specimen) + Send + Sync + 'static) -> Self {
+    pub fn new(name: &'static str, approach: impl Fn(&mut ReferenceCase) + Send + Sync + 'static) -> Self {
         Self { name, approach: Box::new(approach) }
     }
 }

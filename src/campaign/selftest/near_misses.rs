@@ -3,22 +3,22 @@
 use scenarios::multirotor::Plant;
 use scenarios::{BoxObstacle, Cylinder, Family};
 
-use super::faults::cuts::{self, SHARE};
-use super::{NearMiss, Specimen};
+use super::faults::tightened_limits::{self, SHARE};
+use super::{NearMiss, ReferenceCase};
 
 /// Distance from a limit, m.
 const NEAR_M: f64 = 1e-5;
 
-/// The near misses of a specimen. In wind there are none beyond the specimen itself.
-pub fn of(specimen: &Specimen) -> Vec<NearMiss> {
-    if specimen.scenario.simulation.wind.is_some() {
+/// The near misses of a reference. In wind there are none beyond the reference itself.
+pub fn of(reference: &ReferenceCase) -> Vec<NearMiss> {
+    if reference.scenario.simulation.wind.is_some() {
         return Vec::new();
     }
-    match specimen.family() {
-        Family::FixedWing => joined([limits(specimen), whole(), vec![as_near_as_may_be()], fixed_wing()]),
-        Family::SlungLoad => joined([limits(specimen), whole(), Vec::new(), slung_load()]),
-        Family::Multirotor if specimen.is_planned_in_the_loop() => in_the_loop(specimen),
-        Family::Multirotor => joined([limits(specimen), whole(), vec![as_near_as_may_be()], multirotor()]),
+    match reference.family() {
+        Family::FixedWing => joined([limits(reference), whole(), vec![as_near_as_may_be()], fixed_wing()]),
+        Family::SlungLoad => joined([limits(reference), whole(), Vec::new(), slung_load()]),
+        Family::Multirotor if reference.is_planned_in_the_loop() => in_the_loop(reference),
+        Family::Multirotor => joined([limits(reference), whole(), vec![as_near_as_may_be()], multirotor()]),
     }
 }
 
@@ -26,17 +26,17 @@ fn joined(parts: [Vec<NearMiss>; 4]) -> Vec<NearMiss> {
     parts.into_iter().flatten().collect()
 }
 
-fn limits(specimen: &Specimen) -> Vec<NearMiss> {
-    cuts::at_most(specimen.family()).map(just_above).collect()
+fn limits(reference: &ReferenceCase) -> Vec<NearMiss> {
+    tightened_limits::at_most(reference.family()).map(just_above).collect()
 }
 
 /// A limit just above the largest of the values that it decides.
-fn just_above(cut: &'static cuts::Cut) -> NearMiss {
-    NearMiss::new(cut.name, |it: &mut Specimen| {
-        let reached = cut.checks.iter().map(|check| it.value(check)).fold(0.0, f64::max);
+fn just_above(limit: &'static tightened_limits::TightenedLimit) -> NearMiss {
+    NearMiss::new(limit.name, |it: &mut ReferenceCase| {
+        let reached = limit.checks.iter().map(|check| it.value(check)).fold(0.0, f64::max);
         // What two integrators disagree on is no margin.
         let unsure_m = 2.0 * it.value("flight.dynamics");
-        (cut.set)(it, reached * (1.0 + SHARE) + unsure_m);
+        (limit.set)(it, reached * (1.0 + SHARE) + unsure_m);
     })
 }
 
@@ -61,7 +61,7 @@ fn as_near_as_may_be() -> NearMiss {
         let groups = ["nodes.separation", "plan.separation", "flight.separation"];
         let nearest_m = groups.iter().map(|check| it.value(check)).fold(f64::INFINITY, f64::min);
         let unsure_m = 2.0 * it.value("flight.dynamics");
-        cuts::keep_apart(it, nearest_m - NEAR_M - unsure_m);
+        tightened_limits::keep_apart(it, nearest_m - NEAR_M - unsure_m);
     })
 }
 
@@ -91,10 +91,10 @@ fn slung_load() -> Vec<NearMiss> {
     vec![
         NearMiss::new("an envelope as near to the block as it may be", |it| {
             let nearest_m = it.value("nodes.envelope").min(it.value("plan.envelope"));
-            cuts::keep_apart(it, nearest_m - NEAR_M);
+            tightened_limits::keep_apart(it, nearest_m - NEAR_M);
         }),
         NearMiss::new("thrusts as large as the rotors give", |it| {
-            let flown = it.samples(0).iter_mut().flat_map(|it| super::specimen::thrusts(it).control.thrust_n);
+            let flown = it.samples(0).iter_mut().flat_map(|it| super::reference_case::thrusts(it).control.thrust_n);
             let largest_n = flown.fold(0.0, f64::max);
             let promised_n = it.slung_load_model().planning_limits.thrust_n.max + 1e-4;
             let planned = it.slung_load().controls.iter().flat_map(|control| control.thrust_n);
@@ -130,11 +130,11 @@ fn multirotor() -> Vec<NearMiss> {
 
 /// What is left between a vehicle and a pole that it just clears, m: the resolution of the search, and what is known of the
 /// flight between its samples.
-fn distance_m(it: &Specimen) -> f64 {
+fn distance_m(it: &ReferenceCase) -> f64 {
     2e-4 + 10.0 * it.value("flight.dynamics")
 }
 
-fn in_the_loop(specimen: &Specimen) -> Vec<NearMiss> {
+fn in_the_loop(reference: &ReferenceCase) -> Vec<NearMiss> {
     let mut all = vec![NearMiss::new("an answer that is there at its deadline", |it| {
         let deadline_s = it.scenario.simulation.planning.deadline_s;
         let mut slow = it.scenario.clone();
@@ -142,7 +142,7 @@ fn in_the_loop(specimen: &Specimen) -> Vec<NearMiss> {
         it.fly_in(&slow);
         it.scenario = slow;
     })];
-    let has_rotors = specimen.scenario.models.multirotor.values().any(|model| model.plant == Plant::Quadrotor);
+    let has_rotors = reference.scenario.models.multirotor.values().any(|model| model.plant == Plant::Quadrotor);
     if has_rotors {
         all.push(NearMiss::new("a quadrotor that tilts as far as it may", |it| {
             let tilt_deg = |sample: &sim::Sample| {
@@ -153,7 +153,7 @@ fn in_the_loop(specimen: &Specimen) -> Vec<NearMiss> {
             it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.tilt_deg = most_deg + 1e-6);
         }));
     }
-    if !specimen.scenario.world.moving.is_empty() {
+    if !reference.scenario.world.moving.is_empty() {
         all.push(NearMiss::new("carts that are as wide as they may be", |it| {
             let room_m = it.value("flight.clearance") - distance_m(it);
             it.scenario.world.moving.iter_mut().for_each(|cart| cart.radius_m += room_m);

@@ -148,14 +148,14 @@ fn integration_line(Integration { method, disagreement_m, .. }: &Integration) ->
     format!("integrators disagree on the flight by {by} {how}")
 }
 
-/// The ladder of a margin: `clearance: +12.000 m at the nodes; between the nodes -0.210; ...; +11.655 m flown`.
+/// The budget of a margin: `clearance: +12.000 m at the nodes; between the nodes -0.210; ...; +11.655 m flown`.
 fn waterfall_line(waterfall: &MarginBudget) -> String {
-    let MarginBudget { question, unit, rungs } = waterfall;
-    let (Some(first), Some(last)) = (rungs.first(), rungs.last()) else { return String::new() };
+    let MarginBudget { question, unit, steps } = waterfall;
+    let (Some(first), Some(last)) = (steps.first(), steps.last()) else { return String::new() };
     let terms: Vec<String> =
-        rungs[1..].iter().map(|rung| format!("{} {}", rung.name, signed(rung.change, unit))).collect();
-    let [first, last] = [first, last].map(|rung| signed_quantity(rung.margin, unit));
-    let where_first = if rungs[0].name == "nodes" { "at the nodes" } else { &rungs[0].name };
+        steps[1..].iter().map(|step| format!("{} {}", step.name, signed(step.change, unit))).collect();
+    let [first, last] = [first, last].map(|step| signed_quantity(step.margin, unit));
+    let where_first = if steps[0].name == "nodes" { "at the nodes" } else { &steps[0].name };
     format!("margin of {question}: {first} {where_first}; {}; {last} flown", terms.join("; "))
 }
 

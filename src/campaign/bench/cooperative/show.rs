@@ -62,7 +62,7 @@ fn cells(row: &Row) -> [String; HEADER.len()] {
         row.mission.clone(),
         row.vehicles.to_string(),
         row.solver.to_owned(),
-        row.ending.name().to_owned(),
+        row.outcome.name().to_owned(),
         row.iterations.map_or_else(String::new, |iterations| iterations.to_string()),
         number(row.planning_s, 4),
         figure(|it| it.flight_time_s),

@@ -66,7 +66,7 @@ fn cells(row: &Row) -> [String; HEADER.len()] {
         row.scenario.clone(),
         row.vehicles.to_string(),
         row.planner.to_owned(),
-        row.ending.name().to_owned(),
+        row.outcome.name().to_owned(),
         measured(|it| it.iterations.to_string()),
         measured(|it| format!("{:.3}", it.wall_s)),
         measured(|it| format!("{:.3}", it.distributed_s)),
@@ -84,7 +84,7 @@ fn growth_cells(row: &Row) -> [String; GROWTH.len()] {
     [
         row.scenario.clone(),
         row.vehicles.to_string(),
-        row.ending.name().to_owned(),
+        row.outcome.name().to_owned(),
         measured(|it| it.iterations.to_string()),
         measured(|it| format!("{:.3}", it.wall_s)),
         measured(|it| format!("{:.0}", 1e6 * it.per_vehicle_and_iteration_s)),

@@ -1,6 +1,6 @@
 //! What can be wrong with a flight in wind, seen through noise.
 
-use super::super::{Fault, Specimen};
+use super::super::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -47,6 +47,6 @@ fn turn(scenario: &mut scenarios::Scenario) {
     wind.pulses.iter_mut().for_each(|pulse| pulse.peak_mps = pulse.peak_mps.map(|component| -component));
 }
 
-fn each_sample(it: &mut Specimen, change: impl Fn(&mut sim::Sample)) {
+fn each_sample(it: &mut ReferenceCase, change: impl Fn(&mut sim::Sample)) {
     it.flight().vehicles.iter_mut().flat_map(|log| &mut log.samples).for_each(change);
 }

@@ -2,8 +2,8 @@
 
 use scenarios::Cylinder;
 
-use super::super::specimen::load_factors;
-use super::super::{Fault, Specimen};
+use super::super::reference_case::load_factors;
+use super::super::{Fault, ReferenceCase};
 use super::log::{delay, swap};
 
 /// The faults.
@@ -101,7 +101,7 @@ fn flights() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle..middle + 50].iter_mut().for_each(|it| load_factors(it).control.n_y += 0.02);
         }),
-        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| load_factors(sample).command.n_x = 1.0);
         }),
@@ -143,7 +143,7 @@ fn obstacles() -> Vec<Fault> {
 }
 
 /// A pole near the first vehicle's path: at the share `between` of a step, its axis so far to the left.
-pub fn place(it: &mut Specimen, step: usize, between: f64, left_m: f64, radius_m: f64) {
+pub fn place(it: &mut ReferenceCase, step: usize, between: f64, left_m: f64, radius_m: f64) {
     let [from, to] = [it.samples(0)[step], it.samples(0)[step + 1]];
     let at = |axis: usize| from.position_m[axis] + between * (to.position_m[axis] - from.position_m[axis]);
     let [vx, vy, _] = from.velocity_mps;
@@ -151,6 +151,6 @@ pub fn place(it: &mut Specimen, step: usize, between: f64, left_m: f64, radius_m
     add(it, [at(0) - left_m * vy / speed_mps, at(1) + left_m * vx / speed_mps], radius_m);
 }
 
-fn add(it: &mut Specimen, center_m: [f64; 2], radius_m: f64) {
+fn add(it: &mut ReferenceCase, center_m: [f64; 2], radius_m: f64) {
     it.scenario.world.cylinders.push(Cylinder { name: "planted".to_owned(), center_m, radius_m });
 }

@@ -2,7 +2,7 @@
 
 use sim::{Event, EventKind};
 
-use super::super::{Fault, Specimen};
+use super::super::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -61,7 +61,7 @@ fn incomplete() -> Vec<Fault> {
 
 fn not_numbers() -> Vec<Fault> {
     let at_middle = |spoil: fn(&mut sim::Sample)| {
-        move |it: &mut Specimen| {
+        move |it: &mut ReferenceCase| {
             let middle = it.steps() / 2;
             spoil(&mut it.samples(0)[middle]);
         }
@@ -154,13 +154,13 @@ fn flattering() -> Vec<Fault> {
     ]
 }
 
-fn keep(it: &mut Specimen, share: f64) {
+fn keep(it: &mut ReferenceCase, share: f64) {
     let kept = (it.steps() as f64 * share) as usize;
     it.samples(0).truncate(kept);
     it.loads().truncate(kept);
 }
 
-fn cut_out(it: &mut Specimen, count: usize) {
+fn cut_out(it: &mut ReferenceCase, count: usize) {
     let middle = it.steps() / 2;
     it.samples(0).drain(middle..middle + count);
     if !it.loads().is_empty() {
@@ -169,7 +169,7 @@ fn cut_out(it: &mut Specimen, count: usize) {
 }
 
 /// Vehicle and load stay where they are, from one share of the samples to another, at the velocity that they have.
-fn freeze(it: &mut Specimen, from: f64, to: f64) {
+fn freeze(it: &mut ReferenceCase, from: f64, to: f64) {
     let steps = it.steps();
     let [from, to] = [from, to].map(|share| ((steps as f64 * share) as usize).min(steps));
     let held = it.samples(0)[from.min(steps - 1)];
@@ -201,7 +201,7 @@ fn aside(trajectory: &mut scenarios::Trajectory, by_m: f64) {
 }
 
 /// What two logs hold from some sample on, swapped, apart from what the plans ask for.
-pub fn swap(it: &mut Specimen, from: usize) {
+pub fn swap(it: &mut ReferenceCase, from: usize) {
     let (one, other) = (it.samples(0).clone(), it.samples(1).clone());
     for (vehicle, source) in [(0, &other), (1, &one)] {
         for (sample, source) in it.samples(vehicle).iter_mut().zip(source).skip(from) {
@@ -214,7 +214,7 @@ pub fn swap(it: &mut Specimen, from: usize) {
 }
 
 /// The first vehicle is where it should have been some time ago.
-pub fn delay(it: &mut Specimen, late_s: f64) {
+pub fn delay(it: &mut ReferenceCase, late_s: f64) {
     let late = (late_s / it.scenario.simulation.step_s).round() as usize;
     let samples = it.samples(0).clone();
     for (step, sample) in it.samples(0).iter_mut().enumerate() {

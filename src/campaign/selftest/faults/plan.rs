@@ -2,7 +2,7 @@
 
 use scenarios::PlannedEvent;
 
-use super::super::{Fault, Specimen};
+use super::super::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -51,7 +51,7 @@ pub fn faults() -> Vec<Fault> {
 }
 
 /// Keeps a share of the nodes of every trajectory.
-fn truncate(it: &mut Specimen, share: f64) {
+fn truncate(it: &mut ReferenceCase, share: f64) {
     for trajectory in &mut it.plan.trajectories {
         let kept = (trajectory.times_s().len() as f64 * share) as usize;
         match trajectory {
@@ -75,7 +75,7 @@ fn truncate(it: &mut Specimen, share: f64) {
     }
 }
 
-fn rename(it: &mut Specimen) {
+fn rename(it: &mut ReferenceCase) {
     let name = match &mut it.plan.trajectories[0] {
         scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.vehicle,
         scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.vehicle,

@@ -4,8 +4,8 @@ use scenarios::slung_load::Cable;
 use scenarios::{BoxObstacle, Gate, Range, Window};
 use sim::{Event, EventKind};
 
-use super::super::specimen::thrusts;
-use super::super::{Fault, Specimen};
+use super::super::reference_case::thrusts;
+use super::super::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -79,7 +79,7 @@ fn gates() -> Vec<Fault> {
 const GATE_M: f64 = 0.1;
 
 /// A gate about the load in the middle of the plan, aside of everywhere that the load comes by so much.
-fn put_gate(it: &mut Specimen, aside_m: f64) {
+fn put_gate(it: &mut ReferenceCase, aside_m: f64) {
     let middle = it.slung_load().times_s.len() / 2;
     let load_m = it.slung_load().states[middle].load_position_m;
     let [x_m, _, _] = load_m.map(|at_m| Some(Range::new(at_m - GATE_M, at_m + GATE_M)));
@@ -108,7 +108,7 @@ fn flights() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle..middle + 20].iter_mut().for_each(|it| thrusts(it).control.thrust_n[0] += 1.0);
         }),
-        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| thrusts(sample).command.thrust_n[0] = 9.0);
         }),
@@ -226,7 +226,7 @@ fn obstacles() -> Vec<Fault> {
 }
 
 /// A block half way between two samples of the quadrotor, its long side across the path.
-fn place(it: &mut Specimen, step: usize, size_m: [f64; 2], z_m: Option<Range>) {
+fn place(it: &mut ReferenceCase, step: usize, size_m: [f64; 2], z_m: Option<Range>) {
     let [from, to] = [it.samples(0)[step], it.samples(0)[step + 1]];
     let middle = |axis: usize| f64::midpoint(from.position_m[axis], to.position_m[axis]);
     let heading_deg = from.velocity_mps[1].atan2(from.velocity_mps[0]).to_degrees();
@@ -234,7 +234,7 @@ fn place(it: &mut Specimen, step: usize, size_m: [f64; 2], z_m: Option<Range>) {
     it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }
 
-fn add(it: &mut Specimen, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
+fn add(it: &mut ReferenceCase, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
     let heading_deg = 0.0;
     it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }

@@ -1,4 +1,4 @@
-//! Where the margins went, as a picture: one bar per rung, from what was left before it to what is left after it.
+//! Where the margins went, as a picture: one bar per step, from what was left before it to what is left after it.
 //!
 //! Entities `/margins/QUESTION`. To the right is more margin; left of the line at 0 the limit is broken.
 
@@ -12,12 +12,12 @@ use crate::number_format::{quantity, signed};
 const BAR: f64 = 0.7;
 /// Width of the longest bar.
 const WIDTH: f64 = 8.0;
-/// A rung that cost nothing is a line of this width.
+/// A step that cost nothing is a line of this width.
 const HAIRLINE: f64 = 0.03;
 /// Room for the names at the left.
 const NAMES: f64 = 2.2;
 
-/// Draws one ladder below the other.
+/// Draws one budget below the other.
 pub fn log(stream: &RecordingStream, waterfalls: &[MarginBudget]) -> Logged {
     let mut top = 0.0;
     for waterfall in waterfalls {
@@ -44,20 +44,20 @@ struct Picture {
 
 impl Picture {
     fn of(waterfall: &MarginBudget, top: f64) -> Self {
-        let MarginBudget { question, unit, rungs } = waterfall;
-        let largest = rungs.iter().map(|rung| rung.margin.abs()).fold(0.0, f64::max);
+        let MarginBudget { question, unit, steps } = waterfall;
+        let largest = steps.iter().map(|step| step.margin.abs()).fold(0.0, f64::max);
         let scale = if largest > 0.0 && largest.is_finite() { WIDTH / largest } else { 0.0 };
         let mut before = 0.0;
-        let mut bars: Vec<Bar> = rungs
+        let mut bars: Vec<Bar> = steps
             .iter()
             .enumerate()
-            .map(|(index, rung)| {
-                let (from, to) = (before * scale, rung.margin * scale);
-                before = rung.margin;
+            .map(|(index, step)| {
+                let (from, to) = (before * scale, step.margin * scale);
+                before = step.margin;
                 let (label, colour) = match index {
-                    0 => (format!("{}: {}", rung.name, quantity(rung.margin, unit)), palette::FLEET),
-                    _ if rung.change < 0.0 => (format!("{} {}", rung.name, signed(rung.change, unit)), palette::LIMIT),
-                    _ => (format!("{} {}", rung.name, signed(rung.change, unit)), palette::KEPT),
+                    0 => (format!("{}: {}", step.name, quantity(step.margin, unit)), palette::FLEET),
+                    _ if step.change < 0.0 => (format!("{} {}", step.name, signed(step.change, unit)), palette::LIMIT),
+                    _ => (format!("{} {}", step.name, signed(step.change, unit)), palette::KEPT),
                 };
                 Bar { label, from, to, colour }
             })
@@ -98,22 +98,22 @@ fn part(question: &str, name: &str) -> EntityPath {
 #[cfg(test)]
 mod tests {
     use super::{Picture, WIDTH};
-    use crate::campaign::margin_budget::{MarginBudget, Rung};
+    use crate::campaign::margin_budget::{MarginBudget, MarginStep};
 
-    fn ladder(margins: &[f64]) -> MarginBudget {
+    fn budget(margins: &[f64]) -> MarginBudget {
         let mut before = margins[0];
-        let rung = |margin: &f64| {
+        let step = |margin: &f64| {
             let change = margin - before;
             before = *margin;
-            Rung { name: "rung".to_owned(), margin: *margin, change }
+            MarginStep { name: "step".to_owned(), margin: *margin, change }
         };
-        let rungs = margins.iter().map(rung).collect();
-        MarginBudget { question: "clearance".to_owned(), unit: "m".to_owned(), rungs }
+        let steps = margins.iter().map(step).collect();
+        MarginBudget { question: "clearance".to_owned(), unit: "m".to_owned(), steps }
     }
 
     #[test]
     fn every_bar_begins_where_the_last_one_ended_and_the_last_is_what_is_left() {
-        let picture = Picture::of(&ladder(&[4.0, 3.0, 3.5, -1.0]), 0.0);
+        let picture = Picture::of(&budget(&[4.0, 3.0, 3.5, -1.0]), 0.0);
         let ends: Vec<[f64; 2]> = picture.bars.iter().map(|bar| [bar.from, bar.to]).collect();
         assert_eq!(ends, [[0.0, WIDTH], [WIDTH, 6.0], [6.0, 7.0], [7.0, -2.0], [0.0, -2.0]]);
         assert!(picture.bars[4].label.contains("-1.000 m"), "{}", picture.bars[4].label);
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn margins_that_are_none_are_drawn_as_nothing() {
         for margins in [[0.0, 0.0], [f64::NAN, 1.0], [f64::INFINITY, 1.0]] {
-            assert_eq!(Picture::of(&ladder(&margins), 0.0).bars.len(), 3);
+            assert_eq!(Picture::of(&budget(&margins), 0.0).bars.len(), 3);
         }
     }
 }

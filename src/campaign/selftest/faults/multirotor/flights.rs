@@ -5,8 +5,8 @@ use sim::EventKind;
 
 use super::super::log::{delay, swap};
 use super::plans::add;
-use crate::campaign::selftest::specimen::acceleration;
-use crate::campaign::selftest::{Fault, Specimen};
+use crate::campaign::selftest::reference_case::acceleration;
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -86,7 +86,7 @@ fn limits() -> Vec<Fault> {
                 told.control[0] = -told.control[0];
             });
         }),
-        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| acceleration(sample).command[0] = 9.0);
         }),
@@ -127,7 +127,7 @@ fn obstacles() -> Vec<Fault> {
 }
 
 /// Half way between two samples in the middle of the first vehicle's flight, m.
-fn between_samples(it: &mut Specimen) -> [f64; 3] {
+fn between_samples(it: &mut ReferenceCase) -> [f64; 3] {
     let middle = it.planned_steps() / 2;
     let [from, to] = [it.samples(0)[middle].position_m, it.samples(0)[middle + 1].position_m];
     std::array::from_fn(|axis| f64::midpoint(from[axis], to[axis]))

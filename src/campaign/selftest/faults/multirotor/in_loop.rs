@@ -3,7 +3,7 @@
 use scenarios::in_loop::ReplanStatus;
 use sim::{EventKind, PlanningLog};
 
-use crate::campaign::selftest::{Fault, Specimen};
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -92,6 +92,6 @@ fn answers() -> Vec<Fault> {
     ]
 }
 
-fn planning(it: &mut Specimen) -> &mut PlanningLog {
+fn planning(it: &mut ReferenceCase) -> &mut PlanningLog {
     it.flight().planning.as_mut().expect("it was planned in the loop")
 }

@@ -3,7 +3,7 @@
 use scenarios::MovingCylinder;
 use sim::multirotor::Surroundings;
 
-use crate::campaign::selftest::{Fault, Specimen};
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// Steps in which a cart is delayed until it is in the way, s.
 const DELAY_S: f64 = 0.1;
@@ -46,8 +46,8 @@ pub fn faults() -> Vec<Fault> {
 
 /// Delays a moving obstacle until the first vehicle flies into it.
 ///
-/// Panics if it is never in the way: the specimen has changed.
-fn delay(it: &mut Specimen, cart: usize) {
+/// Panics if it is never in the way: the reference has changed.
+fn delay(it: &mut ReferenceCase, cart: usize) {
     let reach_m = it.multirotor_model().body_radius_m;
     let samples = it.samples(0).clone();
     for _ in 0..1000 {

@@ -2,7 +2,7 @@
 
 use scenarios::{BoxObstacle, Range};
 
-use crate::campaign::selftest::{Fault, Specimen};
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
@@ -114,14 +114,14 @@ fn obstacles() -> Vec<Fault> {
 }
 
 /// Where the first vehicle is planned to be half way through its plan, (x, y) in m.
-pub fn half_way(it: &mut Specimen) -> [f64; 2] {
+pub fn half_way(it: &mut ReferenceCase) -> [f64; 2] {
     let middle_s = 0.5 * it.plan.flight_time_s().unwrap_or(0.0);
     let position_m = sim::multirotor::Reference::new(it.multirotor(0).nodes()).at(middle_s).position_m;
     [position_m.x, position_m.y]
 }
 
 /// A box with its sides along the axes.
-pub fn add(it: &mut Specimen, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
+pub fn add(it: &mut ReferenceCase, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
     let heading_deg = 0.0;
     it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });
 }

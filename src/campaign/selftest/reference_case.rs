@@ -10,7 +10,7 @@ pub use flying::all;
 
 /// A scenario with a plan and a flight that pass: what faults are injected into.
 #[derive(Clone)]
-pub struct Specimen {
+pub struct ReferenceCase {
     /// The question.
     pub scenario: Scenario,
     /// The planner's answer; of one who plans in the loop, what was followed.
@@ -21,7 +21,7 @@ pub struct Specimen {
     plan_source: PlanSource,
 }
 
-impl Specimen {
+impl ReferenceCase {
     /// By the same judge as every run.
     pub fn judge(&self) -> Verdict {
         verdict::judge(&self.scenario, &self.plan, self.flight.as_ref())
@@ -45,7 +45,7 @@ impl Specimen {
 
     /// The flight. Panics if it was taken away.
     pub fn flight(&mut self) -> &mut Flight {
-        self.flight.as_mut().expect("a specimen has a flight")
+        self.flight.as_mut().expect("a reference has a flight")
     }
 
     /// The samples of a vehicle.
@@ -118,17 +118,17 @@ impl Specimen {
 
     /// The only model of fixed wings.
     pub fn fixed_wing_model(&mut self) -> &mut fixed_wing::Model {
-        self.scenario.models.fixed_wing.values_mut().next().expect("the specimen has a model")
+        self.scenario.models.fixed_wing.values_mut().next().expect("the reference has a model")
     }
 
     /// The only model of multirotors.
     pub fn multirotor_model(&mut self) -> &mut multirotor::Model {
-        self.scenario.models.multirotor.values_mut().next().expect("the specimen has a model")
+        self.scenario.models.multirotor.values_mut().next().expect("the reference has a model")
     }
 
     /// The only model of slung loads.
     pub fn slung_load_model(&mut self) -> &mut slung_load::Model {
-        self.scenario.models.slung_load.values_mut().next().expect("the specimen has a model")
+        self.scenario.models.slung_load.values_mut().next().expect("the reference has a model")
     }
 }
 

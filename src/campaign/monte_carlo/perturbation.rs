@@ -2,11 +2,11 @@ use rand_distr::{Distribution, Uniform, UnitDisc};
 use scenarios::{Family, Scenario, Wind};
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::failure_threshold::Axis;
+use crate::campaign::failure_threshold::Disturbance;
 
 /// How far the world may be from the scenario's; what is 0 is as the scenario has it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Spread {
+pub struct Dispersions {
     /// A mean wind drawn from the horizontal disc of this radius is added to the scenario's, m/s.
     pub wind_mps: f64,
     /// True masses are drawn this far to either side of the scenario's, as a share; that of a load on its own.
@@ -19,7 +19,7 @@ pub struct Spread {
 
 /// What was drawn for one sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Draw {
+pub struct Perturbation {
     /// Seed of its flight: gusts, noise, starts.
     pub seed: u64,
     /// Wind that is added to the scenario's, towards east and north, m/s.
@@ -32,12 +32,12 @@ pub struct Draw {
     pub start_m: f64,
 }
 
-impl Spread {
+impl Dispersions {
     /// What is drawn if nobody says: a light breeze, a few percent of mass, the noise of an ordinary receiver (of a motion
     /// capture system for those who fly in centimetres), and a start off by a tenth of what tracking may be.
     pub fn usual(scenario: &Scenario) -> Self {
         let own_m = scenario.simulation.sensors.position_noise_m;
-        let noise_m = if own_m > 0.0 { own_m } else { Axis::Noise.first_step(scenario) };
+        let noise_m = if own_m > 0.0 { own_m } else { Disturbance::Noise.first_step(scenario) };
         let wind_mps = match scenario.family() {
             Family::FixedWing => 3.0,
             Family::SlungLoad | Family::Multirotor => 1.0,
@@ -45,14 +45,14 @@ impl Spread {
         Self { wind_mps, mass: 0.03, noise_m, start_m: scenario.limits().tracking_max_m / 10.0 }
     }
 
-    /// The draw of one seed.
-    pub fn draw(&self, seed: u64) -> Draw {
+    /// The perturbation of one seed.
+    pub fn draw(&self, seed: u64) -> Perturbation {
         let stream = |name: &str| scenarios::stream(seed, &format!("sweep/{name}"));
         let uniform = Uniform::new_inclusive(-1.0, 1.0).expect("-1 is below 1");
         let wind: [f64; 2] = UnitDisc.sample(&mut stream("wind"));
         let ratio = |name: &str| 1.0 + self.mass * uniform.sample(&mut stream(name));
         let share = 0.5 + 0.5 * uniform.sample(&mut stream("noise"));
-        Draw {
+        Perturbation {
             seed,
             wind_mps: wind.map(|component| component * self.wind_mps),
             mass_ratios: [ratio("mass"), ratio("load mass")],
@@ -62,11 +62,11 @@ impl Spread {
     }
 }
 
-impl Draw {
+impl Perturbation {
     /// Changes a scenario's world by it.
     pub fn apply(&self, scenario: &mut Scenario) {
         if self.noise_m > 0.0 {
-            Axis::Noise.set(scenario, self.noise_m);
+            Disturbance::Noise.set(scenario, self.noise_m);
         }
         let simulation = &mut scenario.simulation;
         if self.wind_mps != [0.0; 2] {
@@ -85,28 +85,28 @@ impl Draw {
 
 #[cfg(test)]
 mod tests {
-    use super::Spread;
+    use super::Dispersions;
 
-    const SPREAD: Spread = Spread { wind_mps: 4.0, mass: 0.1, noise_m: 0.5, start_m: 1.0 };
+    const DISPERSIONS: Dispersions = Dispersions { wind_mps: 4.0, mass: 0.1, noise_m: 0.5, start_m: 1.0 };
 
     #[test]
     fn draws_fill_their_ranges_and_nothing_else() {
-        let draws: Vec<_> = (0..2000).map(|seed| SPREAD.draw(seed)).collect();
-        let most = |of: fn(&super::Draw) -> f64| draws.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-        let least = |of: fn(&super::Draw) -> f64| draws.iter().map(of).fold(f64::INFINITY, f64::min);
-        let wind = |draw: &super::Draw| draw.wind_mps[0].hypot(draw.wind_mps[1]);
+        let perturbations: Vec<_> = (0..2000).map(|seed| DISPERSIONS.draw(seed)).collect();
+        let most = |of: fn(&super::Perturbation) -> f64| perturbations.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let least = |of: fn(&super::Perturbation) -> f64| perturbations.iter().map(of).fold(f64::INFINITY, f64::min);
+        let wind = |perturbation: &super::Perturbation| perturbation.wind_mps[0].hypot(perturbation.wind_mps[1]);
         assert!(most(wind) <= 4.0 && most(wind) > 3.9 && least(wind) < 0.4);
-        assert!((1.09..=1.1).contains(&most(|draw| draw.mass_ratios[0])));
-        assert!((0.9..0.91).contains(&least(|draw| draw.mass_ratios[1])));
-        assert!(most(|draw| draw.noise_m) <= 0.5 && least(|draw| draw.noise_m) >= 0.0);
+        assert!((1.09..=1.1).contains(&most(|perturbation| perturbation.mass_ratios[0])));
+        assert!((0.9..0.91).contains(&least(|perturbation| perturbation.mass_ratios[1])));
+        assert!(most(|perturbation| perturbation.noise_m) <= 0.5 && least(|perturbation| perturbation.noise_m) >= 0.0);
         // Half of the disc's area lies beyond 0.707 of its radius.
-        let outer = draws.iter().filter(|draw| wind(draw) > 4.0 * 0.5_f64.sqrt()).count();
+        let outer = perturbations.iter().filter(|perturbation| wind(perturbation) > 4.0 * 0.5_f64.sqrt()).count();
         assert!((900..1100).contains(&outer), "{outer}");
     }
 
     #[test]
     fn a_spread_of_nothing_is_the_scenario_itself() {
-        let draw = Spread { wind_mps: 0.0, mass: 0.0, noise_m: 0.0, start_m: 0.0 }.draw(7);
-        assert_eq!((draw.wind_mps, draw.mass_ratios, draw.noise_m), ([0.0; 2], [1.0; 2], 0.0));
+        let perturbation = Dispersions { wind_mps: 0.0, mass: 0.0, noise_m: 0.0, start_m: 0.0 }.draw(7);
+        assert_eq!((perturbation.wind_mps, perturbation.mass_ratios, perturbation.noise_m), ([0.0; 2], [1.0; 2], 0.0));
     }
 }

@@ -3,12 +3,12 @@
 use scenarios::{Family, Plan, Scenario};
 use sim::Flight;
 
-use super::Specimen;
+use super::ReferenceCase;
 use crate::plan_source::PlanSource;
 use crate::verdict;
 
 /// A scenario that is still to be planned and flown.
-pub struct Unflown {
+pub struct UnflownCase {
     /// The scenario: one of those that are shipped, or a part of one.
     pub scenario: Scenario,
     plan_source: PlanSource,
@@ -17,7 +17,7 @@ pub struct Unflown {
 /// The specimens of a family: in still air, and with everything that disturbs.
 ///
 /// Panics if a file in the program is no scenario: a bug.
-pub fn all(family: Family) -> Vec<Unflown> {
+pub fn all(family: Family) -> Vec<UnflownCase> {
     match family {
         Family::FixedWing => vec![
             shipped("rendezvous-2", include_str!("../../../../scenarios/fixed-wing/rendezvous-2.toml")),
@@ -37,28 +37,28 @@ pub fn all(family: Family) -> Vec<Unflown> {
     }
 }
 
-fn shipped(name: &str, text: &str) -> Unflown {
+fn shipped(name: &str, text: &str) -> UnflownCase {
     let scenario = scenarios::parse(name, text).unwrap_or_else(|error| panic!("{name}: {error}"));
     by(scenario.planner.name.clone().as_str(), scenario)
 }
 
-fn by(planner: &str, mut scenario: Scenario) -> Unflown {
+fn by(planner: &str, mut scenario: Scenario) -> UnflownCase {
     let planner = planners::find(planner).unwrap_or_else(|| panic!("{}: unknown planner {planner}", scenario.name));
     planner.name.clone_into(&mut scenario.planner.name);
-    Unflown { scenario, plan_source: PlanSource::Registered(planner) }
+    UnflownCase { scenario, plan_source: PlanSource::Registered(planner) }
 }
 
 /// With drag, of which planners know nothing: without it the tracking would be perfect, and a log that flatters it true.
-fn crossing() -> Unflown {
-    let Unflown { mut scenario, plan_source } =
+fn crossing() -> UnflownCase {
+    let UnflownCase { mut scenario, plan_source } =
         shipped("crossing-4", include_str!("../../../../scenarios/multirotor/crossing-4.toml"));
     scenario.models.multirotor.values_mut().for_each(|model| model.drag_area_m2 = 0.03);
-    Unflown { scenario, plan_source }
+    UnflownCase { scenario, plan_source }
 }
 
 /// The two of the four that fly towards each other, a metre apart, planned ahead and arriving together.
-fn head_on() -> Unflown {
-    let Unflown { mut scenario, .. } = crossing();
+fn head_on() -> UnflownCase {
+    let UnflownCase { mut scenario, .. } = crossing();
     "head-on".clone_into(&mut scenario.name);
     scenario.vehicles.truncate(2);
     scenario.fleet.simultaneous_arrival = true;
@@ -66,28 +66,28 @@ fn head_on() -> Unflown {
 }
 
 /// A quadrotor that has to tilt, with exact sensors: what is wrong with its log is not hidden by noise.
-fn tilting() -> Unflown {
-    let Unflown { mut scenario, plan_source } =
+fn tilting() -> UnflownCase {
+    let UnflownCase { mut scenario, plan_source } =
         shipped("paper-map-quadrotor", include_str!("../../../../scenarios/multirotor/paper-map-quadrotor.toml"));
     scenario.simulation.sensors = scenarios::Sensors::default();
-    Unflown { scenario, plan_source }
+    UnflownCase { scenario, plan_source }
 }
 
 /// In a wind whose gusts are smaller than its mean: what blows within gusts of its own size cannot be told from them.
-fn windy() -> Unflown {
-    let Unflown { mut scenario, plan_source } =
+fn windy() -> UnflownCase {
+    let UnflownCase { mut scenario, plan_source } =
         shipped("paper-map-gusts", include_str!("../../../../scenarios/multirotor/paper-map-gusts.toml"));
     let gusts = scenario.simulation.wind.as_mut().and_then(|wind| wind.gusts.as_mut());
     if let Some(gusts) = gusts {
         (gusts.wind_at_20ft_mps, gusts.sigma_aloft_mps) = (2.0, 0.4);
     }
     scenario.simulation.sensors.delay_s = 0.02;
-    Unflown { scenario, plan_source }
+    UnflownCase { scenario, plan_source }
 }
 
-impl Unflown {
+impl UnflownCase {
     /// Plans and flies it.
-    pub fn flown(self) -> Specimen {
+    pub fn flown(self) -> ReferenceCase {
         let Self { scenario, plan_source } = self;
         let seed = scenario.simulation.seed;
         let (plan, flight) = plan_source.fly_in_loop(&scenario, seed).map_or_else(
@@ -98,7 +98,7 @@ impl Unflown {
             },
             |(plan, flight)| (plan, Some(flight)),
         );
-        Specimen { scenario, plan, flight, plan_source }
+        ReferenceCase { scenario, plan, flight, plan_source }
     }
 }
 
@@ -125,7 +125,7 @@ fn ahead(scenario: &Scenario, plan_source: &PlanSource) -> Plan {
     Plan { trajectories, ..plans[0].clone() }
 }
 
-impl Specimen {
+impl ReferenceCase {
     /// Flies it again, for instance in another scenario than it will be judged by: the plan, or by who plans in the loop.
     pub fn fly_in(&mut self, scenario: &Scenario) {
         match self.plan_source.fly_in_loop(scenario, scenario.simulation.seed) {

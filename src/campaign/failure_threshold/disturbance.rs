@@ -2,21 +2,21 @@ use clap::ValueEnum;
 use scenarios::{Family, Scenario, Wind};
 use serde::Serialize;
 
-/// What grows. Level 0 is a flight without it.
+/// A disturbance whose level is varied. Level 0 is a flight without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
-pub enum Axis {
+pub enum Disturbance {
     /// Speed of the mean wind, in the scenario's direction, or towards east; gusts and pulses grow with it
     Wind,
-    /// True mass beyond the nominal one, as a share of it; of a slung load too
+    /// True mass above the nominal one, as a fraction of it; of a slung load too
     Mass,
-    /// Age of what the tracker measures when it gets it, in steps of the simulator
+    /// Delay of the measurements that the tracker receives, in whole simulator steps
     Delay,
-    /// Standard deviation of the measured position; all other noise grows with it
+    /// Standard deviation of the measured position; all other noise, that of obstacle measurements included, grows with it
     Noise,
 }
 
-impl Axis {
+impl Disturbance {
     /// Unit of its levels.
     pub fn unit(self) -> &'static str {
         match self {
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// Level that the scenario has.
+    /// The level in a scenario.
     pub fn level_of(self, scenario: &Scenario) -> f64 {
         let simulation = &scenario.simulation;
         match self {
@@ -49,8 +49,8 @@ impl Axis {
         }
     }
 
-    /// The largest level that is tried: beyond it a disturbance is none any more.
-    pub fn largest(self, scenario: &Scenario) -> f64 {
+    /// The largest level that is tried.
+    pub fn max_level(self, scenario: &Scenario) -> f64 {
         match self {
             Self::Wind => 64.0,
             Self::Mass => 4.0,
@@ -59,21 +59,21 @@ impl Axis {
         }
     }
 
-    /// Levels closer to each other than this are the same.
-    pub fn finest(self, scenario: &Scenario) -> f64 {
+    /// Smallest difference between two levels.
+    pub fn level_step(self, scenario: &Scenario) -> f64 {
         match self {
             Self::Delay => scenario.simulation.step_s,
             Self::Wind | Self::Mass | Self::Noise => 0.0,
         }
     }
 
-    /// The level nearest to this one that can be flown: delays are whole steps of the simulator.
-    pub fn nearest(self, scenario: &Scenario, level: f64) -> f64 {
-        let finest = self.finest(scenario);
+    /// The nearest level that can be flown: delays are whole simulator steps.
+    pub fn round_level(self, scenario: &Scenario, level: f64) -> f64 {
+        let finest = self.level_step(scenario);
         if finest > 0.0 { (level / finest).round() * finest } else { level }
     }
 
-    /// Gives the scenario this level.
+    /// Sets the level in a scenario.
     pub fn set(self, scenario: &mut Scenario, level: f64) {
         let simulation = &mut scenario.simulation;
         match self {
@@ -96,6 +96,8 @@ impl Axis {
                     &mut sensors.rate_noise_degps,
                     &mut sensors.load_position_noise_m,
                     &mut sensors.load_velocity_noise_mps,
+                    &mut sensors.sighting_position_noise_m,
+                    &mut sensors.sighting_velocity_noise_mps,
                 ] {
                     *other *= factor;
                 }
