@@ -49,7 +49,7 @@ pub struct CheckSpec {
     pub description: &'static str,
 }
 
-const ALL: &[Family] = &[FixedWing, SlungLoad, Multirotor];
+const ALL: &[Family] = &Family::ALL;
 const HOVERING: &[Family] = &[SlungLoad, Multirotor];
 const LOADS: &[Family] = &[SlungLoad];
 /// Skipped for fixed wings with the reason, so that a reader of their reports learns that it exists.

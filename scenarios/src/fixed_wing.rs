@@ -2,7 +2,10 @@
 //!
 //! Wang, Xu, Long (2020), eq. 2: state (x, y, h, V, χ, γ), control the load factors (n_x, n_y, n_z).
 
+mod family;
+mod import;
 mod trajectory;
+mod validate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,6 +13,8 @@ use serde::{Deserialize, Serialize};
 use crate::Range;
 
 pub use crate::GRAVITY_MPS2;
+pub(crate) use family::FAMILY;
+pub use import::{PartialTrajectory, states_from_velocities};
 pub use trajectory::{CSV_COLUMNS, Trajectory};
 
 /// A fixed-wing aircraft as a point mass that is steered by load factors.

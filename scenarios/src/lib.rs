@@ -8,13 +8,13 @@
 
 mod checks;
 mod closest_name;
+mod families;
 mod find;
 pub mod fixed_wing;
 mod fleet;
 pub mod in_loop;
 mod issue;
 mod load;
-mod models;
 pub mod multirotor;
 mod plan;
 mod plan_file;
@@ -33,11 +33,11 @@ mod world;
 
 pub use checks::{CHECKS, CheckSpec, Group, LimitField, check_names, check_spec, checks_of};
 pub use closest_name::closest_name;
+pub use families::{Family, Models, Trajectory, VehicleModel};
 pub use find::{FindError, find};
 pub use fleet::FleetRules;
 pub use issue::Issue;
 pub use load::{InvalidScenario, LoadError, LocatedIssue, ScenarioFile, load, parse};
-pub use models::{Family, Model, Models};
 pub use plan::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
     Collocation, Convergence, CostMap, Formulation, Horizon, Objective, PlannerSettings, PotentialField,
@@ -47,7 +47,7 @@ pub use random::stream;
 pub use range::Range;
 pub use scenario::Scenario;
 pub use simulation::{GustPulse, Gusts, Mismatch, Planning, PlanningClock, Sensors, Simulation, Tracker, Wind};
-pub use trajectory::{Interpolation, Nodes, Trajectory};
+pub use trajectory::{Interpolation, TrajectoryNodes};
 pub use validate::validate;
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};

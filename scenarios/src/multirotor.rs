@@ -3,7 +3,10 @@
 //! Planners take it for a double integrator with bounded speed and acceleration. What flies is that double integrator, or
 //! a quadrotor with four rotors that has to tilt before it can accelerate: the scenario says which.
 
+mod family;
+mod import;
 mod trajectory;
+mod validate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -11,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::Range;
 
 pub use crate::GRAVITY_MPS2;
+pub(crate) use family::FAMILY;
 pub use trajectory::{CSV_COLUMNS, State, Trajectory};
 
 /// A multirotor.

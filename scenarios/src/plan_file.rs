@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::{Nodes, Plan};
+use crate::{Plan, TrajectoryNodes};
 
 impl Plan {
     /// Writes the whole plan as JSON, indented. Numbers read back as they were, to the last bit; JSON has no NaN and no
@@ -21,7 +21,7 @@ impl Plan {
     }
 }
 
-fn write_rows(nodes: &dyn Nodes, writer: &mut impl Write) -> io::Result<()> {
+fn write_rows(nodes: &dyn TrajectoryNodes, writer: &mut impl Write) -> io::Result<()> {
     for (node, t_s) in nodes.times_s().iter().enumerate() {
         writeln!(writer, "{},{t_s:?},{}", nodes.vehicle(), nodes.csv_cells(node).join(","))?;
     }

@@ -20,7 +20,7 @@ use std::path::Path;
 
 use self::columns::Columns;
 pub use self::error::{PlanError, PlanIssue};
-pub use self::imported::{ImportedTrajectory, PartialTrajectory, states_from_velocities};
+pub use self::imported::ImportedTrajectory;
 use crate::{Iteration, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
 /// A plan as it was written, before anything is made of it.
@@ -66,6 +66,15 @@ pub struct ColumnTable {
     pub columns: BTreeMap<String, Vec<f64>>,
     /// The rows at which the planner's own constraints stood, by index; empty: all of them.
     pub planner_nodes: Vec<usize>,
+}
+
+impl ColumnTable {
+    /// Three columns as one triple per row; `None` if one of them is missing.
+    pub(crate) fn triples(&self, names: [&str; 3]) -> Option<Vec<[f64; 3]>> {
+        let [a, b, c] = names.map(|name| self.columns.get(name));
+        let (a, b, c) = (a?, b?, c?);
+        Some((0..self.times_s.len()).map(|row| [a[row], b[row], c[row]]).collect())
+    }
 }
 
 /// Where the rows of a track stand.
@@ -140,7 +149,7 @@ fn finish(
 
 /// The columns of the scenario's vehicles, which are all of one family.
 fn columns_of(scenario: &Scenario) -> &'static Columns {
-    Columns::of(scenario.family())
+    scenario.family().spec().columns
 }
 
 /// The text of a file; what is no UTF-8 becomes a sign that no number and no name contains.

@@ -2,8 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    AppliedLimits, Family, FleetRules, Mismatch, Model, Models, PlannerSettings, Sensors, Simulation, Vehicle,
-    VerdictLimits, World, fixed_wing, multirotor, slung_load,
+    AppliedLimits, Family, FleetRules, Mismatch, Models, PlannerSettings, Sensors, Simulation, Vehicle, VehicleModel,
+    VerdictLimits, World,
 };
 
 /// One scenario: everything a planner, the simulator and the judge need to know. One TOML file holds one scenario.
@@ -44,23 +44,8 @@ impl Scenario {
     }
 
     /// The model of a vehicle. Panics if there is none: validation has seen to that.
-    pub fn model(&self, vehicle: &Vehicle) -> Model<'_> {
+    pub fn model(&self, vehicle: &Vehicle) -> &dyn VehicleModel {
         self.models.get(&vehicle.model).unwrap_or_else(|| panic!("there is no model `{}`", vehicle.model))
-    }
-
-    /// The fixed-wing model of a vehicle. Panics if there is none: validation has seen to that.
-    pub fn fixed_wing_model(&self, vehicle: &Vehicle) -> &fixed_wing::Model {
-        &self.models.fixed_wing[&vehicle.model]
-    }
-
-    /// The model of a quadrotor with a slung load. Panics if there is none: validation has seen to that.
-    pub fn slung_load_model(&self, vehicle: &Vehicle) -> &slung_load::Model {
-        &self.models.slung_load[&vehicle.model]
-    }
-
-    /// The model of a multirotor. Panics if there is none: validation has seen to that.
-    pub fn multirotor_model(&self, vehicle: &Vehicle) -> &multirotor::Model {
-        &self.models.multirotor[&vehicle.model]
     }
 
     /// Is there nothing to gain from altitude: every goal at its start's height, no obstacle that ends below or above?

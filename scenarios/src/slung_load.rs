@@ -4,8 +4,11 @@
 //! the quadrotor's centre of mass and can only pull. Positions and velocities are Cartesian here, where the paper uses
 //! cable angles: they name every place of the load, the one above the quadrotor included.
 
+mod family;
+mod import;
 mod state;
 mod trajectory;
+mod validate;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::Range;
 
 pub use crate::GRAVITY_MPS2;
+pub(crate) use family::FAMILY;
 pub use state::{Cable, Control, State};
 pub use trajectory::{CSV_COLUMNS, Trajectory};
 

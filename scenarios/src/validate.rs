@@ -1,16 +1,17 @@
 //! Does a scenario hold together? Every rule is a pure function from a part of the scenario to issues.
 
-mod family;
 mod fleet;
 mod identifier;
 mod model;
 mod planner;
-mod quantity;
-mod sensing;
+pub(crate) mod quantity;
 mod simulation;
 mod vehicle;
 mod verdict;
 mod world;
+
+pub(crate) use model::planning_inside_physical;
+pub(crate) use vehicle::{inside_obstacle, outside_map};
 
 use crate::{Issue, Scenario};
 
@@ -24,9 +25,8 @@ pub fn validate(scenario: &Scenario) -> Vec<Issue> {
     issues.extend(world::issues(&scenario.world));
     issues.extend(model::issues(&scenario.models));
     issues.extend(vehicle::issues(scenario));
-    issues.extend(family::issues(scenario));
+    issues.extend(vehicle::unsupported(scenario));
     issues.extend(fleet::issues(scenario));
-    issues.extend(sensing::issues(scenario));
     issues.extend(planner::issues(&scenario.planner));
     issues.extend(planner::flight_time(scenario));
     issues.extend(simulation::issues(&scenario.simulation));

@@ -76,35 +76,10 @@ pub struct AppliedLimits {
     pub switch_s: f64,
 }
 
-/// Limits for fixed wings.
-const FIXED_WING: AppliedLimits = AppliedLimits {
-    tracking_max_m: 5.0,
-    tracking_rms_m: 2.0,
-    arrival_spread_s: 0.5,
-    goal_m: 5.0,
-    rest_mps: 0.1,
-    dynamics_m: 1.0,
-    rollout_m: 5.0,
-    saturation: 0.05,
-    switch_s: 0.02,
-};
-
-/// Limits for quadrotors with slung loads, a hundredth of the fixed wings' as their paths are.
-const SLUNG_LOAD: AppliedLimits =
-    AppliedLimits { tracking_max_m: 0.05, tracking_rms_m: 0.03, goal_m: 0.05, dynamics_m: 0.01, ..FIXED_WING };
-
-/// Limits for multirotors.
-const MULTIROTOR: AppliedLimits =
-    AppliedLimits { tracking_max_m: 0.5, tracking_rms_m: 0.2, goal_m: 0.5, rest_mps: 0.2, ..FIXED_WING };
-
 impl VerdictLimits {
     /// The limits for vehicles of this family.
     pub fn applied_to(&self, family: Family) -> AppliedLimits {
-        let default = match family {
-            Family::FixedWing => FIXED_WING,
-            Family::SlungLoad => SLUNG_LOAD,
-            Family::Multirotor => MULTIROTOR,
-        };
+        let default = &family.spec().verdict_limits;
         AppliedLimits {
             tracking_max_m: self.tracking_max_m.unwrap_or(default.tracking_max_m),
             tracking_rms_m: self.tracking_rms_m.unwrap_or(default.tracking_rms_m),

@@ -12,7 +12,7 @@ const ROUNDS: usize = 4000;
 fn assert_sound(tracks: &[ImportedTrajectory], text: &str) {
     assert_eq!(tracks.len(), 2, "{text}");
     for track in tracks {
-        let ImportedTrajectory::FixedWing(track) = track else { panic!("no load was asked for: {text}") };
+        let ImportedTrajectory::Partial(track) = track else { panic!("no load was asked for: {text}") };
         let times_s = &track.times_s;
         assert!(times_s.len() >= 2 && times_s[0].abs() <= 1e-9, "{text}");
         assert!(times_s.windows(2).all(|pair| pair[0] < pair[1]), "{text}");

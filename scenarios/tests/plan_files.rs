@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use scenarios::plan_input::{
-    ImportedTrajectory, PartialTrajectory, PlanError, PlanHeader, parse_csv, parse_json, read,
-};
+use scenarios::fixed_wing::PartialTrajectory;
+use scenarios::plan_input::{ImportedTrajectory, PlanError, PlanHeader, parse_csv, parse_json, read};
 use scenarios::{Interpolation, Plan, Scenario, parse, slung_load};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
@@ -31,7 +30,7 @@ fn tracks(text: &str) -> Vec<PartialTrajectory> {
 
 fn fixed_wings(tracks: Vec<ImportedTrajectory>) -> Vec<PartialTrajectory> {
     let fixed_wing = |track| match track {
-        ImportedTrajectory::FixedWing(track) => track,
+        ImportedTrajectory::Partial(track) => track,
         _ => panic!("no other family was asked for"),
     };
     tracks.into_iter().map(fixed_wing).collect()
@@ -313,10 +312,13 @@ fn a_plan_with_a_load_reads_back_as_it_was() {
     let [json, csv] = [json, csv].map(|bytes| String::from_utf8(bytes).unwrap());
     let whole = plan.trajectories[0].slung_load().clone();
     let (_, tracks) = parse_json("plan.json", &json, &scenario).unwrap();
-    assert_eq!(tracks, [ImportedTrajectory::SlungLoad(whole.clone())]);
+    assert_eq!(tracks, [ImportedTrajectory::Complete(whole.clone().into())]);
     // a table does not say at which nodes the planner looked
     let (_, tracks) = parse_csv("plan.csv", &csv, &scenario).unwrap();
-    assert_eq!(tracks, [ImportedTrajectory::SlungLoad(slung_load::Trajectory { planner_nodes: Vec::new(), ..whole })]);
+    assert_eq!(
+        tracks,
+        [ImportedTrajectory::Complete(slung_load::Trajectory { planner_nodes: Vec::new(), ..whole }.into())]
+    );
 }
 
 #[test]

@@ -106,7 +106,7 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
         near_misses: Vec::new(),
         checks: Vec::new(),
     };
-    for family in [Family::FixedWing, Family::SlungLoad, Family::Multirotor] {
+    for family in Family::ALL {
         let mut asked = BTreeSet::new();
         for reference in reference_case::all(family) {
             progress(&format!("{}: planning and flying", reference.scenario.name));

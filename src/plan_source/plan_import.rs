@@ -9,8 +9,8 @@
 mod controls;
 mod velocities;
 
-use scenarios::fixed_wing::{State, Trajectory};
-use scenarios::plan_input::{ImportedTrajectory, PartialTrajectory, PlanHeader, states_from_velocities};
+use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
+use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
 use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Vehicle};
 
 use crate::verdict::{Provenance, Reconstruction};
@@ -46,9 +46,8 @@ pub fn complete(
     let mut trajectories = Vec::with_capacity(tracks.len());
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
         match track {
-            ImportedTrajectory::SlungLoad(trajectory) => trajectories.push(trajectory.into()),
-            ImportedTrajectory::Multirotor(trajectory) => trajectories.push(trajectory.into()),
-            ImportedTrajectory::FixedWing(track) => {
+            ImportedTrajectory::Complete(trajectory) => trajectories.push(trajectory),
+            ImportedTrajectory::Partial(track) => {
                 let (trajectory, own) = whole_trajectory(vehicle, track);
                 reconstruction = worse(reconstruction, own);
                 trajectories.push(trajectory.into());

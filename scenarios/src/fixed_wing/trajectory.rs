@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Control, State};
-use crate::{Interpolation, Nodes};
+use crate::{Family, Interpolation, TrajectoryNodes};
 
 /// Columns of a fixed-wing plan: time, state and control, one row per vehicle and node. World frame, SI, radians.
 pub const CSV_COLUMNS: [&str; 11] =
@@ -23,7 +23,11 @@ pub struct Trajectory {
     pub controls: Vec<Control>,
 }
 
-impl Nodes for Trajectory {
+impl TrajectoryNodes for Trajectory {
+    fn family(&self) -> Family {
+        Family::FixedWing
+    }
+
     fn vehicle(&self) -> &str {
         &self.vehicle
     }
@@ -57,5 +61,25 @@ impl Nodes for Trajectory {
     fn csv_cells(&self, node: usize) -> Vec<String> {
         let numbers = self.states[node].to_array().into_iter().chain(self.controls[node].to_array());
         numbers.map(|number| format!("{number:?}")).collect()
+    }
+}
+
+impl From<Trajectory> for crate::Trajectory {
+    fn from(trajectory: Trajectory) -> Self {
+        Self::FixedWing(trajectory)
+    }
+}
+
+impl crate::Trajectory {
+    /// The trajectory of a fixed wing.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the vehicle is of another family, which the import of plans excludes.
+    pub fn fixed_wing(&self) -> &Trajectory {
+        match self {
+            Self::FixedWing(trajectory) => trajectory,
+            _ => panic!("the trajectory of {} is not that of a fixed wing", self.vehicle()),
+        }
     }
 }

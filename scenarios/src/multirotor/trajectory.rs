@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
-use crate::Nodes;
 use crate::in_loop::Node;
+use crate::{Family, TrajectoryNodes};
 
 /// Columns of a multirotor's plan: time and state, one row per vehicle and node. World frame, SI.
 pub const CSV_COLUMNS: [&str; 8] = ["vehicle", "t_s", "x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"];
@@ -54,7 +54,11 @@ impl Trajectory {
     }
 }
 
-impl Nodes for Trajectory {
+impl TrajectoryNodes for Trajectory {
+    fn family(&self) -> Family {
+        Family::Multirotor
+    }
+
     fn vehicle(&self) -> &str {
         &self.vehicle
     }
@@ -87,5 +91,25 @@ impl Nodes for Trajectory {
     fn csv_cells(&self, node: usize) -> Vec<String> {
         let State { position_m, velocity_mps } = self.states[node];
         position_m.into_iter().chain(velocity_mps).map(|number| format!("{number:?}")).collect()
+    }
+}
+
+impl From<Trajectory> for crate::Trajectory {
+    fn from(trajectory: Trajectory) -> Self {
+        Self::Multirotor(trajectory)
+    }
+}
+
+impl crate::Trajectory {
+    /// The trajectory of a multirotor.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the vehicle is of another family, which the import of plans excludes.
+    pub fn multirotor(&self) -> &Trajectory {
+        match self {
+            Self::Multirotor(trajectory) => trajectory,
+            _ => panic!("the trajectory of {} is not that of a multirotor", self.vehicle()),
+        }
     }
 }

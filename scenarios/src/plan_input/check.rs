@@ -29,7 +29,7 @@ pub(super) fn tracks(table: &PlanDocument, scenario: &Scenario) -> Result<Vec<Im
             Some(track) => {
                 let found = track_issues(track, vehicle, family, TOO_LONG * scenario.simulation.max_duration_s);
                 if found.is_empty() {
-                    given.push(ImportedTrajectory::of(&converted(track, Columns::of(family)), family));
+                    given.push((family.spec().import)(&converted(track, family.spec().columns)));
                 }
                 issues.extend(found);
             }
@@ -71,7 +71,7 @@ fn missing(vehicle: &Vehicle) -> PlanIssue {
 
 /// What is wrong with one track; later questions are asked only if earlier ones leave something to ask about.
 fn track_issues(track: &ColumnTable, vehicle: &Vehicle, family: Family, longest_s: f64) -> Vec<PlanIssue> {
-    let columns = Columns::of(family);
+    let columns = family.spec().columns;
     let mut issues = column_issues(track, columns);
     issues.extend(too_short(track));
     if issues.is_empty() {
@@ -82,7 +82,7 @@ fn track_issues(track: &ColumnTable, vehicle: &Vehicle, family: Family, longest_
     }
     if issues.is_empty() {
         let place = |row: usize| track.places.of(row);
-        issues = units::suspicions(&ImportedTrajectory::of(&converted(track, columns), family), vehicle)
+        issues = units::suspicions(&(family.spec().import)(&converted(track, columns)), vehicle)
             .into_iter()
             .map(|(row, issue)| PlanIssue::new(place(row), issue))
             .collect();
@@ -100,7 +100,7 @@ fn column_issues(track: &ColumnTable, columns: &Columns) -> Vec<PlanIssue> {
         let remedy = closest_name(name, known.iter().copied());
         let remedy =
             remedy.map_or_else(|| "remove it, or rename it".into(), |known| format!("did you mean `{known}`?"));
-        let expected = format!("one of {} for a vehicle of the family {}", known.join(", "), columns.family);
+        let expected = format!("one of {} for a vehicle of the family {}", known.join(", "), columns.family.key());
         issues.push(issue(Issue::new(name, "an unknown column", expected).remedy(remedy)));
     }
     let meant: Vec<&str> = track.columns.keys().map(|name| columns.meaning(name).0).collect();

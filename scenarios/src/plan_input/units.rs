@@ -5,7 +5,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{ImportedTrajectory, PartialTrajectory};
+use super::ImportedTrajectory;
+use crate::fixed_wing::PartialTrajectory;
 use crate::{Issue, Vehicle};
 
 /// Relative difference within which two quantities count as the same.
@@ -30,8 +31,8 @@ pub(super) fn suspicions(track: &ImportedTrajectory, vehicle: &Vehicle) -> Vec<(
     let named =
         |(row, issue): (usize, Issue)| (row, Issue { field: format!("{} of {}", issue.field, vehicle.name), ..issue });
     let of_motion = match track {
-        ImportedTrajectory::FixedWing(track) => [angles(track), heading(track), speed(track)],
-        ImportedTrajectory::SlungLoad(_) | ImportedTrajectory::Multirotor(_) => [None, None, None],
+        ImportedTrajectory::Partial(track) => [angles(track), heading(track), speed(track)],
+        ImportedTrajectory::Complete(_) => [None, None, None],
     };
     [position(track, vehicle)].into_iter().chain(of_motion).flatten().map(named).collect()
 }

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Cable, Control, State};
-use crate::{Interpolation, Nodes};
+use crate::{Family, Interpolation, TrajectoryNodes};
 
 /// Columns of a slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI, radians;
 /// `cable` is `taut` or `slack`, from this node to the next.
@@ -68,7 +68,11 @@ impl Trajectory {
     }
 }
 
-impl Nodes for Trajectory {
+impl TrajectoryNodes for Trajectory {
+    fn family(&self) -> Family {
+        Family::SlungLoad
+    }
+
     fn vehicle(&self) -> &str {
         &self.vehicle
     }
@@ -106,5 +110,25 @@ impl Nodes for Trajectory {
             Cable::Slack => "slack",
         };
         numbers.map(|number| format!("{number:?}")).chain([cable.to_owned()]).collect()
+    }
+}
+
+impl From<Trajectory> for crate::Trajectory {
+    fn from(trajectory: Trajectory) -> Self {
+        Self::SlungLoad(trajectory)
+    }
+}
+
+impl crate::Trajectory {
+    /// The trajectory of a quadrotor with a slung load.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the vehicle is of another family, which the import of plans excludes.
+    pub fn slung_load(&self) -> &Trajectory {
+        match self {
+            Self::SlungLoad(trajectory) => trajectory,
+            _ => panic!("the trajectory of {} is not that of a quadrotor with a slung load", self.vehicle()),
+        }
     }
 }

@@ -1,34 +1,33 @@
-//! Vehicle models: their names here, the rest by family.
+//! Vehicle models: their names here, their parameters in the module of their family.
 
-mod fixed_wing;
-mod multirotor;
-mod slung_load;
-
-use crate::{Issue, Models, Range};
+use super::identifier::entity_name;
+use crate::{Issue, Models, Range, VehicleModel};
 
 pub(super) fn issues(models: &Models) -> Vec<Issue> {
-    let fixed_wing = models.fixed_wing.iter().flat_map(|(name, model)| fixed_wing::issues(name, model));
-    let slung_load = models.slung_load.iter().flat_map(|(name, model)| slung_load::issues(name, model));
-    let multirotor = models.multirotor.iter().flat_map(|(name, model)| multirotor::issues(name, model));
-    fixed_wing.chain(slung_load).chain(multirotor).chain(names_of_two_families(models)).collect()
+    let mut issues = Vec::new();
+    for (name, model) in models.iter() {
+        let field = format!("models.{}.{name}", model.family().key());
+        issues.extend(entity_name(&field, name));
+        issues.extend(model.issues(&field));
+    }
+    issues.extend(names_of_two_families(models));
+    issues
 }
 
 fn names_of_two_families(models: &Models) -> Vec<Issue> {
-    let issue = |family: &str, name: &String, other: &str| {
-        let expected = format!("a name of its own; a {other} model has this one already");
-        Issue::new(format!("models.{family}.{name}"), format!("\"{name}\""), expected).remedy("rename one of the two")
+    let issue = |(name, model): (&str, &dyn VehicleModel)| {
+        let (family, other) = (model.family(), models.get(name)?.family());
+        (family != other).then(|| {
+            let expected = format!("a name of its own; a {} model has this one already", other.key());
+            let field = format!("models.{}.{name}", family.key());
+            Issue::new(field, format!("\"{name}\""), expected).remedy("rename one of the two")
+        })
     };
-    let is_fixed_wing = |name: &&String| models.fixed_wing.contains_key(*name);
-    let slung = models.slung_load.keys().filter(is_fixed_wing).map(|name| issue("slung-load", name, "fixed-wing"));
-    let multirotors = models.multirotor.keys().filter_map(|name| {
-        let other = if is_fixed_wing(&name) { "fixed-wing" } else { "slung-load" };
-        (is_fixed_wing(&name) || models.slung_load.contains_key(name)).then(|| issue("multirotor", name, other))
-    });
-    slung.chain(multirotors).collect()
+    models.iter().filter_map(issue).collect()
 }
 
 /// Ranges of planning limits that reach beyond the physical ones of the same name. What is not in order says nothing.
-fn planning_inside_physical(
+pub(crate) fn planning_inside_physical(
     field: &str,
     planning: impl IntoIterator<Item = (&'static str, Range)>,
     physical: impl IntoIterator<Item = (&'static str, Range)>,

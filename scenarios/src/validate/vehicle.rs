@@ -1,12 +1,8 @@
 //! Each vehicle by itself: its name, its model, and its start and goal against map, obstacles and limits.
 
-mod fixed_wing;
-mod multirotor;
-mod slung_load;
-
 use super::identifier::entity_names;
 use super::quantity::inside;
-use crate::{Issue, Model, Scenario, Vehicle, World, closest_name};
+use crate::{Issue, Scenario, Vehicle, World, closest_name};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     if scenario.vehicles.is_empty() {
@@ -20,15 +16,17 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
             let field = format!("vehicles[{index}].{end}");
             issues.extend(outside_map(&scenario.world, &field, waypoint.position_m()));
             issues.extend(inside_obstacle(&scenario.world, &field, waypoint.position_m()));
-            issues.extend(match scenario.models.get(&vehicle.model) {
-                Some(Model::FixedWing(model)) => fixed_wing::issues(model, &field, waypoint),
-                Some(Model::SlungLoad(model)) => slung_load::issues(model, &scenario.world, &field, waypoint),
-                Some(Model::Multirotor(model)) => multirotor::issues(model, &scenario.world, &field, waypoint),
-                None => Vec::new(),
-            });
+            let model = scenario.models.get(&vehicle.model);
+            issues.extend(model.iter().flat_map(|model| model.waypoint_issues(&scenario.world, &field, waypoint)));
         }
     }
     issues
+}
+
+/// What the family of the first vehicle does not support.
+pub(super) fn unsupported(scenario: &Scenario) -> Vec<Issue> {
+    let first = scenario.vehicles.first().and_then(|vehicle| scenario.models.get(&vehicle.model));
+    first.map_or_else(Vec::new, |model| (model.family().spec().unsupported)(scenario))
 }
 
 /// Simulation and verdict are for one family at a time.
@@ -61,12 +59,12 @@ fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option
     Some(Issue::new(format!("vehicles[{index}].model"), format!("\"{}\"", vehicle.model), expected).remedy(remedy))
 }
 
-fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Issue> {
+pub(crate) fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Issue> {
     let axes = ["x_m", "y_m", "z_m"].into_iter().zip(position_m).zip(world.map.axes());
     axes.filter_map(|((axis, value), range)| inside(&format!("{field}.{axis}"), value, range, "the map")).collect()
 }
 
-fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Issue> {
+pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Issue> {
     let cylinders =
         world.cylinders.iter().map(|cylinder| (cylinder.name.clone(), cylinder.signed_distance_m(x_m, y_m)));
     let at_height =

@@ -1,6 +1,6 @@
 //! Which field of the scenario file a check is held against.
 
-use scenarios::{Family, Scenario};
+use scenarios::Scenario;
 
 use crate::verdict::Check;
 
@@ -62,11 +62,7 @@ fn limits(check: &Check, scenario: &Scenario) -> Vec<String> {
     let table = if check.name.starts_with("nodes.") { "planning_limits" } else { "limits" };
     let key = KEYS.iter().find(|(name, _)| is_about(name)).map(|(_, key)| *key);
     let vehicles = scenario.vehicles.iter().filter(|vehicle| check.between.contains(&vehicle.name));
-    let family = match scenario.family() {
-        Family::FixedWing => "fixed-wing",
-        Family::SlungLoad => "slung-load",
-        Family::Multirotor => "multirotor",
-    };
+    let family = scenario.family().key();
     let model = vehicles.map(|vehicle| format!("models.{family}.{}.{table}", vehicle.model)).next();
     let on_map = MAP.iter().find(|(name, _)| is_about(name)).map(|(_, field)| (*field).to_owned());
     let of_model =

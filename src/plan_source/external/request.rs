@@ -1,7 +1,7 @@
 //! The question, with everything in it that a planner may know: no file has to be read, no model to be looked up.
 
 use scenarios::fixed_wing::{self, GRAVITY_MPS2, Limits};
-use scenarios::{Model, Range, Scenario, Vehicle, Waypoint, World};
+use scenarios::{Family, Range, Scenario, Vehicle, Waypoint, World};
 use scenarios::{multirotor, slung_load};
 use serde_json::{Value, json};
 
@@ -37,10 +37,10 @@ pub(super) fn world(world: &World) -> Value {
 }
 
 fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
-    match scenario.model(vehicle) {
-        Model::FixedWing(model) => fixed_wing(vehicle, model),
-        Model::SlungLoad(model) => slung_load(vehicle, model),
-        Model::Multirotor(model) => multirotor(vehicle, model),
+    match scenario.family() {
+        Family::FixedWing => fixed_wing(vehicle, scenario.fixed_wing_model(vehicle)),
+        Family::SlungLoad => slung_load(vehicle, scenario.slung_load_model(vehicle)),
+        Family::Multirotor => multirotor(vehicle, scenario.multirotor_model(vehicle)),
     }
 }
 

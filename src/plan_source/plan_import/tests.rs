@@ -1,7 +1,7 @@
 //! What was taken away comes back, and what cannot come back is known.
 
+use scenarios::fixed_wing::states_from_velocities;
 use scenarios::fixed_wing::{Control, State};
-use scenarios::plan_input::states_from_velocities;
 use sim::fixed_wing::flow;
 
 use super::{controls, velocities};

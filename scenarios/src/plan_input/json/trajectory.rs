@@ -42,7 +42,7 @@ pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result
 /// What the trajectory says of itself in words: the vehicle; family and interpolation must be what they can be.
 fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result<String, Issue> {
     let words = [
-        ("family", known.family, "the family of the scenario's vehicles"),
+        ("family", known.family.key(), "the family of the scenario's vehicles"),
         ("interpolation", "first-order-hold", "the only interpolation of controls that is flown"),
     ];
     for (key, wanted, why) in words {

@@ -1,9 +1,9 @@
 //! Start and goal of a multirotor: body and all in the open, on the map, at rest.
 
-use crate::multirotor::Model;
+use super::super::Model;
 use crate::{Issue, Waypoint, World};
 
-pub(super) fn issues(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+pub(in crate::multirotor) fn issues(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let mut issues = too_near_edges(model, world, field, waypoint);
     issues.extend(too_near_obstacles(model, world, field, waypoint));
     if field.ends_with(".start") {

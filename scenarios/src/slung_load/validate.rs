@@ -1,20 +1,19 @@
-//! Models of quadrotors with slung loads: what is positive, limits in order, room to hover.
+//! Validation of models of quadrotors with slung loads, and of where the load begins and ends.
 
-use crate::slung_load::{Limits, Model};
-use crate::validate::identifier::entity_name;
+use super::{Limits, Model, State};
 use crate::validate::quantity::{not_negative, ordered, positive, positive_if_given};
-use crate::{Issue, Range};
+use crate::validate::{inside_obstacle, outside_map, planning_inside_physical};
+use crate::{Issue, Range, Waypoint, World};
 
-use super::planning_inside_physical;
+/// Excess over the cable's length that is attributed to the decimals of a file, m.
+const LENGTH_TOLERANCE_M: f64 = 1e-6;
 
-pub(super) fn issues(name: &str, model: &Model) -> Vec<Issue> {
-    let field = format!("models.slung-load.{name}");
-    let mut issues: Vec<Issue> = entity_name(&field, name).into_iter().collect();
-    issues.extend(quantities(&field, model));
+pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
+    let mut issues = quantities(field, model);
     issues.extend(limits(&format!("{field}.limits"), &model.limits));
     issues.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
-    issues.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
-    issues.extend(room_to_hover(&field, model));
+    issues.extend(planning_inside_physical(field, named(&model.planning_limits), named(&model.limits)));
+    issues.extend(room_to_hover(field, model));
     issues
 }
 
@@ -64,4 +63,24 @@ fn room_to_hover(field: &str, model: &Model) -> Option<Issue> {
 
 fn named(limits: &Limits) -> [(&'static str, Range); 3] {
     [("thrust_n", limits.thrust_n), ("attitude_deg", limits.attitude_deg), ("cable_deg", limits.cable_deg)]
+}
+
+/// The load at a start or goal: within reach of the cable, on the map, outside obstacles and above the ground.
+pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+    let state = State::at(waypoint, model.cable_length_m);
+    let load = format!("{field}.load");
+    let mut issues = outside_map(world, &load, state.load_position_m);
+    issues.extend(inside_obstacle(world, &load, state.load_position_m));
+    if state.cable_length_m() > model.cable_length_m + LENGTH_TOLERANCE_M {
+        let found = format!("a load {:.4} m from the quadrotor", state.cable_length_m());
+        let expected = format!("{} m at most, the length of the cable", model.cable_length_m);
+        issues.push(Issue::new(load.clone(), found, expected).remedy("move the load or the quadrotor"));
+    }
+    let lowest_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
+    if let Some(lowest_m) = lowest_m.filter(|lowest_m| state.load_position_m[2] < lowest_m - LENGTH_TOLERANCE_M) {
+        let found = format!("a load whose centre is at {} m", state.load_position_m[2]);
+        let expected = format!("{lowest_m} m or more: its radius above the ground");
+        issues.push(Issue::new(load, found, expected).remedy("raise the load, or lower world.ground_m"));
+    }
+    issues
 }

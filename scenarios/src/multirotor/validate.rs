@@ -1,15 +1,15 @@
-//! Models of multirotors: what is positive, planning limits inside the physical ones, room to hover.
+//! Validation of multirotor models: quantities and limits, thrust to hover, sensor range to stop.
 
-use crate::multirotor::{Airframe, GRAVITY_MPS2, Limits, Model, Plant};
-use crate::validate::identifier::entity_name;
+mod waypoint;
+
+use super::{Airframe, GRAVITY_MPS2, Limits, Model, Plant};
+use crate::validate::planning_inside_physical;
 use crate::validate::quantity::{above_up_to, not_negative, ordered, positive, positive_if_given};
-use crate::{Issue, Range};
+use crate::{Issue, Range, Scenario};
 
-use super::planning_inside_physical;
+pub(super) use waypoint::issues as waypoint;
 
-pub(super) fn issues(name: &str, model: &Model) -> Vec<Issue> {
-    let field = format!("models.multirotor.{name}");
-    let mut issues: Vec<Issue> = entity_name(&field, name).into_iter().collect();
+pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
     let positive_ones = [
         ("mass_kg", model.mass_kg),
         ("body_radius_m", model.body_radius_m),
@@ -19,12 +19,13 @@ pub(super) fn issues(name: &str, model: &Model) -> Vec<Issue> {
         ("planning_limits.speed_mps", model.planning_limits.speed_mps),
         ("planning_limits.acceleration_mps2", model.planning_limits.acceleration_mps2),
     ];
+    let mut issues: Vec<Issue> = Vec::new();
     issues.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
     issues.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
-    issues.extend(planning_inside_physical(&field, named(&model.planning_limits), named(&model.limits)));
-    issues.extend(no_airframe(&field, model));
+    issues.extend(planning_inside_physical(field, named(&model.planning_limits), named(&model.limits)));
+    issues.extend(no_airframe(field, model));
     issues.extend(model.airframe.iter().flat_map(|airframe| of_airframe(&format!("{field}.airframe"), airframe)));
-    issues.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(&field, model, airframe)));
+    issues.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(field, model, airframe)));
     issues
 }
 
@@ -69,4 +70,32 @@ fn room_to_hover(field: &str, model: &Model, airframe: &Airframe) -> Option<Issu
 
 fn named(limits: &Limits) -> [(&'static str, Range); 2] {
     [("speed_mps", Range::new(0.0, limits.speed_mps)), ("acceleration_mps2", Range::new(0.0, limits.acceleration_mps2))]
+}
+
+/// One issue for every model in use whose sensors see too little.
+pub(super) fn sensing(scenario: &Scenario) -> Vec<Issue> {
+    let models = &scenario.models.multirotor;
+    let is_used = |name: &&String| scenario.vehicles.iter().any(|vehicle| vehicle.model == **name);
+    models.keys().filter(is_used).filter_map(|name| too_short(scenario, name, &models[name])).collect()
+}
+
+/// The vehicle goes on for a period and a deadline before it knows, and then brakes; what moves comes towards it meanwhile.
+fn too_short(scenario: &Scenario, name: &str, model: &Model) -> Option<Issue> {
+    let (limits, planning) = (&model.planning_limits, &scenario.simulation.planning);
+    let delay_s = planning.period_s + planning.deadline_s.max(planning.median_s);
+    let fastest_mps = scenario.world.moving.iter().map(|moving| moving.speed_mps).fold(0.0, f64::max);
+    let braking_s = limits.speed_mps / limits.acceleration_mps2;
+    let own_m = limits.stopping_distance_m() + limits.speed_mps * delay_s;
+    let needed_m = own_m + fastest_mps * (delay_s + braking_s) + model.body_radius_m;
+    (model.sensor_range_m < needed_m).then(|| {
+        let expected = format!(
+            "{needed_m:.3} m or more: {:.3} m to stop from {} m/s, {:.3} m during a period and a delay of {delay_s} s, the \
+             way of what moves meanwhile, and the body's radius",
+            limits.stopping_distance_m(),
+            limits.speed_mps,
+            limits.speed_mps * delay_s,
+        );
+        Issue::new(format!("models.multirotor.{name}.sensor_range_m"), model.sensor_range_m.to_string(), expected)
+            .remedy("look farther, plan slower (planning_limits), or plan more often (simulation.planning)")
+    })
 }

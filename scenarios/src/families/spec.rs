@@ -1,0 +1,39 @@
+use crate::plan_input::columns::Columns;
+use crate::plan_input::{ColumnTable, ImportedTrajectory};
+use crate::{AppliedLimits, Family, Issue, Scenario, Waypoint, World};
+
+/// One row of the table of families: what differs between them, apart from their types.
+pub(crate) struct FamilySpec {
+    /// Key in scenario and plan files: `fixed-wing`.
+    pub key: &'static str,
+    /// Name in prose: `fixed wing`.
+    pub name: &'static str,
+    /// Limits of the verdict where the scenario gives none.
+    pub verdict_limits: AppliedLimits,
+    /// Columns of a plan file.
+    pub columns: &'static Columns,
+    /// The trajectory in a table whose columns have been checked and converted.
+    pub import: fn(&ColumnTable) -> ImportedTrajectory,
+    /// What simulator and judge do not support for this family. It is refused, so that nothing is ignored silently.
+    pub unsupported: fn(&Scenario) -> Vec<Issue>,
+}
+
+/// What every vehicle model provides, whatever its family.
+pub trait VehicleModel {
+    /// The family.
+    fn family(&self) -> Family;
+
+    /// Radius of the sphere about the vehicle's centre that encloses it, without its load, m.
+    fn body_radius_m(&self) -> f64;
+
+    /// Parameters that are out of range or inconsistent. `field` is the model's path in the file.
+    fn issues(&self, field: &str) -> Vec<Issue>;
+
+    /// What makes `waypoint`, at the path `field`, impossible for this vehicle, beyond the rules for all families.
+    fn waypoint_issues(&self, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue>;
+}
+
+/// An issue with the list at `field` if it has more than `max` elements.
+pub(crate) fn surplus(field: &str, count: usize, max: usize, expected: &str, remedy: &str) -> Option<Issue> {
+    (count > max).then(|| Issue::new(field, format!("{count} of them"), expected).remedy(remedy))
+}
