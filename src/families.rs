@@ -4,6 +4,8 @@ use scenarios::{Family, Plan, Scenario};
 use sim::Flight;
 
 use crate::metrics::{self, Metrics};
+#[cfg(any(feature = "mcap", feature = "rrd"))]
+use crate::output::scene::{self, FamilyScene};
 use crate::verdict::case::Case;
 use crate::verdict::{self, Check};
 
@@ -15,6 +17,9 @@ pub struct VehicleFamily {
     pub checks: for<'a> fn(&Case<'a>) -> Vec<Check>,
     /// The figures of a flyable plan and, if there is one, its flight.
     pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
+    /// What it adds to the scene that recordings draw.
+    #[cfg(any(feature = "mcap", feature = "rrd"))]
+    pub scene: FamilyScene,
 }
 
 static FAMILIES: [VehicleFamily; 3] = [
@@ -22,16 +27,22 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::FixedWing,
         checks: verdict::fixed_wing::checks,
         measure: metrics::fixed_wing::measure,
+        #[cfg(any(feature = "mcap", feature = "rrd"))]
+        scene: scene::fixed_wing::SCENE,
     },
     VehicleFamily {
         family: Family::SlungLoad,
         checks: verdict::slung_load::checks,
         measure: metrics::slung_load::measure,
+        #[cfg(any(feature = "mcap", feature = "rrd"))]
+        scene: scene::slung_load::SCENE,
     },
     VehicleFamily {
         family: Family::Multirotor,
         checks: verdict::multirotor::checks,
         measure: metrics::multirotor::measure,
+        #[cfg(any(feature = "mcap", feature = "rrd"))]
+        scene: scene::multirotor::SCENE,
     },
 ];
 

@@ -6,39 +6,17 @@
 
 use std::path::{Path, PathBuf};
 
-use scenarios::{Plan, Scenario};
-use sim::Flight;
-
-use crate::campaign::margin_budget::MarginBudget;
 use crate::error::Error;
 use crate::output;
-use crate::verdict::Verdict;
 
-#[cfg(any(feature = "mcap", feature = "rrd"))]
-mod colours;
-#[cfg(any(feature = "mcap", feature = "rrd"))]
-mod events;
+pub use crate::output::run::Run;
+
 #[cfg(feature = "mcap")]
 pub mod mcap;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 #[cfg(feature = "rrd")]
 pub mod rrd;
-
-/// What there is to record.
-#[derive(Clone, Copy, Debug)]
-pub struct Run<'a> {
-    /// The question.
-    pub scenario: &'a Scenario,
-    /// The planner's answer, possibly without trajectories.
-    pub plan: &'a Plan,
-    /// What became of it; `None` if nothing could be flown.
-    pub flight: Option<&'a Flight>,
-    /// What the judge made of it.
-    pub verdict: &'a Verdict,
-    /// Where the margins went; empty if nobody asked.
-    pub waterfall: &'a [MarginBudget],
-}
 
 /// One recording format.
 pub trait Recorder {
@@ -54,13 +32,6 @@ pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<P
     let path = folder.join(recorder.file_name());
     output::replace_file(&path, |partial| recorder.write(run, partial))?;
     Ok(path)
-}
-
-/// Can a viewer draw a vehicle from this sample?
-#[cfg(any(feature = "mcap", feature = "rrd"))]
-fn is_drawable(sample: &sim::Sample) -> bool {
-    let attitude_norm: f64 = sample.world_from_body.iter().map(|q| q * q).sum();
-    sample.t_s.is_finite() && sample.position_m.iter().all(|p| p.is_finite()) && (0.5..2.0).contains(&attitude_norm)
 }
 
 #[cfg(test)]

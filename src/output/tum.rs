@@ -1,4 +1,4 @@
-//! PlannedMotions and flown paths as TUM files, one pose per line: `timestamp tx ty tz qx qy qz qw`.
+//! Planned and flown paths as TUM files, one pose per line: `timestamp tx ty tz qx qy qz qw`.
 //!
 //! Made for evo: `evo_ape tum uav-1.planned.tum uav-1.flown.tum` gives what `report.json` says under `ape`.
 

@@ -1,19 +1,25 @@
 //! The MCAP recording: `flight.mcap`, with Foxglove's schemas in Protobuf.
 //!
-//! | topic | schema | what | written in |
+//! | topic | schema | content | written by |
 //! |---|---|---|---|
-//! | `/tf` | `foxglove.FrameTransforms` | where every vehicle is, `world` from its name | `motion` |
-//! | `/world` | `foxglove.SceneUpdate` | map, obstacles, planned and flown paths, starts and goals; once | `scene` |
-//! | `/fleet` | `foxglove.SceneUpdate` | the vehicles with their safety volumes, fixed to their frames; once | `scene` |
-//! | `/vehicles/NAME` | `aircraft.Aircraft`, `quadrotor.Quadrotor` | tracking error, altitude, controls, tension | `motion` |
-//! | `/cables/NAME` | `foxglove.SceneUpdate` | the cable of a load | `motion` |
-//! | `/distances` | `distances.Distances` | smallest separation and clearance of the fleet | `motion` |
+//! | `/tf` | `foxglove.FrameTransforms` | pose of every vehicle, load and moving obstacle in `world` | `bodies` |
+//! | `/fleet`, `/moving` | `foxglove.SceneUpdate` | vehicles, moving obstacles, fixed to their frames; once | `bodies` |
+//! | `/world` | `foxglove.SceneUpdate` | map, obstacles, gates, paths, starts and goals; once | `shapes` |
+//! | `/KIND/NAME` | `foxglove.SceneUpdate` | what changes in space: `/cables`, `/trail`, `/hidden`, `/horizon`, ... | `shapes` |
+//! | `/vehicles/NAME` | Protobuf | the quantities of a vehicle | `series` |
+//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | `point.Point` | other quantities over time, limits | `series` |
+//! | `/state/GROUP/NAME` | `state.State` | discrete states | `series` |
+//! | `/distances` | `distances.Distances` | smallest separation and clearance of the fleet | `series` |
 //! | `/log` | `foxglove.Log` | events and worst instants | here |
+//!
+//! The scene is translated as it is: no vehicle family is named here.
 //!
 //! Metadata `harness` names scenario, planner, seed and verdict; attachments hold scenario, plan and verdict as JSON.
 
-mod motion;
-mod scene;
+mod bodies;
+mod protobuf;
+mod series;
+mod shapes;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -27,17 +33,21 @@ use foxglove::messages::{Log, Timestamp};
 use foxglove::{Channel, Context, Encode, McapAttachment, McapWriterHandle};
 use serde::Serialize;
 
-use super::events::{self, Level};
+use self::shapes::Artist;
 use super::{Recorder, Run};
+use crate::output::scene::builder;
+use crate::output::scene::events::{Event, Level};
 
-/// What writing functions return: the library's own errors, which concern the file.
+/// Result of a writing function; the errors are Foxglove's, about the file.
 type Written = Result<(), Box<dyn Error + Send + Sync>>;
 type Writer = McapWriterHandle<BufWriter<File>>;
 
-/// Frame of everything that stands still.
+/// The fixed frame.
 const WORLD: &str = "world";
+/// Time between two messages of one topic, s.
+const INTERVAL_S: f64 = 0.05;
 
-/// Writes recordings for Foxglove and everything else that reads MCAP.
+/// Writes recordings for Foxglove and other readers of MCAP.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Mcap;
 
@@ -53,11 +63,12 @@ impl Recorder for Mcap {
         attach(&writer, "scenario.json", run.scenario)?;
         attach(&writer, "plan.json", run.plan)?;
         attach(&writer, "verdict.json", run.verdict)?;
-        scene::log(&context, run);
-        if let Some(flight) = run.flight {
-            motion::log(&context, run, flight);
-        }
-        log_events(&context, run);
+        let scene = builder::build(run);
+        let artist = Artist::new(&run.scenario.world.map);
+        shapes::log(&context, &scene, &artist);
+        bodies::log(&context, &scene.bodies, &artist);
+        series::log(&context, &scene)?;
+        log_events(&context, &scene.events);
         writer.close()?.into_inner()?.sync_data()?;
         Ok(())
     }
@@ -87,17 +98,17 @@ fn attach(writer: &Writer, name: &str, value: &impl Serialize) -> Written {
     Ok(writer.attach(&attachment)?)
 }
 
-fn log_events(context: &Arc<Context>, run: &Run<'_>) {
+fn log_events(context: &Arc<Context>, events: &[Event]) {
     let channel: Channel<Log> = channel(context, "/log");
-    for line in events::lines(run) {
+    for event in events {
         let message = Log {
-            timestamp: Some(timestamp(line.t_s)),
-            level: level(line.level),
-            message: line.text,
+            timestamp: Some(timestamp(event.t_s)),
+            level: level(event.level),
+            message: event.text.clone(),
             name: "harness".to_owned(),
             ..Log::default()
         };
-        channel.log_with_time(&message, timestamp(line.t_s));
+        channel.log_with_time(&message, timestamp(event.t_s));
     }
 }
 
@@ -115,7 +126,7 @@ fn channel<T: Encode>(context: &Arc<Context>, topic: &str) -> Channel<T> {
     context.channel_builder(topic).build()
 }
 
-/// Simulated time as a time since the epoch: flights begin at 0. Not before it, and to the nanosecond.
+/// Simulated time as a time since the epoch, rounded to nanoseconds: flights begin at the epoch. Never before it.
 fn timestamp(t_s: f64) -> Timestamp {
     let nanoseconds = (t_s.max(0.0) * 1e9).round() as u64;
     let (seconds, rest) = (nanoseconds / 1_000_000_000, nanoseconds % 1_000_000_000);

@@ -1,40 +1,26 @@
-//! The rerun recording: `flight.rrd`, with a layout that opens by itself.
+//! The rerun recording: `flight.rrd`, with the layout that the viewer opens with.
 //!
-//! | entities | what | where it is written |
+//! | entities | content | written by |
 //! |---|---|---|
-//! | `/world/map`, `/world/obstacles`, `/world/ends` | map, obstacles, starts and goals | `world` |
-//! | `/world/planned`, `/world/flown`, `/world/trail` | one line per vehicle | `paths` |
-//! | `/world/alternatives` | ways that were tried and not taken | `paths` |
-//! | `/world/fleet/NAME` | the moving aircraft and its safety volume | `fleet` |
-//! | `/world/closest`, `/world/crashed` | where it came closest to a limit, where it crashed | `closest` |
-//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME` | time series and what they are held against | `series` |
-//! | `/planner/NAME` | convergence, on the timeline `planner_iter` | `convergence` |
+//! | `/world/**` | everything in space; `docs/recording.md` lists the entities | `shapes`, `bodies` |
+//! | `/plots/GROUP/NAME`, `/limits/GROUP/NAME`, `/state/GROUP/NAME` | series, their limits, states | `series` |
 //! | `/events` | text log | `events` |
-//! | see there | what a quadrotor with a slung load has of its own | `slung_load` |
-//! | see there | what multirotors sense and plan in the loop | `multirotor` |
-//! | `/margins/QUESTION` | where the margins went | `margin_budget` |
-//! | `/verdict`, `/convergence` | documents | `document`, `convergence` |
+//! | `/planner/NAME`, `/convergence` | convergence, on the timeline `planner_iter` and as a table | `convergence` |
+//! | `/margins/QUANTITY` | margin budgets | `margin_budget` |
+//! | `/verdict` | the verdict as a document | `document` |
 //!
-//! Everything that moves is on the timeline `sim_time` and is sent in columns; everything else is static.
+//! The scene is translated as it is: no vehicle family is named here. What changes over time is on the timeline `sim_time`;
+//! everything else is static.
 
-mod airframe;
 mod blueprint;
-mod closest;
+mod bodies;
 mod convergence;
-mod decimation;
-mod distances;
 mod document;
 mod events;
-mod fleet;
 mod layout;
 mod margin_budget;
-mod multirotor;
-mod palette;
-mod paths;
-mod quantity;
 mod series;
-mod slung_load;
-mod world;
+mod shapes;
 
 use std::error::Error;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -42,12 +28,11 @@ use std::path::Path;
 
 use rerun::components::Text;
 use rerun::{AnyValues, EntityPath, EntityPathPart, RecordingStream, RecordingStreamBuilder, TimeColumn};
-use scenarios::Family;
 
-use self::distances::Distances;
-use super::{Recorder, Run, is_drawable};
+use super::{Recorder, Run};
+use crate::output::scene::builder;
 
-/// What logging functions return: rerun's own errors, which concern serialisation and the file.
+/// Result of a logging function; the errors are rerun's, about serialisation or the file.
 type Logged = Result<(), Box<dyn Error + Send + Sync>>;
 
 /// Application id: viewers keep one default layout per application.
@@ -66,37 +51,25 @@ impl Recorder for Rrd {
 
     fn write(&self, run: &Run<'_>, path: &Path) -> Logged {
         let stream = open(run, path)?;
-        let distances = Distances::of(run);
-        layout::send(&stream, run, &distances)?;
-        document::log(&stream, run)?;
-        events::log(&stream, run)?;
+        let scene = builder::build(run);
+        layout::send(&stream, run, &scene)?;
+        document::log(&stream, run, &scene.legend)?;
+        events::log(&stream, &scene.events)?;
         margin_budget::log(&stream, run.waterfall)?;
-        world::log(&stream, run.scenario)?;
         convergence::log(&stream, run.plan)?;
-        paths::log_planned(&stream, run)?;
-        paths::log_alternatives(&stream, run)?;
-        if let Some(flight) = run.flight {
-            paths::log_flown(&stream, flight)?;
-            closest::log(&stream, run, flight)?;
-            match run.scenario.family() {
-                Family::FixedWing => {
-                    fleet::log(&stream, run.scenario, flight)?;
-                    series::log(&stream, run.scenario, flight, distances)?;
-                }
-                Family::SlungLoad => slung_load::log(&stream, run, flight)?,
-                Family::Multirotor => multirotor::log(&stream, run, flight, distances)?,
-            }
-        }
+        shapes::log(&stream, &scene)?;
+        bodies::log(&stream, &scene.bodies)?;
+        series::log(&stream, &scene)?;
         stream.flush_blocking()?;
         Ok(())
     }
 }
 
-/// Opens the file and says whose recording it is.
+/// Opens the file and writes the properties that identify the recording.
 fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + Send + Sync>> {
     let name = format!("{} · {} · {}", run.scenario.name, run.plan.planner, run.verdict.outcome);
     let stream = RecordingStreamBuilder::new(APPLICATION)
-        .enabled(true) // also when the variable RERUN says otherwise: the user has asked for this file
+        .enabled(true) // also if the variable RERUN disables rerun: the user asked for this file
         .recording_id(recording_id(run))
         .send_properties(true)
         .recording_name(name)
@@ -113,8 +86,8 @@ fn open(run: &Run<'_>, path: &Path) -> Result<RecordingStream, Box<dyn Error + S
     Ok(stream)
 }
 
-/// The same for the same plan and flight, so that a run recorded twice is one recording to the viewer, while two
-/// different results of one scenario can be open side by side.
+/// Equal for equal plan and flight: the viewer treats a run that was recorded twice as one recording, and can open two
+/// different results of one scenario side by side.
 fn recording_id(run: &Run<'_>) -> String {
     let mut hasher = DefaultHasher::new();
     let planned = run

@@ -5,8 +5,10 @@ use std::fmt::Write;
 use rerun::{RecordingStream, Scalars, SeriesLines, TextDocument, TimeColumn};
 use scenarios::{Iteration, Plan};
 
-use super::{Logged, entity, palette};
+use super::shapes::color;
+use super::{Logged, entity};
 use crate::number_format::number;
+use crate::output::scene::{Paint, colours};
 
 /// Timeline of the planner's iterations.
 pub const PLANNER_ITER: &str = "planner_iter";
@@ -41,7 +43,7 @@ pub fn log(stream: &RecordingStream, plan: &Plan) -> Logged {
         let (iterations, values): (Vec<i64>, Vec<f64>) =
             (1..).zip(plan.history.iter().map(value)).filter(|(_, v)| v.is_finite()).unzip();
         let path = entity(&format!("planner/{group}"), name);
-        let colour = palette::opaque(palette::vehicle(index, SERIES.len()));
+        let colour = color(Paint::opaque(colours::vehicle(index, SERIES.len())));
         stream.log_static(
             path.clone(),
             &SeriesLines::new().with_names([name]).with_colors([colour]).with_widths([1.8]),

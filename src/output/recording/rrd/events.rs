@@ -1,21 +1,20 @@
-//! What happened, as a text log on `sim_time`.
+//! The text log on `sim_time`.
 
 use rerun::{RecordingStream, TextLog, TextLogLevel};
 
-use super::{Logged, Run, sim_times};
-use crate::output::recording::events::{self, Level};
+use super::{Logged, sim_times};
+use crate::output::scene::events::{Event, Level};
 
-/// Logs every line at its time.
-pub fn log(stream: &RecordingStream, run: &Run<'_>) -> Logged {
-    let lines = events::lines(run);
-    if lines.is_empty() {
+/// Logs every event at its time.
+pub fn log(stream: &RecordingStream, events: &[Event]) -> Logged {
+    if events.is_empty() {
         return Ok(());
     }
     let log = TextLog::update_fields()
-        .with_many_text(lines.iter().map(|line| line.text.as_str()))
-        .with_many_level(lines.iter().map(|line| level(line.level)));
-    stream.send_columns("events", [sim_times(lines.iter().map(|line| line.t_s))], log.columns_of_unit_batches()?)?;
-    Ok(())
+        .with_many_text(events.iter().map(|event| event.text.as_str()))
+        .with_many_level(events.iter().map(|event| level(event.level)));
+    let times = sim_times(events.iter().map(|event| event.t_s));
+    Ok(stream.send_columns("events", [times], log.columns_of_unit_batches()?)?)
 }
 
 fn level(level: Level) -> &'static str {

@@ -1,4 +1,4 @@
-//! What the viewer opens with: the world at the left with the events below it, verdict and plots at the right.
+//! The layout that the viewer opens with: the world with the events below it at the left, verdict and plots at the right.
 
 use rerun::RecordingStream;
 use rerun::external::re_sdk_types::blueprint::archetypes::{
@@ -6,47 +6,33 @@ use rerun::external::re_sdk_types::blueprint::archetypes::{
 };
 use rerun::external::re_sdk_types::blueprint::components::{BackgroundKind, Corner2D, TextLogColumn, TimelineColumn};
 use rerun::external::re_sdk_types::blueprint::datatypes::{self, TextLogColumnKind};
-use scenarios::{Family, Map, Scenario};
-use sim::Flight;
+use scenarios::{Map, Scenario};
 
 use super::blueprint::{Blueprint, Part, ViewClass};
-use super::decimation::Curve;
-use super::distances::Distances;
-use super::multirotor;
-use super::quantity::Quantity;
-use super::series::end_s;
-use super::{Logged, Run, SIM_TIME, convergence, palette, slung_load, to_f32};
+use super::shapes::color;
+use super::{Logged, SIM_TIME, convergence, to_f32};
+use crate::output::run::Run;
+use crate::output::scene::{Paint, PlotView, Scene, colours};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;
 
-/// A fleet larger than this would fill a plot with its legend.
-const MOST_LEGEND_ENTRIES: usize = 10;
-
-/// Room for the legend at the right of a plot, as a share of the flight's duration.
-const ROOM_FOR_LEGEND: f64 = 0.25;
-/// Clearance up to which multirotors are shown, m: farther away from everything nothing happens.
-const NEAR_M: f64 = 2.5;
+/// Space for the legend at the right of a plot, as a fraction of the flight's duration.
+const LEGEND_SPACE: f64 = 0.25;
 /// Time in which a whole flight is played, s.
 const PLAYBACK_S: f64 = 20.0;
+/// Height of the verdict relative to that of a plot below it.
+const DOCUMENT_HEIGHT: f32 = 2.2;
 
-/// Sends the layout; only views that have something to show are part of it.
-pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> Logged {
+/// Sends the layout. Views that would be empty are left out.
+pub fn send(stream: &RecordingStream, run: &Run<'_>, scene: &Scene<'_>) -> Logged {
     let layout = Blueprint::new()?;
     let left = layout.rows("", &[(world(&layout, run.scenario)?, 3.4), (events(&layout)?, 1.0)])?;
-    let mut tabs = vec![verdict(&layout, run, distances)?];
+    let mut tabs = vec![verdict(&layout, scene)?];
     if !run.waterfall.is_empty() {
         tabs.push(layout.view(ViewClass::Spatial2D, "Margins", "/margins", &["$origin/**".to_owned()])?);
     }
-    if let Some(flight) = run.flight {
-        use Quantity::{Airspeed, Altitude, Nx, Ny, Nz};
-        match run.scenario.family() {
-            Family::FixedWing => {
-                tabs.push(quantities(&layout, run.scenario, flight, "Load factors", &[Nx, Ny, Nz])?);
-                tabs.push(quantities(&layout, run.scenario, flight, "Speed and altitude", &[Airspeed, Altitude])?);
-            }
-            Family::SlungLoad => tabs.push(slung_load::forces(&layout, flight)?),
-            Family::Multirotor => tabs.extend(multirotor::tabs(&layout, flight)?),
-        }
+    for tab in &scene.tabs {
+        tabs.push(layout.rows(tab.name, &plots(&layout, &tab.plots, scene.end_s)?)?);
     }
     if !run.plan.history.is_empty() {
         let content = ["/convergence".to_owned()];
@@ -55,15 +41,14 @@ pub fn send(stream: &RecordingStream, run: &Run<'_>, distances: &Distances) -> L
     }
     let right = layout.tabs("", &tabs)?;
     let root = layout.columns("", &[(left, 1.45), (right, 1.0)])?;
-    let playback_speed = run.flight.map_or(1.0, |flight| (end_s(flight) / PLAYBACK_S).max(1.0));
-    layout.send(&root, playback_speed, stream)
+    layout.send(&root, (scene.end_s / PLAYBACK_S).max(1.0), stream)
 }
 
 fn world(layout: &Blueprint, scenario: &Scenario) -> Result<Part, Error> {
     let view = layout.view(ViewClass::Spatial3D, "World", "/world", &["$origin/**".to_owned()])?;
     layout.property(&view, "EyeControls3D", &camera(&scenario.world.map))?;
-    layout.property(&view, "LineGrid3D", &LineGrid3D::new().with_visible(false))?; // the map has a grid of its own
-    let background = Background::new(BackgroundKind::SolidColor).with_color(palette::opaque(palette::SKY));
+    layout.property(&view, "LineGrid3D", &LineGrid3D::new().with_visible(false))?; // the map has its own grid
+    let background = Background::new(BackgroundKind::SolidColor).with_color(color(Paint::opaque(colours::SKY)));
     layout.property(&view, "Background", &background)?;
     Ok(view)
 }
@@ -72,7 +57,7 @@ fn world(layout: &Blueprint, scenario: &Scenario) -> Result<Part, Error> {
 fn camera(map: &Map) -> EyeControls3D {
     let [x, y, z] = map.axes();
     let centre = [x, y, z].map(|axis| f64::midpoint(axis.min, axis.max));
-    // Far enough for the width at the near edge, and for the depth as it is foreshortened (vertical field of view 55 deg).
+    // Far enough for the width at the near edge and for the foreshortened depth (vertical field of view 55 deg).
     let distance_m = (0.69 * x.width() + 0.32 * y.width()).max(1.11 * y.width()).max(z.width());
     let towards_eye = [-0.10, -0.64, 0.76];
     let target = [centre[0], centre[1] - 0.07 * y.width(), centre[2]];
@@ -93,90 +78,32 @@ fn events(layout: &Blueprint) -> Result<Part, Error> {
     Ok(view)
 }
 
-/// The document, and below it what a verdict hangs on: separation, clearance, tracking.
-fn verdict(layout: &Blueprint, run: &Run<'_>, distances: &Distances) -> Result<Part, Error> {
+/// The document, and below it the plots that the verdict depends on most.
+fn verdict(layout: &Blueprint, scene: &Scene<'_>) -> Result<Part, Error> {
     let document = layout.view(ViewClass::TextDocument, "Verdict", "/verdict", &["/verdict".to_owned()])?;
-    let mut rows = vec![(document, 2.2)];
-    let slung_load = run.flight.filter(|_| run.scenario.family() == Family::SlungLoad);
-    if let Some(flight) = slung_load {
-        rows.extend(slung_load::verdict_rows(layout, flight)?);
-    } else if let Some(flight) = run.flight {
-        let end_s = end_s(flight);
-        if let (Some(curve), Some(limit_m)) = (&distances.separation, run.scenario.fleet.separation_m) {
-            let view = plot(layout, "separation", "Smallest separation of the fleet, horizontal [m]", end_s, true)?;
-            zoom(layout, &view, curve, 4.0 * limit_m)?;
-            rows.push((view, 1.0));
-        }
-        if let Some(curve) = &distances.clearance {
-            let view = plot(layout, "clearance", "Smallest clearance to an obstacle [m]", end_s, true)?;
-            let radii_m = run.scenario.world.cylinders.iter().map(|cylinder| cylinder.radius_m);
-            let window_m =
-                if run.scenario.family() == Family::Multirotor { NEAR_M } else { radii_m.fold(0.0, f64::max) };
-            zoom(layout, &view, curve, window_m)?;
-            rows.push((view, 1.0));
-        }
-        // Too low for a legend of the fleet; the colours are those of the world.
-        let legend = run.scenario.vehicles.len() <= 3;
-        rows.push((quantity(layout, run.scenario, flight, Quantity::Tracking, legend)?, 1.0));
-    }
+    let mut rows = vec![(document, DOCUMENT_HEIGHT)];
+    rows.extend(plots(layout, &scene.verdict_plots, scene.end_s)?);
     layout.rows("Verdict", &rows)
 }
 
-/// Shows what matters of a distance: not all across the map, but from 0 (or the lowest value, if negative) to
-/// `window`, or further if the lowest value is beyond.
-fn zoom(layout: &Blueprint, view: &Part, curve: &Curve, window: f64) -> Logged {
-    let (Some(lowest), Some(highest)) = (curve.min(), curve.max()) else { return Ok(()) };
-    let top = highest.min(window.max(1.5 * lowest));
-    values(layout, view, lowest.min(0.0), top)
-}
-
-/// Shows the values from `lowest` to `highest` with some air around them.
-fn values(layout: &Blueprint, view: &Part, lowest: f64, highest: f64) -> Logged {
-    let air = 0.08 * (highest - lowest);
-    // The comparison is false for NaN too: then the viewer chooses.
-    if air > 0.0 && air.is_finite() { layout.values(view, lowest - air, highest + air) } else { Ok(()) }
-}
-
-fn quantities(
-    layout: &Blueprint,
-    scenario: &Scenario,
-    flight: &Flight,
-    name: &str,
-    members: &[Quantity],
-) -> Result<Part, Error> {
-    let legend = scenario.vehicles.len() <= MOST_LEGEND_ENTRIES;
-    let views = members.iter().map(|member| Ok((quantity(layout, scenario, flight, *member, legend)?, 1.0)));
-    layout.rows(name, &views.collect::<Result<Vec<_>, Error>>()?)
-}
-
-/// A quantity of all vehicles with its limits, both in full view.
-fn quantity(
-    layout: &Blueprint,
-    scenario: &Scenario,
-    flight: &Flight,
-    quantity: Quantity,
-    legend: bool,
-) -> Result<Part, Error> {
-    let view = plot(layout, quantity.group(), quantity.title(), end_s(flight), legend)?;
-    let limits = quantity.limits(scenario).into_iter().map(|(_, value)| value);
-    let shown: Curve = limits.chain(quantity.extremes(flight)).map(|value| (0.0, value)).collect();
-    if let (Some(lowest), Some(highest)) = (shown.min(), shown.max()) {
-        values(layout, &view, lowest, highest)?;
-    }
-    Ok(view)
+fn plots(layout: &Blueprint, plots: &[PlotView], end_s: f64) -> Result<Vec<(Part, f32)>, Error> {
+    plots.iter().map(|view| Ok((plot(layout, view, end_s)?, view.height))).collect()
 }
 
 /// A group of series with its limits, over the whole flight.
-fn plot(layout: &Blueprint, group: &str, title: &str, end_s: f64, legend: bool) -> Result<Part, Error> {
-    let contents = [format!("/plots/{group}/**"), format!("/limits/{group}/**")];
-    let view = layout.view(ViewClass::TimeSeries, title, "/", &contents)?;
-    let legend = PlotLegend::new().with_visible(legend).with_corner(Corner2D::RightTop);
-    layout.property(&view, "PlotLegend", &legend)?;
-    layout.times(&view, 0.0, (1.0 + ROOM_FOR_LEGEND) * end_s)?;
-    Ok(view)
+fn plot(layout: &Blueprint, view: &PlotView, end_s: f64) -> Result<Part, Error> {
+    let contents = [format!("/plots/{}/**", view.group), format!("/limits/{}/**", view.group)];
+    let part = layout.view(ViewClass::TimeSeries, &view.title, "/", &contents)?;
+    let legend = PlotLegend::new().with_visible(view.has_legend).with_corner(Corner2D::RightTop);
+    layout.property(&part, "PlotLegend", &legend)?;
+    layout.times(&part, 0.0, (1.0 + LEGEND_SPACE) * end_s)?;
+    if let Some([min, max]) = view.range {
+        layout.values(&part, min, max)?;
+    }
+    Ok(part)
 }
 
-/// Behind everything else: empty until the viewer is switched to the planner's own timeline.
+/// The last tab: empty until the viewer is switched to the planner's own timeline.
 fn planner_curves(layout: &Blueprint) -> Result<Part, Error> {
     let mut rows = Vec::new();
     for (group, title) in convergence::GROUPS {

@@ -4,9 +4,11 @@
 
 use rerun::{Boxes2D, EntityPath, LineStrips2D, Points2D, RecordingStream};
 
-use super::{Logged, entity, palette, to_f32};
+use super::shapes::color;
+use super::{Logged, entity, to_f32};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::number_format::{quantity, signed};
+use crate::output::scene::{Paint, colours};
 
 /// Height of a bar; rows are 1 apart.
 const BAR: f64 = 0.7;
@@ -55,15 +57,15 @@ impl Picture {
                 let (from, to) = (before * scale, step.margin * scale);
                 before = step.margin;
                 let (label, colour) = match index {
-                    0 => (format!("{}: {}", step.name, quantity(step.margin, unit)), palette::FLEET),
-                    _ if step.change < 0.0 => (format!("{} {}", step.name, signed(step.change, unit)), palette::LIMIT),
-                    _ => (format!("{} {}", step.name, signed(step.change, unit)), palette::KEPT),
+                    0 => (format!("{}: {}", step.name, quantity(step.margin, unit)), colours::FLEET),
+                    _ if step.change < 0.0 => (format!("{} {}", step.name, signed(step.change, unit)), colours::LIMIT),
+                    _ => (format!("{} {}", step.name, signed(step.change, unit)), colours::KEPT),
                 };
                 Bar { label, from, to, colour }
             })
             .collect();
         let left = format!("left: {}", quantity(before, unit));
-        bars.push(Bar { label: left, from: 0.0, to: before * scale, colour: palette::FLEET });
+        bars.push(Bar { label: left, from: 0.0, to: before * scale, colour: colours::FLEET });
         Self { title: format!("margin of {question} [{unit}]"), top, bars }
     }
 
@@ -72,7 +74,7 @@ impl Picture {
         let bars = self.bars.iter().enumerate();
         let centers = bars.clone().map(|(index, bar)| to_f32([f64::midpoint(bar.from, bar.to), row(index)]));
         let halves = bars.clone().map(|(_, bar)| to_f32([((bar.to - bar.from).abs() / 2.0).max(HAIRLINE), BAR / 2.0]));
-        let colours = bars.clone().map(|(_, bar)| palette::opaque(bar.colour));
+        let colours = bars.clone().map(|(_, bar)| color(Paint::opaque(bar.colour)));
         let shapes = Boxes2D::from_centers_and_half_sizes(centers, halves).with_colors(colours).with_radii([0.04]);
         stream.log_static(part(question, "bars"), &shapes)?;
         let places =
@@ -82,10 +84,10 @@ impl Picture {
             .with_labels(words)
             .with_show_labels(true)
             .with_radii([0.01])
-            .with_colors([palette::opaque(palette::MAP)]);
+            .with_colors([color(Paint::opaque(colours::MAP))]);
         stream.log_static(part(question, "names"), &names)?;
         let limit = [to_f32([0.0, self.top + 0.4]), to_f32([0.0, row(self.bars.len()) - 0.4])];
-        let line = LineStrips2D::new([limit]).with_colors([palette::opaque(palette::MAP)]);
+        let line = LineStrips2D::new([limit]).with_colors([color(Paint::opaque(colours::MAP))]);
         stream.log_static(part(question, "limit"), &line)?;
         Ok(())
     }

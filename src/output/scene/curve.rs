@@ -1,6 +1,6 @@
-//! Fewer points for the viewer, without losing an extreme.
+//! A quantity over time, and its decimation for plots.
 
-/// A quantity over time: finite times in s and finite values, as many of one as of the other.
+/// A quantity over time: finite times, s, and as many finite values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     /// Times, s.
@@ -10,7 +10,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Appends a point unless its time or value is NaN or infinite: a viewer shows the gap.
+    /// Appends a point, unless its time or value is NaN or infinite: that leaves a gap.
     pub fn push(&mut self, t_s: f64, value: f64) {
         if t_s.is_finite() && value.is_finite() {
             self.times_s.push(t_s);
@@ -28,8 +28,14 @@ impl Curve {
         self.values.iter().copied().reduce(f64::max)
     }
 
-    /// At most `points` points (at least 4): the smallest and the largest of every run of equally many neighbours, in
-    /// the order of time, and the two ends.
+    /// Value of the last point at or before `t_s`.
+    pub fn held_at(&self, t_s: f64) -> Option<f64> {
+        let after = self.times_s.partition_point(|time_s| *time_s <= t_s);
+        after.checked_sub(1).map(|last| self.values[last])
+    }
+
+    /// Min-max decimation to at most `points` points (at least 4): the smallest and the largest value of each of equally
+    /// long runs of neighbours, and the two end points. Extremes are never lost.
     pub fn decimated(self, points: usize) -> Self {
         let n = self.values.len();
         if n <= points {
@@ -66,7 +72,7 @@ mod tests {
     use super::Curve;
 
     #[test]
-    fn one_spike_among_many_points_survives() {
+    fn a_spike_of_one_point_survives() {
         let value = |i: usize| if i == 7_777 { -3.0 } else { (i as f64 * 1e-3).sin() };
         let curve: Curve = (0..20_000).map(|i| (i as f64 * 0.01, value(i))).collect();
         let decimated = curve.clone().decimated(200);
@@ -78,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_becomes_a_gap() {
+    fn values_that_are_not_finite_leave_gaps() {
         let curve: Curve =
             [(0.0, 1.0), (1.0, f64::NAN), (f64::NAN, 2.0), (3.0, f64::INFINITY), (4.0, 5.0)].into_iter().collect();
         assert_eq!(curve, Curve { times_s: vec![0.0, 4.0], values: vec![1.0, 5.0] });

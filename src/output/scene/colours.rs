@@ -1,10 +1,10 @@
-//! Colours. Red belongs to what must not be touched (obstacles, limits, violations); no vehicle is ever red.
+//! Colours. Red is reserved for obstacles, limits and violations; no vehicle is red.
 
 /// Obstacles.
 pub const OBSTACLE: [u8; 3] = [205, 75, 65];
-/// Lines that a series is held against.
+/// Limits in plots.
 pub const LIMIT: [u8; 3] = [225, 70, 60];
-/// Series that belong to the whole fleet.
+/// Series of the whole fleet.
 pub const FLEET: [u8; 3] = [95, 165, 245];
 /// Map outline and its labels.
 pub const MAP: [u8; 3] = [120, 128, 140];
@@ -12,25 +12,35 @@ pub const MAP: [u8; 3] = [120, 128, 140];
 pub const GRID: [u8; 3] = [58, 64, 74];
 /// Background of the world.
 pub const SKY: [u8; 3] = [16, 18, 24];
-/// A limit that was kept.
+/// A limit that was kept; gates.
 pub const KEPT: [u8; 3] = [80, 200, 120];
+/// Obstacles that no vehicle knows of yet.
+pub const UNKNOWN: [u8; 3] = [120, 100, 190];
+/// Obstacles that move.
+pub const MOVING: [u8; 3] = [235, 140, 60];
+/// A slung load.
+pub const LOAD: [u8; 3] = [245, 190, 70];
+/// A slack cable.
+pub const SLACK: [u8; 3] = [150, 155, 165];
+/// The edges of a planner's cost map.
+pub const COST_MAP: [u8; 3] = [62, 84, 104];
 
-/// Share of a vehicle's colour that its planned path keeps.
-const PLANNED_BRIGHTNESS: f64 = 0.5;
-/// Hues that are left to the vehicles, deg: red, around 0, is taken.
+/// Brightness of a dimmed colour relative to the full one.
+const DIMMED_BRIGHTNESS: f64 = 0.5;
+/// Range of the vehicles' hues, deg: without red, around 0.
 const FIRST_HUE_DEG: f64 = 28.0;
 const LAST_HUE_DEG: f64 = 325.0;
 
-/// Colour of vehicle `index` of `count`: hues at equal distances, and two brightnesses in turn to keep neighbours apart.
+/// Colour of vehicle `index` of `count`: equally spaced hues, with alternating brightness so that neighbours differ.
 pub fn vehicle(index: usize, count: usize) -> [u8; 3] {
     let hue_deg = FIRST_HUE_DEG + (LAST_HUE_DEG - FIRST_HUE_DEG) * index as f64 / count.max(2).saturating_sub(1) as f64;
     let lightness = if index.is_multiple_of(2) { 0.62 } else { 0.52 };
     rgb_from_hsl(hue_deg, 0.85, lightness)
 }
 
-/// The dim variant of a vehicle's colour, for its planned path.
+/// The dimmed variant of a colour: planned paths, starts.
 pub fn dimmed(colour: [u8; 3]) -> [u8; 3] {
-    colour.map(|channel| (f64::from(channel) * PLANNED_BRIGHTNESS) as u8)
+    colour.map(|channel| (f64::from(channel) * DIMMED_BRIGHTNESS) as u8)
 }
 
 /// Hue in deg, saturation and lightness in [0, 1]. Channel n of (0, 8, 4) is L - a max(-1, min(k - 3, 9 - k, 1)) with
@@ -48,14 +58,14 @@ mod tests {
     use super::{rgb_from_hsl, vehicle};
 
     #[test]
-    fn primaries_come_out_as_such() {
+    fn primary_hues_give_primary_colours() {
         assert_eq!(rgb_from_hsl(0.0, 1.0, 0.5), [255, 0, 0]);
         assert_eq!(rgb_from_hsl(120.0, 1.0, 0.5), [0, 255, 0]);
         assert_eq!(rgb_from_hsl(240.0, 1.0, 0.5), [0, 0, 255]);
     }
 
     #[test]
-    fn no_vehicle_is_red_and_no_two_of_seven_look_alike() {
+    fn no_vehicle_is_red_and_seven_vehicles_are_distinct() {
         for count in [1, 2, 7, 100] {
             for [r, g, b] in (0..count).map(|index| vehicle(index, count)) {
                 assert!(g.abs_diff(b) > 40 || r < g.max(b), "({r}, {g}, {b}) of {count} is red");

@@ -1,9 +1,11 @@
-//! The quantities that are plotted per vehicle, and what each is held against.
+//! The quantities that are plotted for each aircraft, with their limits.
 
 use rayon::prelude::*;
 use scenarios::Scenario;
 use scenarios::fixed_wing::Limits;
 use sim::{Flight, Sample, VehicleLog};
+
+use super::super::{PlotView, distance_m, norm};
 
 /// A plotted quantity of one vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +20,7 @@ pub enum Quantity {
     Nz,
     /// Speed relative to the air.
     Airspeed,
-    /// Height above the map's zero.
+    /// Altitude.
     Altitude,
 }
 
@@ -26,7 +28,7 @@ impl Quantity {
     /// All of them.
     pub const ALL: [Self; 6] = [Self::Tracking, Self::Nx, Self::Ny, Self::Nz, Self::Airspeed, Self::Altitude];
 
-    /// Its group of entities.
+    /// The plot that it belongs to.
     pub fn group(self) -> &'static str {
         match self {
             Self::Tracking => "tracking",
@@ -38,7 +40,19 @@ impl Quantity {
         }
     }
 
-    /// Title of its view.
+    /// Its name with its unit.
+    pub fn field(self) -> &'static str {
+        match self {
+            Self::Tracking => "tracking_error_m",
+            Self::Nx => "n_x",
+            Self::Ny => "n_y",
+            Self::Nz => "n_z",
+            Self::Airspeed => "airspeed_mps",
+            Self::Altitude => "altitude_m",
+        }
+    }
+
+    /// Title of its plot.
     pub fn title(self) -> &'static str {
         match self {
             Self::Tracking => "Tracking error: distance from the plan [m]",
@@ -62,7 +76,7 @@ impl Quantity {
     /// Its value in a sample, in its unit.
     pub fn of(self, sample: &Sample) -> f64 {
         match self {
-            Self::Tracking => norm(std::array::from_fn(|i| sample.position_m[i] - sample.reference_position_m[i])),
+            Self::Tracking => distance_m(sample.position_m, sample.reference_position_m),
             Self::Nx => sample.load_factors().control.n_x,
             Self::Ny => sample.load_factors().control.n_y,
             Self::Nz => sample.load_factors().control.n_z,
@@ -71,8 +85,15 @@ impl Quantity {
         }
     }
 
-    /// The smallest and the largest value of every vehicle, among those that are numbers.
-    pub fn extremes(self, flight: &Flight) -> Vec<f64> {
+    /// A plot of all vehicles and limits.
+    pub fn plot(self, scenario: &Scenario, flight: &Flight, has_legend: bool) -> PlotView {
+        let limits = self.limits(scenario).into_iter().map(|(_, value)| value);
+        let plot = PlotView { has_legend, ..PlotView::new(self.group(), self.title(), 1.0) };
+        plot.spanning(limits.chain(self.extremes(flight)))
+    }
+
+    /// Smallest and largest finite value of every vehicle.
+    fn extremes(self, flight: &Flight) -> Vec<f64> {
         let of_vehicle = |log: &VehicleLog| {
             let values = || log.samples.iter().map(|sample| self.of(sample)).filter(|value| value.is_finite());
             [values().reduce(f64::min), values().reduce(f64::max)]
@@ -80,7 +101,7 @@ impl Quantity {
         flight.vehicles.par_iter().flat_map_iter(of_vehicle).flatten_iter().collect()
     }
 
-    /// What it is held against, with a name: the scenario's limit, or the bounds of every model that flies.
+    /// Its limits with their names: the scenario's tracking limit, or the physical limits of every model in the fleet.
     pub fn limits(self, scenario: &Scenario) -> Vec<(String, f64)> {
         if self == Self::Tracking {
             return vec![("limit".to_owned(), scenario.limits().tracking_max_m)];
@@ -110,8 +131,4 @@ impl Quantity {
             Self::Altitude => limits.altitude_m,
         }
     }
-}
-
-fn norm(vector: [f64; 3]) -> f64 {
-    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,8 +1,6 @@
-//! The aircraft as a mesh: fuselage, wings, tailplane, fin. Body frame x forward, y left, z up; wing span 1.
+//! The mesh of an aircraft: fuselage, wings, tailplane, fin. Body frame x forward, y left, z up; wing span 1.
 
-use rerun::Mesh3D;
-
-use super::palette;
+use super::super::{Paint, Triangles};
 
 type Point = [f64; 3];
 
@@ -17,15 +15,14 @@ const TAILPLANE: [Point; 4] = [[-0.3, 0.0, 0.04], [-0.44, 0.19, 0.05], [-0.52, 0
 const FIN: [Point; 4] = [[-0.26, 0.0, 0.05], [-0.46, 0.0, 0.24], [-0.54, 0.0, 0.24], [-0.5, 0.0, 0.04]];
 
 /// The mesh with wing span `span_m`, in one colour.
-pub fn mesh(span_m: f64, colour: [u8; 3]) -> Mesh3D {
-    let triangles = triangles();
-    let corners = triangles.iter().flatten().map(|corner| super::to_f32(corner.map(|x| x * span_m)));
-    let normals = triangles.iter().flat_map(|triangle| [super::to_f32(normal(triangle)); 3]);
-    let indices = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
-    Mesh3D::new(corners)
-        .with_vertex_normals(normals)
-        .with_triangle_indices(indices)
-        .with_albedo_factor(palette::opaque(colour).0)
+pub(super) fn mesh(span_m: f64, colour: [u8; 3]) -> Triangles {
+    let unit_triangles = triangles();
+    let scaled = |triangle: &[Point; 3]| triangle.map(|corner| corner.map(|x| x * span_m));
+    Triangles {
+        triangles: unit_triangles.iter().map(scaled).collect(),
+        normals: unit_triangles.iter().map(normal).collect(),
+        paint: Paint::opaque(colour),
+    }
 }
 
 fn triangles() -> Vec<[Point; 3]> {
@@ -39,7 +36,7 @@ fn mirrored([x, y, z]: Point) -> Point {
     [x, -y, z]
 }
 
-/// Unit normal of a triangle; flat surfaces are lit from above, whichever way round their corners are listed.
+/// Unit normal of a triangle, pointing upwards, so that flat surfaces are lit from above whatever the order of their corners.
 fn normal([a, b, c]: &[Point; 3]) -> Point {
     let u: Point = std::array::from_fn(|i| b[i] - a[i]);
     let v: Point = std::array::from_fn(|i| c[i] - a[i]);
@@ -54,7 +51,7 @@ mod tests {
     use super::{normal, triangles};
 
     #[test]
-    fn the_mesh_is_symmetric_with_span_one_and_sound_triangles() {
+    fn the_mesh_is_symmetric_with_span_one_and_no_degenerate_triangle() {
         let triangles = triangles();
         let y = || triangles.iter().flatten().map(|corner| corner[1]);
         assert_eq!(y().fold(f64::MAX, f64::min), -0.5);

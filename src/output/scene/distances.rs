@@ -1,0 +1,80 @@
+//! Smallest distances of the fleet over time, of the flight as the judge sees it.
+
+use scenarios::Scenario;
+
+use super::{Curve, Scene, Series, colours};
+use crate::metrics::{DistanceSample, separation_over_time};
+use crate::output::run::Run;
+use crate::verdict::{FlownMotions, Motion, is_flyable};
+
+/// Time between two points, s.
+const STEP_S: f64 = 0.02;
+/// Largest number of points of a curve.
+const MAX_POINTS: usize = 4000;
+
+/// Adds separation and clearance of the fleet with their limits, and returns them.
+///
+/// - `clearance_over_time`: smallest clearance of any of the motions, at steps of the given length, s
+pub(super) fn add(
+    scene: &mut Scene<'_>,
+    run: &Run<'_>,
+    clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
+) -> Distances {
+    let distances = Distances::new(run, clearance_over_time);
+    let end_s = scene.end_s;
+    let fleet = |group, title: &str, curve: &Curve| Series {
+        title: title.to_owned(),
+        width: 1.8,
+        ..Series::new(group, "fleet", colours::FLEET, curve.clone().decimated(MAX_POINTS))
+    };
+    if let (Some(curve), Some(limit_m)) = (&distances.separation, run.scenario.fleet.separation_m) {
+        scene.series.push(fleet("separation", "smallest separation", curve));
+        scene.series.push(Series::limit("separation", "limit R =", limit_m, "m", end_s));
+    }
+    if let Some(curve) = &distances.clearance {
+        scene.series.push(fleet("clearance", "smallest clearance", curve));
+        scene.series.push(Series::limit("clearance", "surface,", 0.0, "m", end_s));
+    }
+    distances
+}
+
+/// Smallest separation and clearance of the fleet over time, m. `None`: not limited, or not defined for this flight.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Distances {
+    /// Horizontal distance between the two vehicles that are closest.
+    pub separation: Option<Curve>,
+    /// Distance from an obstacle's surface to the vehicle that is closest; negative inside.
+    pub clearance: Option<Curve>,
+}
+
+impl Distances {
+    fn new(run: &Run<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
+        let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
+        let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
+            return Self::default();
+        };
+        let separation = match run.scenario.fleet.separation_m {
+            Some(_) => separation_over_time(&flown.motions, STEP_S),
+            None => Vec::new(),
+        };
+        let clearance = clearance_over_time(run.scenario, &flown.motions, STEP_S);
+        Self {
+            separation: with_worst(run, "flight.separation", &separation),
+            clearance: with_worst(run, "flight.clearance", &clearance),
+        }
+    }
+}
+
+/// The curve through `series` and through the worst instant of the check, which lies between two points of the series: the
+/// plot must not look better than the verdict.
+fn with_worst(run: &Run<'_>, check: &str, series: &[DistanceSample]) -> Option<Curve> {
+    let check = run.verdict.checks.iter().find(|candidate| candidate.name == check);
+    let worst = check.and_then(|check| Some((check.at_s?, check.value?)));
+    let mut points: Vec<(f64, f64)> = series.iter().map(|nearest| (nearest.t_s, nearest.distance_m)).collect();
+    if points.is_empty() {
+        return None;
+    }
+    points.extend(worst);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(points.into_iter().collect())
+}
