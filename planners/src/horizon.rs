@@ -1,37 +1,37 @@
-//! Planning in the loop by receding horizons: at every instant, a finite-horizon optimal control problem for a point mass
+//! Receding-horizon planning in the loop: at every instant a finite-horizon optimal control problem for a point mass
 //! (eq. 7 to 10, 18 to 21 of the paper on RHC-FPSO), solved by sampling.
 //!
-//! - `question`: the problem at one instant; `flight` flies four particles at once, `evaluate` charges them;
-//! - `roadmap`, `visibility`, `voronoi`, `cost_map`: what is left from the horizon's end to the goal, by the whole map;
-//! - `sampler`: ways to look for the best controls; `optimise` is their loop;
-//! - `pilot`: from instant to instant: warm start, acceptance, fallback.
+//! - [`problem`]: the optimal control problem at one instant;
+//! - `batch_rollout` simulates four particles at once, [`evaluate`] computes their fitness;
+//! - [`sampler`]: particle swarm, cross-entropy, path integral, CMA-ES; [`optimiser`] is their common loop;
+//! - [`controller`]: successive replans: warm start, acceptance, fallback;
+//! - `settings` and `obstacle_prediction` translate scenarios and observations.
 //!
-//! The paper: receding-horizon control of a multirotor with a feasibility-driven particle swarm (its equation numbers are
-//! quoted throughout). What is ours beyond it: distances that hold between the samples, warm starts, projection, the stop
-//! at the end of every horizon, and the samplers other than the swarm.
+//! The paper: receding-horizon control of a multirotor with a feasibility-driven particle swarm. Equation numbers in this
+//! module and in [`roadmap`](crate::roadmap) are the paper's. Additions to it: clearances that hold between the samples,
+//! warm starts, projection of the controls, a stop in free space at the end of every horizon, and the samplers other than
+//! the swarm.
 
 #[expect(
     clippy::needless_range_loop,
     reason = "coordinates are read by index; closures would lose the vector instructions"
 )]
-mod flight;
+mod batch_rollout;
 
-pub(crate) mod brief;
-pub mod cost_map;
-pub mod draw;
+pub mod controller;
+pub mod counter_rng;
 pub mod evaluate;
-pub mod group;
-pub mod motion;
-pub mod optimise;
-mod others;
-pub mod outlook;
-pub mod pilot;
+mod obstacle_prediction;
+pub mod optimiser;
+pub mod particle_batch;
 mod planner;
-pub mod question;
-pub(crate) mod reference;
-pub mod roadmap;
+pub mod problem;
 pub mod sampler;
-mod visibility;
-mod voronoi;
+mod settings;
 
-pub use planner::{RHC, RHC_APF, RHC_FPSO, RHC_PSO};
+pub use planner::RHC;
+
+use crate::planner::Planner;
+
+/// The planners of this family.
+pub(crate) const PLANNERS: &[Planner] = &[RHC, planner::RHC_PSO, planner::RHC_FPSO, planner::RHC_APF];

@@ -1,4 +1,7 @@
-//! The trajectory planners, and the solvers they stand on. Planners never see the simulator or its models.
+//! The trajectory planners and their solvers. Planners never see the simulator or its models.
+//!
+//! [`registry`] lists the planners. Every family of planners is a module with a list `PLANNERS`, so a planner is added in
+//! two places: a file of its own, and its family's list. A new family is added to `FAMILIES` below.
 
 #![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
 
@@ -6,13 +9,19 @@ pub mod convex;
 pub mod free_space;
 pub mod horizon;
 mod lanes;
+pub mod multirotor;
 pub mod nlp;
+mod open_list;
 mod planner;
 pub mod pseudospectral;
 mod registry;
+pub mod roadmap;
 pub mod scp;
 pub mod search;
 pub mod slung;
 
-pub use planner::{Planner, Progress};
+pub use planner::{Planner, PlanningMode, Progress};
 pub use registry::{find, registry};
+
+/// The families of planners, in the order in which they are listed.
+const FAMILIES: [&[Planner]; 4] = [scp::PLANNERS, slung::PLANNERS, horizon::PLANNERS, search::PLANNERS];

@@ -1,59 +1,103 @@
 use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Iteration, Plan, Scenario};
 
-/// Receives every iteration as it ends.
+/// Callback that receives each iteration of a planner as it ends.
 pub type Progress<'a> = &'a mut dyn FnMut(&Iteration);
 
-/// A planner: from a scenario and a seed to a plan, or to somebody who plans while the vehicle flies.
+/// A planner, before the flight or in the loop.
+///
+/// # Examples
+///
+/// Planning with a registered planner:
+///
+/// ```
+/// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/multirotor");
+/// let scenario = scenarios::load(format!("{folder}/paper-map.toml").as_ref()).unwrap();
+/// let rrt = planners::find("rrt").unwrap();
+/// assert_eq!((rrt.refuses)(&scenario), None);
+/// let plan = rrt.plan(&scenario.planner_view(), 1, &mut |_| {});
+/// assert_eq!(plan.status, scenarios::PlanStatus::Solved);
+/// ```
+///
+/// Defining one. To register it, add it to the list `PLANNERS` of its family:
+///
+/// ```
+/// use planners::{Planner, PlanningMode};
+/// use scenarios::{Plan, Scenario};
+///
+/// const GIVES_UP: Planner = Planner {
+///     name: "gives-up",
+///     summary: "finds no plan",
+///     handles: "everything",
+///     refuses: |_: &Scenario| None,
+///     mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
+///         Plan::no_plan(&scenario.name, "gives-up", seed, "it did not try")
+///     }),
+/// };
+/// assert!(!GIVES_UP.plans_in_the_loop());
+/// ```
+#[derive(Clone, Copy)]
 pub struct Planner {
     /// Name, as in `[planner] name` and `--planner`.
     pub name: &'static str,
-    /// What it is, in a sentence.
+    /// The method, in one sentence.
     pub summary: &'static str,
-    /// What it claims to handle, in a few words.
+    /// The problems that it claims to handle, in a few words.
     pub handles: &'static str,
-    /// Why it cannot handle a scenario, if it cannot.
+    /// Why it cannot handle a scenario; `None` if it can.
     pub refuses: fn(&Scenario) -> Option<String>,
-    pub(crate) answers: Answers,
+    /// When it plans, and the function that does.
+    pub mode: PlanningMode,
 }
 
-/// When a planner answers.
-pub(crate) enum Answers {
-    /// Before the flight, for all vehicles at once.
-    Ahead(fn(&Scenario, u64, Progress<'_>) -> Plan),
-    /// During the flight: made for one vehicle, by its index, and a seed.
+/// When a planner plans.
+#[derive(Clone, Copy)]
+pub enum PlanningMode {
+    /// Before the flight, for all vehicles at once: plans a scenario with a seed.
+    BeforeFlight(fn(&Scenario, u64, Progress<'_>) -> Plan),
+    /// During the flight: creates the planner of one vehicle, by its index, with a seed.
     InLoop(fn(&Scenario, usize, u64) -> Box<dyn InLoopPlanner>),
 }
 
 impl Planner {
     /// Does it plan during the flight?
     pub fn plans_in_the_loop(&self) -> bool {
-        matches!(self.answers, Answers::InLoop(_))
+        matches!(self.mode, PlanningMode::InLoop(_))
     }
 
-    /// Plans `scenario`, which must not be one that it [refuses](Self::refuses). The same seed gives the same plan, wall
-    /// times aside, on any number of threads.
+    /// Plans before the flight. The same seed gives the same plan, wall times aside, on any number of threads. That no plan
+    /// was found is not an error, but a status of the plan.
     ///
-    /// - `scenario`: what is known beforehand, see [`Scenario::planner_view`]
+    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; not one that the planner
+    ///   [refuses](Self::refuses)
+    /// - `seed`: seed of all random numbers
+    /// - `progress`: receives each iteration
     ///
-    /// Panics for a planner that plans in the loop.
+    /// # Panics
+    ///
+    /// If the planner plans in the loop.
     pub fn plan(&self, scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
-        match self.answers {
-            Answers::Ahead(plan) => plan(scenario, seed, progress),
-            Answers::InLoop(_) => panic!("{} plans in the loop: there is no plan before the flight", self.name),
+        match self.mode {
+            PlanningMode::BeforeFlight(plan) => plan(scenario, seed, progress),
+            PlanningMode::InLoop(_) => panic!("{} plans in the loop: there is no plan before the flight", self.name),
         }
     }
 
-    /// One who plans in the loop for the vehicle of this index. The same seed and the same observations give the same
-    /// answers on any number of threads.
+    /// Creates the in-loop planner of one vehicle. The same seed and the same observations give the same results on any
+    /// number of threads.
     ///
-    /// - `scenario`: what is known beforehand, see [`Scenario::planner_view`]
+    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; not one that the planner
+    ///   [refuses](Self::refuses)
+    /// - `vehicle`: index of the vehicle
+    /// - `seed`: seed of all random numbers
     ///
-    /// Panics for a planner that plans before the flight.
+    /// # Panics
+    ///
+    /// If the planner plans before the flight, or there is no such vehicle.
     pub fn in_loop(&self, scenario: &Scenario, vehicle: usize, seed: u64) -> Box<dyn InLoopPlanner> {
-        match self.answers {
-            Answers::InLoop(make) => make(scenario, vehicle, seed),
-            Answers::Ahead(_) => panic!("{} plans before the flight, not in the loop", self.name),
+        match self.mode {
+            PlanningMode::InLoop(create) => create(scenario, vehicle, seed),
+            PlanningMode::BeforeFlight(_) => panic!("{} plans before the flight, not in the loop", self.name),
         }
     }
 }

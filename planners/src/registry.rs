@@ -1,26 +1,15 @@
-use crate::planner::Planner;
-use crate::{horizon, scp, search, slung};
+use std::sync::LazyLock;
 
-/// Every planner.
+use crate::FAMILIES;
+use crate::planner::Planner;
+
+/// All planners.
 pub fn registry() -> &'static [Planner] {
-    &[
-        scp::fleet::PLANNER,
-        scp::coupled::PLANNER,
-        scp::serial::PLANNER,
-        scp::parallel::PLANNER,
-        scp::dynamic_priority::PLANNER,
-        slung::PLANNER,
-        horizon::RHC,
-        horizon::RHC_PSO,
-        horizon::RHC_FPSO,
-        horizon::RHC_APF,
-        search::SPARSE_ASTAR,
-        search::RRT,
-        search::RRT_STAR,
-    ]
+    static PLANNERS: LazyLock<Vec<Planner>> = LazyLock::new(|| FAMILIES.concat());
+    &PLANNERS
 }
 
-/// The planner of that name.
+/// The planner of that name; `None` if there is none.
 pub fn find(name: &str) -> Option<&'static Planner> {
     registry().iter().find(|planner| planner.name == name)
 }

@@ -26,6 +26,12 @@ mod trapezoid;
 
 use scenarios::Scenario;
 
+use crate::planner::Planner;
+
+/// The planners of this family.
+pub(crate) const PLANNERS: &[Planner] =
+    &[fleet::PLANNER, coupled::PLANNER, serial::PLANNER, parallel::PLANNER, dynamic_priority::PLANNER];
+
 /// Why these planners cannot handle a scenario, if they cannot.
 pub fn refuses(scenario: &Scenario) -> Option<String> {
     let other = scenario.vehicles.iter().find(|vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model))?;

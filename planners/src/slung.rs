@@ -38,3 +38,8 @@ pub use problem::{CableMode, Gate, InitialCondition, Limits, Phase, Problem, Veh
 pub use problem_builder::{options, problem};
 pub use route::{Route, routes};
 pub use system::SlungLoadSystem;
+
+use crate::planner::Planner;
+
+/// The planners of this family.
+pub(crate) const PLANNERS: &[Planner] = &[PLANNER];

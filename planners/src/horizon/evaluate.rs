@@ -1,27 +1,27 @@
-//! What a particle is worth: four of them fly at once, then those that are feasible are charged.
+//! Evaluation of particles: the rollout of four at once, then the cost of those that are feasible.
 
-use super::cost_map::CostMap;
-use super::flight::fly;
-use super::group::{Fitness, Group};
-use super::question::{Cost, Question, Surroundings};
-use crate::free_space::vector::{Point, distance, dot};
+use super::batch_rollout::roll_out;
+use super::particle_batch::{Fitness, ParticleBatch};
+use super::problem::{Cost, EvaluationContext, HorizonProblem};
+use crate::free_space::Point;
 use crate::lanes::{Vector, WIDTH};
+use crate::roadmap::CostMap;
 
-/// Cost of a particle that sees no way to the goal, m, on top of the distance as the crow flies.
-const BLIND_M: f64 = 1e4;
+/// Cost of a particle without a path to the goal, in addition to the straight distance, m.
+const NO_PATH_PENALTY_M: f64 = 1e4;
 
-/// The machine's instructions for four numbers.
+/// Vector instructions of the processor. Results are equal to the bit on every level.
 #[derive(Clone, Copy, Debug)]
-pub enum Machine {
-    /// AVX2: four numbers in one register.
+pub enum SimdLevel {
+    /// AVX2 and FMA: four numbers in one register.
     #[cfg(target_arch = "x86_64")]
     V3(pulp::x86::V3),
-    /// Whatever the compiler makes of four numbers: slower, with the same result to the last digit.
+    /// No assumption; slower.
     Portable,
 }
 
-impl Machine {
-    /// The best that is there.
+impl SimdLevel {
+    /// The best level that the processor supports.
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
@@ -29,91 +29,102 @@ impl Machine {
         }
         Self::Portable
     }
+}
 
-    /// Flies and charges four particles.
-    pub fn evaluate(self, question: &Question<'_>, surroundings: &Surroundings<'_>, group: &mut Group) {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Self::V3(simd) => fly_with(simd, question, surroundings, group),
-            Self::Portable => fly_with(pulp::Scalar256b, question, surroundings, group),
-        }
-        for lane in 0..WIDTH {
-            let violation = group.violation[lane];
-            let is_costed = violation <= 0.0 || question.rules.costs_infeasible;
-            let cost = if is_costed { cost(question, surroundings, group, lane) } else { f64::INFINITY };
-            group.fitness[lane] = Fitness { violation, cost };
-        }
+/// Computes paths, violations and fitness of four particles from their controls.
+pub fn evaluate(
+    problem: &HorizonProblem<'_>,
+    context: &EvaluationContext<'_>,
+    batch: &mut ParticleBatch,
+    simd_level: SimdLevel,
+) {
+    match simd_level {
+        #[cfg(target_arch = "x86_64")]
+        SimdLevel::V3(simd) => roll_out_with(simd, problem, context, batch),
+        SimdLevel::Portable => roll_out_with(pulp::Scalar256b, problem, context, batch),
+    }
+    for lane in 0..WIDTH {
+        let violation = batch.violation[lane];
+        let is_costed = violation <= 0.0 || problem.options.costs_infeasible;
+        let cost = if is_costed { cost(problem, context, batch, lane) } else { f64::INFINITY };
+        batch.fitness[lane] = Fitness { violation, cost };
     }
 }
 
-fn fly_with<S: Vector>(simd: S, question: &Question<'_>, surroundings: &Surroundings<'_>, group: &mut Group) {
-    simd.vectorize(Fly { simd, question, surroundings, group });
-}
-
-struct Fly<'a, S: Vector> {
+fn roll_out_with<S: Vector>(
     simd: S,
-    question: &'a Question<'a>,
-    surroundings: &'a Surroundings<'a>,
-    group: &'a mut Group,
+    problem: &HorizonProblem<'_>,
+    context: &EvaluationContext<'_>,
+    batch: &mut ParticleBatch,
+) {
+    simd.vectorize(Rollout { simd, problem, context, batch });
 }
 
-impl<S: Vector> pulp::WithSimd for Fly<'_, S> {
+struct Rollout<'a, S: Vector> {
+    simd: S,
+    problem: &'a HorizonProblem<'a>,
+    context: &'a EvaluationContext<'a>,
+    batch: &'a mut ParticleBatch,
+}
+
+impl<S: Vector> pulp::WithSimd for Rollout<'_, S> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<T: pulp::Simd>(self, _: T) {
-        fly(self.simd, self.question, self.surroundings, self.group);
+        roll_out(self.simd, self.problem, self.context, self.batch);
     }
 }
 
 /// Cost of one particle (eq. 10, 16, 17), m.
-fn cost(question: &Question<'_>, surroundings: &Surroundings<'_>, group: &mut Group, lane: usize) -> f64 {
-    let smoothness = question.smoothness * group.roughness[lane];
-    let arrival = if question.charges_speed {
-        let velocity = group.end_velocity.map(|quad| quad[lane]);
-        dot(velocity, velocity) / (2.0 * question.limits.acceleration_mps2)
+fn cost(problem: &HorizonProblem<'_>, context: &EvaluationContext<'_>, batch: &mut ParticleBatch, lane: usize) -> f64 {
+    let smoothness = problem.smoothness_weight * batch.roughness[lane];
+    let final_speed = if problem.costs_final_speed {
+        let velocity = Point::from(batch.final_velocity.map(|component| component[lane]));
+        velocity.norm_squared() / (2.0 * problem.limits.acceleration_mps2)
     } else {
         0.0
     };
     smoothness
-        + arrival
-        + match question.cost {
-            Cost::Map { map, repulsion } => {
-                let repulsion = if repulsion.is_some() { group.repulsion[lane] } else { 0.0 };
-                by_map(question, surroundings, map, group, lane) + repulsion
+        + final_speed
+        + match problem.cost {
+            Cost::CostMap { map, repulsion } => {
+                let repulsion = if repulsion.is_some() { batch.repulsion[lane] } else { 0.0 };
+                map_cost(problem, context, map, batch, lane) + repulsion
             }
-            Cost::Field { attraction, .. } => {
-                let left_m = distance(end(question, group, lane), question.goal);
-                0.5 * attraction * left_m * left_m + group.repulsion[lane]
+            Cost::PotentialField { attraction, .. } => {
+                let to_goal_m = (final_position(problem, batch, lane) - problem.goal).norm();
+                0.5 * attraction * to_goal_m * to_goal_m + batch.repulsion[lane]
             }
         }
 }
 
-/// The way left from the end, and the mean over the horizon of the way left by the same node.
-fn by_map(
-    question: &Question<'_>,
-    surroundings: &Surroundings<'_>,
+/// Cost-to-go of the final position, and the mean over the horizon of the cost-to-go by the same node (eq. 10), m.
+fn map_cost(
+    problem: &HorizonProblem<'_>,
+    context: &EvaluationContext<'_>,
     map: &CostMap,
-    group: &mut Group,
+    batch: &mut ParticleBatch,
     lane: usize,
 ) -> f64 {
-    let end = end(question, group, lane);
-    let left = surroundings.outlook.as_ref().and_then(|outlook| outlook.cost_to_go(end, &mut group.hints));
-    let Some(left) = left else {
-        return BLIND_M + distance(end, question.goal);
+    let end = final_position(problem, batch, lane);
+    let cost_to_go = context.cost_to_go.as_ref().and_then(|query| query.cost_to_go(end, &mut batch.hints));
+    let Some(cost_to_go) = cost_to_go else {
+        return NO_PATH_PENALTY_M + (end - problem.goal).norm();
     };
-    let node = map.roadmap().nodes()[left.node];
-    let from_node_m = map.roadmap().cost_to_go_m()[left.node];
-    let steps = question.grid.steps;
-    let to_node_m: f64 = (1..=steps).map(|sample| distance(group.position(sample, lane), node)).sum();
-    left.length_m + question.stage_weight * (to_node_m / steps as f64 + from_node_m)
+    let node = map.roadmap().nodes()[cost_to_go.node];
+    let from_node_m = map.roadmap().cost_to_go_m()[cost_to_go.node];
+    let steps = problem.grid.steps;
+    let to_node_m: f64 = (1..=steps).map(|sample| (batch.position(sample, lane) - node).norm()).sum();
+    cost_to_go.length_m + problem.stage_weight * (to_node_m / steps as f64 + from_node_m)
 }
 
-/// Where the horizon ends: with the stopping rule, where the vehicle comes to rest.
-fn end(question: &Question<'_>, group: &Group, lane: usize) -> Point {
-    if question.rules.stops_after.is_some() {
-        group.stop.map(|quad| quad[lane])
+/// The position that the terminal cost applies to: where the vehicle comes to rest if a stop is required, else the end of
+/// the horizon.
+fn final_position(problem: &HorizonProblem<'_>, batch: &ParticleBatch, lane: usize) -> Point {
+    if problem.options.stop_after_step.is_some() {
+        batch.stop_position.map(|coordinate| coordinate[lane]).into()
     } else {
-        group.position(question.grid.steps, lane)
+        batch.position(problem.grid.steps, lane)
     }
 }

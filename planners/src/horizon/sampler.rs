@@ -1,31 +1,31 @@
-//! Ways to look for the best controls: each proposes particles and learns from what they are worth.
+//! Samplers: each proposes particles and adapts to their fitness.
 
 mod cma_es;
 mod cross_entropy;
+mod particle_swarm;
 mod path_integral;
-mod swarm;
 
-use super::draw::Draws;
-use super::group::Group;
-use super::question::Grid;
+use super::counter_rng::CounterRng;
+use super::particle_batch::ParticleBatch;
+use super::problem::ControlGrid;
 use crate::lanes::WIDTH;
 
-pub use swarm::{Inertia, Swarm};
+pub use particle_swarm::{Inertia, SwarmSettings};
 
-/// Proposes particles, and learns from what they are worth.
+/// A sampling-based optimiser of the controls.
 pub trait Sampler {
     /// Sets the controls of all particles.
-    fn propose(&mut self, iteration: usize, draws: Draws, groups: &mut [Group]);
-    /// Takes in how good they are, and what projection has made of their controls.
-    fn learn(&mut self, groups: &[Group]);
+    fn propose(&mut self, iteration: usize, rng: CounterRng, batches: &mut [ParticleBatch]);
+    /// Adapts to the fitness of the particles, and to their controls after projection.
+    fn learn(&mut self, batches: &[ParticleBatch]);
 }
 
 /// Which sampler.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Method {
-    /// Particle swarm (eq. 13, 14), with or without the rule for infeasible particles (eq. 15).
-    Swarm(Swarm),
-    /// Cross-entropy method: a normal distribution is fitted to the best (Rubinstein 1999).
+pub enum SamplerKind {
+    /// Particle swarm (eq. 13, 14), with or without the inertia of infeasible particles (eq. 15).
+    ParticleSwarm(SwarmSettings),
+    /// Cross-entropy method: a normal distribution is fitted to the best particles (Rubinstein 1999).
     CrossEntropy,
     /// Model predictive path integral: a mean weighted by the exponential of the cost (Williams et al. 2017).
     PathIntegral,
@@ -33,43 +33,55 @@ pub enum Method {
     CmaEs,
 }
 
-/// What every sampler has to know.
+/// Size of the problem, common to all samplers.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct SamplerDimensions {
     /// The unknowns.
-    pub grid: Grid,
+    pub grid: ControlGrid,
     /// Number of particles, a multiple of four.
     pub particles: usize,
-    /// Iterations that there will be at most.
+    /// Maximum number of iterations.
     pub iterations: usize,
     /// Bound on each control, m/s².
     pub bound_mps2: f64,
 }
 
-impl Frame {
-    /// The place of a random number, for [`Draws`].
+impl SamplerDimensions {
+    /// Counter of a random number for [`CounterRng`].
     #[inline]
-    fn place(&self, iteration: usize, particle: usize, unknown: usize) -> u64 {
+    fn counter(&self, iteration: usize, particle: usize, unknown: usize) -> u64 {
         ((iteration * self.particles + particle) * self.grid.unknowns() + unknown) as u64
     }
-}
 
-impl Method {
-    /// A sampler that begins around `guess`, or anywhere if there is none.
-    pub fn sampler(self, frame: Frame, guess: Option<&[f64]>) -> Box<dyn Sampler> {
-        let center = guess.map_or_else(|| vec![0.0; frame.grid.unknowns()], <[f64]>::to_vec);
-        match self {
-            Self::Swarm(rules) => Box::new(swarm::Flock::new(frame, rules)),
-            Self::CrossEntropy => Box::new(cross_entropy::CrossEntropy::new(frame, center)),
-            Self::PathIntegral => Box::new(path_integral::PathIntegral::new(frame, center)),
-            Self::CmaEs => Box::new(cma_es::CmaEs::new(frame, center)),
+    /// Sets each control to mean + deviation · N(0, 1), with the `distribution` (mean, deviation) of its unknown.
+    fn sample_normal(
+        &self,
+        iteration: usize,
+        rng: CounterRng,
+        distribution: impl Fn(usize) -> (f64, f64),
+        batches: &mut [ParticleBatch],
+    ) {
+        for (b, batch) in batches.iter_mut().enumerate() {
+            for (unknown, controls) in batch.controls.iter_mut().enumerate() {
+                let (mean, deviation) = distribution(unknown);
+                for (lane, control) in controls.iter_mut().enumerate() {
+                    let normal = rng.normal(self.counter(iteration, b * WIDTH + lane, unknown));
+                    *control = mean + deviation * normal;
+                }
+            }
         }
     }
 }
 
-/// Indices (group, lane) of all particles, best first; equal ones in their order.
-fn ranking(groups: &[Group]) -> Vec<(usize, usize)> {
-    let mut ranking: Vec<_> = (0..groups.len()).flat_map(|group| (0..WIDTH).map(move |lane| (group, lane))).collect();
-    ranking.sort_by(|&(g, l), &(h, m)| groups[g].fitness[l].order(groups[h].fitness[m]));
-    ranking
+impl SamplerKind {
+    /// A sampler that starts around `guess`, or around zero without one.
+    pub fn create(self, dimensions: SamplerDimensions, guess: Option<&[f64]>) -> Box<dyn Sampler> {
+        let mean = guess.map_or_else(|| vec![0.0; dimensions.grid.unknowns()], <[f64]>::to_vec);
+        match self {
+            Self::ParticleSwarm(settings) => Box::new(particle_swarm::ParticleSwarm::new(dimensions, settings)),
+            Self::CrossEntropy => Box::new(cross_entropy::CrossEntropy::new(dimensions, mean)),
+            Self::PathIntegral => Box::new(path_integral::PathIntegral::new(dimensions, mean)),
+            Self::CmaEs => Box::new(cma_es::CmaEs::new(dimensions, mean)),
+        }
+    }
 }

@@ -13,7 +13,7 @@ use super::dynamics::State;
 use super::iterate::Iterate;
 use super::scaling::POSITION_M;
 use super::{plan, subproblem};
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -21,7 +21,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Sequential convex programming, one programme over all vehicles (cSCP of Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders, up to some fifteen vehicles",
     refuses: super::refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "coupled-scp";

@@ -10,7 +10,7 @@ use super::iterate::Iterate;
 use super::plan;
 use super::priority::Priority;
 use super::time_bound::{CalmTimeBound, FLIGHT_TIME_SPREAD_S, flight_time_spread_s};
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// Difference of two flight times beyond which two vehicles change places, s: ours, the paper's is lost.
 const SWAP_S: f64 = 0.5;
@@ -21,7 +21,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Decoupled sequential convex programming with dynamic priorities (Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders",
     refuses: super::refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "dpd-scp";

@@ -34,7 +34,7 @@ use scenarios::{Plan, PlanStatus, Scenario, Transcription};
 use super::options::Options;
 use super::plan;
 use crate::convex::{Program, Solution};
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 use sequence::Sequence;
 
 /// The planner, for the registry.
@@ -43,7 +43,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Sequential convex programming that holds between the nodes: shooting, rows at closest approach",
     handles: "fixed-wing fleets among cylinders",
     refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "fleet-scp";

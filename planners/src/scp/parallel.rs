@@ -9,7 +9,7 @@ use super::decoupled::{Avoidance, Fleet, trajectories};
 use super::plan;
 use super::time_bound::TimeBound;
 use crate::convex::{Program, Solution};
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// Half-width of the trust region, m, below which the time bound is no longer released.
 const FREEZE_BELOW_M: f64 = 100.0;
@@ -20,7 +20,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Decoupled sequential convex programming, everybody avoids everybody (Wang, Xu, Long 2020)",
     handles: "fixed-wing fleets among cylinders",
     refuses: super::refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "parallel-scp";

@@ -14,7 +14,7 @@ use super::iterate::Iterate;
 use super::plan;
 use super::priority::Priority;
 use super::time_bound::{FLIGHT_TIME_SPREAD_S, TimeBound, flight_time_spread_s};
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// Most rounds of the outer loop: ours.
 const ROUNDS: usize = 20;
@@ -25,7 +25,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Decoupled sequential convex programming, one vehicle after the other (spSCP of Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders",
     refuses: super::refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "serial-scp";

@@ -1,18 +1,17 @@
-//! The planners of the registry: a path of straight legs, timed so that it can be flown.
+//! The registered planners: a path of straight legs, timed within the vehicle's limits.
 
 use std::time::Instant;
 
 use scenarios::multirotor::Trajectory;
-use scenarios::{Plan, PlanStatus, PlanTimings, Scenario, stream};
+use scenarios::{Plan, PlanTimings, Scenario, stream};
 
-use super::sparse_astar::{self, search};
-use super::timing;
-use super::tree::{self, grow};
-use crate::free_space::FreeSpace;
-use crate::free_space::vector::{Point, distance};
-use crate::horizon::brief;
-use crate::horizon::reference::nodes;
-use crate::planner::{Answers, Planner, Progress};
+use super::rrt::{self, RrtSettings};
+use super::sparse_astar::{self, SparseAstarSettings};
+use super::{PathProblem, timing};
+use crate::free_space::{FreeSpace, Point, path_length_m};
+use crate::multirotor::reference::nodes_from_motion;
+use crate::multirotor::{self, PlanningLimits};
+use crate::planner::{Planner, PlanningMode};
 
 const HANDLES: &str = "one multirotor among known obstacles that stand still";
 
@@ -22,7 +21,7 @@ pub const SPARSE_ASTAR: Planner = Planner {
     summary: "A* on a grid with limits on turns and lengths (Szczerba et al. 2000), timed within the vehicle's limits",
     handles: HANDLES,
     refuses,
-    answers: Answers::Ahead(|scenario, seed, _: Progress<'_>| plan(scenario, seed, "sparse-astar", by_grid)),
+    mode: PlanningMode::BeforeFlight(|scenario, seed, _| plan(scenario, seed, "sparse-astar", sparse_astar_path)),
 };
 
 /// RRT.
@@ -31,7 +30,9 @@ pub const RRT: Planner = Planner {
     summary: "rapidly exploring random tree (LaValle 1998), timed within the vehicle's limits",
     handles: HANDLES,
     refuses,
-    answers: Answers::Ahead(|scenario, seed, _: Progress<'_>| plan(scenario, seed, "rrt", |ask| by_tree(ask, false))),
+    mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
+        plan(scenario, seed, "rrt", |problem| rrt_path(problem, seed, 20_000, None))
+    }),
 };
 
 /// RRT*.
@@ -40,74 +41,57 @@ pub const RRT_STAR: Planner = Planner {
     summary: "the same with rewiring (Karaman, Frazzoli 2011)",
     handles: HANDLES,
     refuses,
-    answers: Answers::Ahead(|scenario, seed, _: Progress<'_>| {
-        plan(scenario, seed, "rrt-star", |ask| by_tree(ask, true))
+    mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
+        plan(scenario, seed, "rrt-star", |problem| rrt_path(problem, seed, 4_000, Some(4.0)))
     }),
 };
 
-/// Share of the margin by which a motion may leave its path at corners; the path keeps all of it.
-const CORNER_SHARE: f64 = 0.5;
+/// Fraction of the margin by which the timed motion may cut the path's corners. The path itself keeps the whole margin.
+const CORNER_MARGIN_FRACTION: f64 = 0.5;
 
 fn refuses(scenario: &Scenario) -> Option<String> {
-    brief::refuses(scenario).or_else(|| (scenario.vehicles.len() > 1).then(|| "it plans for one vehicle".to_owned()))
+    multirotor::refuses(scenario)
+        .or_else(|| (scenario.vehicles.len() > 1).then(|| "it plans for one vehicle".to_owned()))
 }
 
-/// What a search is asked.
-struct Ask {
-    space: FreeSpace,
-    start: Point,
-    goal: Point,
-    clearance_m: f64,
-    axes: usize,
-    seed: u64,
-}
-
-fn plan(scenario: &Scenario, seed: u64, name: &str, find: impl Fn(&Ask) -> Option<Vec<Point>>) -> Plan {
+fn plan(scenario: &Scenario, seed: u64, name: &str, find_path: impl Fn(&PathProblem) -> Option<Vec<Point>>) -> Plan {
     let begin = Instant::now();
     let vehicle = &scenario.vehicles[0];
     let is_planar = scenario.is_planar();
-    let ask = Ask {
-        space: FreeSpace::of(&scenario.world, is_planar),
-        start: vehicle.start.position_m(),
-        goal: vehicle.goal.position_m(),
-        clearance_m: brief::clearance_m(scenario, 0),
+    let problem = PathProblem {
+        space: FreeSpace::from_world(&scenario.world, is_planar),
+        start: vehicle.start.position_m().into(),
+        goal: vehicle.goal.position_m().into(),
+        clearance_m: multirotor::clearance_m(scenario, 0),
         axes: if is_planar { 2 } else { 3 },
-        seed,
     };
-    let path = find(&ask);
+    let path = find_path(&problem);
     let trajectory = path.as_ref().map(|path| {
-        let motion = timing::motion(path, brief::limits(scenario, 0), CORNER_SHARE * brief::margin_m(scenario));
-        Trajectory::through(&vehicle.name, &nodes(&motion, 0.0))
+        let corner_deviation_m = CORNER_MARGIN_FRACTION * multirotor::margin_m(scenario);
+        let motion = timing::timed_motion(path, PlanningLimits::of_vehicle(scenario, 0), corner_deviation_m);
+        Trajectory::through(&vehicle.name, &nodes_from_motion(&motion, 0.0))
     });
-    Plan {
-        status: if trajectory.is_some() { PlanStatus::Solved } else { PlanStatus::NoPlan },
-        reason: trajectory.is_none().then(|| "no path was found from start to goal".to_owned()),
-        objective: path.map(|path| super::length_m(&path)),
-        timings: PlanTimings { wall_s: begin.elapsed().as_secs_f64(), distributed_s: 0.0 },
-        ..Plan::new(&scenario.name, name, seed, trajectory.into_iter().map(Into::into).collect())
-    }
+    let timings = PlanTimings { wall_s: begin.elapsed().as_secs_f64(), distributed_s: 0.0 };
+    let plan = match trajectory {
+        Some(trajectory) => Plan::new(&scenario.name, name, seed, vec![trajectory.into()]),
+        None => Plan::no_plan(&scenario.name, name, seed, "no path was found from start to goal"),
+    };
+    Plan { objective: path.map(|path| path_length_m(&path)), timings, ..plan }
 }
 
-fn by_grid(ask: &Ask) -> Option<Vec<Point>> {
-    let rules = sparse_astar::Rules {
+fn sparse_astar_path(problem: &PathProblem) -> Option<Vec<Point>> {
+    let settings = SparseAstarSettings {
         spacing_m: 0.5,
-        leg: [2.0, 4.0],
-        turn_cosine: 0.5,
-        longest_m: 4.0 * distance(ask.start, ask.goal),
-        axes: ask.axes,
-        budget: 1_000_000,
-        is_guided: true,
+        leg_cells: [2.0, 4.0],
+        cos_max_turn: 0.5,
+        max_length_m: 4.0 * (problem.start - problem.goal).norm(),
+        max_expansions: 1_000_000,
+        uses_heuristic: true,
     };
-    search(&ask.space, ask.start, ask.goal, ask.clearance_m, &rules).map(|found| found.path)
+    sparse_astar::search(problem, &settings).map(|found| found.path)
 }
 
-fn by_tree(ask: &Ask, rewires: bool) -> Option<Vec<Point>> {
-    let rules = tree::Rules {
-        step_m: 2.0,
-        goal_share: 0.05,
-        samples: if rewires { 4_000 } else { 20_000 },
-        rewire_m: rewires.then_some(4.0),
-        axes: ask.axes,
-    };
-    grow(&ask.space, ask.start, ask.goal, ask.clearance_m, &rules, &mut stream(ask.seed, "tree"))
+fn rrt_path(problem: &PathProblem, seed: u64, max_samples: usize, rewire_radius_m: Option<f64>) -> Option<Vec<Point>> {
+    let settings = RrtSettings { step_m: 2.0, goal_bias: 0.05, max_samples, rewire_radius_m };
+    rrt::search(problem, &settings, &mut stream(seed, "tree"))
 }

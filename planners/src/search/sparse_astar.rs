@@ -1,32 +1,30 @@
-//! Sparse A* (Szczerba et al. 2000): A* on a grid whose expansion respects the least length of a leg, the largest turn
-//! between two legs and the largest length of the whole path.
+//! Sparse A* (Szczerba et al. 2000): A* on a grid with a minimum leg length, a maximum turn between two legs and a maximum
+//! length of the path.
 //!
-//! A state is a grid point together with the leg that led there; the grid has the start as a point. From a state one leg
-//! leads to each grid point that is a leg away, straight, without passing another grid point, and within the turn limit.
+//! A state is a grid point together with the leg that led there; the start is a grid point. Successors of a state are the
+//! grid points one leg away, within the turn limit. Legs are primitive grid vectors, which pass no other grid point.
 
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::HashMap;
 
-use crate::free_space::FreeSpace;
-use crate::free_space::vector::{Point, distance, dot, norm};
+use super::PathProblem;
+use crate::free_space::Point;
+use crate::open_list::{OpenList, TotalF64};
 
-/// What the search respects.
+/// Grid and limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rules {
+pub struct SparseAstarSettings {
     /// Distance between grid points, m.
     pub spacing_m: f64,
-    /// Least and largest length of a leg in units of the grid.
-    pub leg: [f64; 2],
-    /// Cosine of the largest turn between two legs.
-    pub turn_cosine: f64,
-    /// Largest length of the path, m.
-    pub longest_m: f64,
-    /// Coordinates that are free: 2 in the plane, 3 in space.
-    pub axes: usize,
-    /// States that may be expanded.
-    pub budget: usize,
-    /// The distance to the goal guides the search; without it, it is Dijkstra's.
-    pub is_guided: bool,
+    /// Minimum and maximum length of a leg, in grid spacings.
+    pub leg_cells: [f64; 2],
+    /// Cosine of the maximum turn between two legs.
+    pub cos_max_turn: f64,
+    /// Maximum length of the path, m.
+    pub max_length_m: f64,
+    /// Maximum number of expanded states.
+    pub max_expansions: usize,
+    /// Uses the distance to the goal as the heuristic; without it the search is Dijkstra's algorithm.
+    pub uses_heuristic: bool,
 }
 
 /// A grid point, relative to the start.
@@ -35,46 +33,38 @@ type Cell = [i32; 3];
 /// A grid point, and the index of the leg that led there.
 type State = (Cell, usize);
 
-/// Index of the leg that leads to the start.
+/// Leg index of the start state.
 const NO_LEG: usize = usize::MAX;
 
-/// What the search has found.
+/// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
-    /// Corners from start to goal.
+pub struct GridPath {
+    /// Corners from start to goal, both included.
     pub path: Vec<Point>,
-    /// States that were expanded.
+    /// Number of expanded states.
     pub expanded: usize,
 }
 
-/// The shortest path on the grid; nothing if there is none within the rules.
-pub fn search(space: &FreeSpace, start: Point, goal: Point, clearance_m: f64, rules: &Rules) -> Option<Found> {
-    let mut search = Search {
-        space,
-        start,
-        goal,
-        clearance_m,
-        rules,
-        legs: legs(rules),
-        reached: HashMap::new(),
-        open: BinaryHeap::new(),
-    };
-    search.run()
+/// The shortest path on the grid; `None` if there is none within the limits.
+pub fn search(problem: &PathProblem, settings: &SparseAstarSettings) -> Option<GridPath> {
+    let legs = legs(settings, problem.axes);
+    Search { problem, settings, legs, reached: HashMap::new(), open: OpenList::new() }.run()
 }
 
-/// Every leg: a primitive vector of the grid within the lengths.
-fn legs(rules: &Rules) -> Vec<Cell> {
-    let most = rules.leg[1].floor() as i32;
-    let vertical = if rules.axes == 3 { most } else { 0 };
+/// All legs: the primitive grid vectors within the length limits.
+fn legs(settings: &SparseAstarSettings, axes: usize) -> Vec<Cell> {
+    let [min_length, max_length] = settings.leg_cells;
+    let max = max_length.floor() as i32;
+    let max_z = if axes == 3 { max } else { 0 };
     let mut legs = Vec::new();
-    for x in -most..=most {
-        for y in -most..=most {
-            for z in -vertical..=vertical {
-                let length = norm([x, y, z].map(f64::from));
+    for x in -max..=max {
+        for y in -max..=max {
+            for z in -max_z..=max_z {
+                let length = vector([x, y, z]).norm();
                 let divisor = [x, y, z].into_iter().map(i32::unsigned_abs).fold(0, greatest_common_divisor);
-                // a multiple of a shorter leg is left out unless that one is too short
-                let is_primitive = divisor == 1 || length / f64::from(divisor.max(1)) < rules.leg[0];
-                if is_primitive && (rules.leg[0]..=rules.leg[1]).contains(&length) {
+                // a multiple of a shorter leg counts only if that one is too short
+                let is_primitive = divisor == 1 || length / f64::from(divisor.max(1)) < min_length;
+                if is_primitive && (min_length..=max_length).contains(&length) {
                     legs.push([x, y, z]);
                 }
             }
@@ -87,56 +77,53 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-struct Search<'a> {
-    space: &'a FreeSpace,
-    start: Point,
-    goal: Point,
-    clearance_m: f64,
-    rules: &'a Rules,
-    legs: Vec<Cell>,
-    /// Length of the shortest path known, and where it comes from.
-    reached: HashMap<State, (f64, State)>,
-    open: BinaryHeap<Reverse<Open>>,
+fn vector(cell: Cell) -> Point {
+    cell.map(f64::from).into()
 }
 
-/// A state that waits to be expanded, or the goal, reached from one.
-struct Open {
-    bound_m: f64,
-    length_m: f64,
-    state: State,
-    is_goal: bool,
+struct Search<'a> {
+    problem: &'a PathProblem,
+    settings: &'a SparseAstarSettings,
+    legs: Vec<Cell>,
+    /// Length of the shortest known path to each state, m, and its last state but one.
+    reached: HashMap<State, (f64, State)>,
+    open: OpenList<Open>,
 }
+
+/// An entry of the open list, ordered by state. The goal is represented by the state before it.
+type Open = (State, IsGoal, TotalF64);
+type IsGoal = bool;
 
 impl Search<'_> {
-    fn run(&mut self) -> Option<Found> {
+    fn run(&mut self) -> Option<GridPath> {
         let start = ([0; 3], NO_LEG);
         self.reached.insert(start, (0.0, start));
         self.push(start, 0.0, false);
         let mut expanded = 0;
-        while let Some(Reverse(open)) = self.open.pop() {
-            if open.is_goal {
-                return Some(Found { path: self.path_to(open.state), expanded });
+        while let Some((_, (state, is_goal, TotalF64(length_m)))) = self.open.pop() {
+            if is_goal {
+                return Some(GridPath { path: self.path_to(state), expanded });
             }
-            if open.length_m > self.reached[&open.state].0 {
+            if length_m > self.reached[&state].0 {
                 continue;
             }
             expanded += 1;
-            if expanded > self.rules.budget {
+            if expanded > self.settings.max_expansions {
                 return None;
             }
-            self.expand(open.state, open.length_m);
+            self.expand(state, length_m);
         }
         None
     }
 
     fn expand(&mut self, state: State, length_m: f64) {
         let here = self.point(state.0);
-        let to_goal_m = distance(here, self.goal);
-        let direction = [0, 1, 2].map(|axis| self.goal[axis] - here[axis]);
-        // the last leg may be as short as it has to be
-        if to_goal_m <= self.rules.leg[1] * self.rules.spacing_m
-            && self.may_turn(state.1, direction)
-            && self.space.is_clear(here, self.goal, self.clearance_m)
+        let to_goal = self.problem.goal - here;
+        let to_goal_m = to_goal.norm();
+        // the last leg may be shorter than the minimum
+        if to_goal_m <= self.settings.leg_cells[1] * self.settings.spacing_m
+            && self.is_turn_allowed(state.1, to_goal)
+            && self.problem.is_clear(here, self.problem.goal)
         {
             self.push(state, length_m + to_goal_m, true);
         }
@@ -144,12 +131,12 @@ impl Search<'_> {
             let step = self.legs[leg];
             let cell = [0, 1, 2].map(|axis| state.0[axis] + step[axis]);
             let next = self.point(cell);
-            let through_m = length_m + distance(here, next);
+            let through_m = length_m + (here - next).norm();
             let is_shorter = self.reached.get(&(cell, leg)).is_none_or(|&(known_m, _)| through_m < known_m);
             if is_shorter
-                && through_m + distance(next, self.goal) <= self.rules.longest_m
-                && self.may_turn(state.1, step.map(f64::from))
-                && self.space.is_clear(here, next, self.clearance_m)
+                && through_m + self.distance_to_goal_m(next) <= self.settings.max_length_m
+                && self.is_turn_allowed(state.1, vector(step))
+                && self.problem.is_clear(here, next)
             {
                 self.reached.insert((cell, leg), (through_m, state));
                 self.push((cell, leg), through_m, false);
@@ -158,57 +145,36 @@ impl Search<'_> {
     }
 
     fn push(&mut self, state: State, length_m: f64, is_goal: bool) {
-        let left_m = if is_goal || !self.rules.is_guided { 0.0 } else { distance(self.point(state.0), self.goal) };
-        self.open.push(Reverse(Open { bound_m: length_m + left_m, length_m, state, is_goal }));
+        let has_heuristic = self.settings.uses_heuristic && !is_goal;
+        let heuristic_m = if has_heuristic { self.distance_to_goal_m(self.point(state.0)) } else { 0.0 };
+        self.open.push(length_m + heuristic_m, (state, is_goal, TotalF64(length_m)));
     }
 
-    fn may_turn(&self, leg: usize, direction: Point) -> bool {
-        let Some(&before) = self.legs.get(leg) else { return true };
-        let before = before.map(f64::from);
-        let lengths = norm(before) * norm(direction);
-        lengths == 0.0 || dot(before, direction) >= self.rules.turn_cosine * lengths
+    fn is_turn_allowed(&self, leg: usize, direction: Point) -> bool {
+        let Some(&previous) = self.legs.get(leg) else { return true };
+        let previous = vector(previous);
+        let lengths = previous.norm() * direction.norm();
+        lengths == 0.0 || previous.dot(&direction) >= self.settings.cos_max_turn * lengths
     }
 
     fn point(&self, cell: Cell) -> Point {
-        [0, 1, 2].map(|axis| self.start[axis] + self.rules.spacing_m * f64::from(cell[axis]))
+        self.problem.start + self.settings.spacing_m * vector(cell)
+    }
+
+    fn distance_to_goal_m(&self, point: Point) -> f64 {
+        (point - self.problem.goal).norm()
     }
 
     fn path_to(&self, state: State) -> Vec<Point> {
-        let mut path = vec![self.goal];
+        let mut path = vec![self.problem.goal];
         let mut at = state;
         while at.1 != NO_LEG {
             path.push(self.point(at.0));
             at = self.reached[&at].1;
         }
-        path.push(self.start);
+        path.push(self.problem.start);
         path.reverse();
-        path.dedup_by(|a, b| distance(*a, *b) == 0.0);
+        path.dedup_by(|a, b| (*a - *b).norm() == 0.0);
         path
     }
 }
-
-impl Open {
-    fn key(&self) -> (State, bool) {
-        (self.state, self.is_goal)
-    }
-}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.bound_m.total_cmp(&other.bound_m).then_with(|| self.key().cmp(&other.key()))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Open {}

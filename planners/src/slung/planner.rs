@@ -11,7 +11,7 @@ use super::problem::Problem;
 use super::route::{Route, routes};
 use super::{problem_builder, solution};
 use crate::nlp::Status;
-use crate::planner::{Answers, Planner, Progress};
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -19,7 +19,7 @@ pub const PLANNER: Planner = Planner {
     summary: "Legendre-Gauss-Radau collocation with the switchable envelope circle (Kang, Huang, Wen 2020)",
     handles: "a quadrotor with a slung load among convex prisms",
     refuses: problem_builder::refuses,
-    answers: Answers::Ahead(plan),
+    mode: PlanningMode::BeforeFlight(plan),
 };
 
 const NAME: &str = "slung-lgr";

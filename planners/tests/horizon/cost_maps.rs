@@ -1,14 +1,13 @@
-use planners::free_space::FreeSpace;
-use planners::free_space::vector::{Point, distance};
-use planners::horizon::cost_map::{CostMap, Ways};
+use planners::free_space::{FreeSpace, Point, interpolate, path_length_m};
+use planners::roadmap::{CostMap, RoadmapKind};
 use rand::RngExt;
 
 use crate::arena::{Arena, random, trap};
 
 const CLEARANCE_M: f64 = 0.4;
 
-fn map(arena: &Arena, ways: Ways) -> CostMap {
-    let mut map = CostMap::new(ways, arena.goal, CLEARANCE_M, arena.levels_m.clone());
+fn map(arena: &Arena, kind: RoadmapKind) -> CostMap {
+    let mut map = CostMap::new(kind, arena.goal, CLEARANCE_M, arena.node_altitudes_m.clone());
     map.update(&arena.space);
     map
 }
@@ -18,29 +17,29 @@ fn arenas() -> Vec<Arena> {
     random.chain([trap()]).collect()
 }
 
-/// Shortest ways from all nodes to the first, by relaxing every edge until nothing changes.
-fn relaxed(nodes: &[Point], edges: &[[Point; 2]]) -> Vec<f64> {
-    let mut left_m = vec![f64::INFINITY; nodes.len()];
-    left_m[0] = 0.0;
+/// Lengths of the shortest paths from all nodes to the first, by the Bellman-Ford algorithm.
+fn bellman_ford(nodes: &[Point], edges: &[[Point; 2]]) -> Vec<f64> {
+    let mut cost_to_go_m = vec![f64::INFINITY; nodes.len()];
+    cost_to_go_m[0] = 0.0;
     let index = |point: &Point| nodes.iter().position(|node| node == point).expect("an edge ends in nodes");
     let edges: Vec<(usize, usize)> = edges.iter().map(|[a, b]| (index(a), index(b))).collect();
     for _ in 0..nodes.len() {
         for &(i, j) in &edges {
-            let length_m = distance(nodes[i], nodes[j]);
-            left_m[i] = left_m[i].min(left_m[j] + length_m);
-            left_m[j] = left_m[j].min(left_m[i] + length_m);
+            let length_m = (nodes[i] - nodes[j]).norm();
+            cost_to_go_m[i] = cost_to_go_m[i].min(cost_to_go_m[j] + length_m);
+            cost_to_go_m[j] = cost_to_go_m[j].min(cost_to_go_m[i] + length_m);
         }
     }
-    left_m
+    cost_to_go_m
 }
 
 #[test]
-fn costs_are_those_of_relaxing_every_edge() {
+fn costs_agree_with_bellman_ford() {
     for arena in [random(1, false), trap()] {
-        for ways in [Ways::Visibility, Ways::Voronoi] {
-            let map = map(&arena, ways);
+        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+            let map = map(&arena, kind);
             let roadmap = map.roadmap();
-            let expected = relaxed(roadmap.nodes(), &roadmap.edges().collect::<Vec<_>>());
+            let expected = bellman_ford(roadmap.nodes(), &roadmap.edges().collect::<Vec<_>>());
             for (found, expected) in roadmap.cost_to_go_m().iter().zip(expected) {
                 assert!((found - expected).abs() < 1e-9 || found == &expected, "{found} {expected}");
             }
@@ -51,12 +50,12 @@ fn costs_are_those_of_relaxing_every_edge() {
 #[test]
 fn every_edge_keeps_the_clearance() {
     for arena in arenas() {
-        for ways in [Ways::Visibility, Ways::Voronoi] {
-            let map = map(&arena, ways);
+        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+            let map = map(&arena, kind);
             assert!(map.roadmap().nodes().len() > 4);
             for [from, to] in map.roadmap().edges() {
                 for i in 0..=20 {
-                    let point = planners::free_space::vector::interpolate(from, to, f64::from(i) / 20.0);
+                    let point = interpolate(from, to, f64::from(i) / 20.0);
                     assert!(arena.space.distance_m(point) >= CLEARANCE_M - 1e-9);
                 }
             }
@@ -65,66 +64,69 @@ fn every_edge_keeps_the_clearance() {
 }
 
 #[test]
-fn a_map_that_grows_is_the_map_of_all() {
+fn an_extended_map_equals_the_map_built_at_once() {
     for arena in arenas() {
-        let whole = map(&arena, Ways::Visibility);
-        let mut growing = CostMap::new(Ways::Visibility, arena.goal, CLEARANCE_M, arena.levels_m.clone());
-        for count in [0, 1, 5, 6, arena.space.standing.len()] {
-            let known = FreeSpace { standing: arena.space.standing[..count].to_vec(), ..arena.space.clone() };
-            growing.update(&known);
+        let whole = map(&arena, RoadmapKind::Visibility);
+        let mut extended =
+            CostMap::new(RoadmapKind::Visibility, arena.goal, CLEARANCE_M, arena.node_altitudes_m.clone());
+        for count in [0, 1, 5, 6, arena.space.static_obstacles.len()] {
+            let known =
+                FreeSpace { static_obstacles: arena.space.static_obstacles[..count].to_vec(), ..arena.space.clone() };
+            extended.update(&known);
         }
-        assert_eq!(growing.roadmap().nodes(), whole.roadmap().nodes());
-        assert_eq!(growing.roadmap().cost_to_go_m(), whole.roadmap().cost_to_go_m());
+        assert_eq!(extended.roadmap().nodes(), whole.roadmap().nodes());
+        assert_eq!(extended.roadmap().cost_to_go_m(), whole.roadmap().cost_to_go_m());
     }
 }
 
 #[test]
-fn costs_of_points_are_those_of_trying_every_node() {
+fn cost_to_go_is_the_best_over_all_nodes() {
     for arena in arenas() {
-        for ways in [Ways::Visibility, Ways::Voronoi] {
-            let map = map(&arena, ways);
+        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+            let map = map(&arena, kind);
             let (roadmap, space) = (map.roadmap(), &arena.space);
-            let outlook = map.outlook(space, arena.start);
+            let query = map.query_near(arena.start, space);
             let mut hints = Vec::new();
             let mut stream = scenarios::stream(5, "points");
             for _ in 0..100 {
                 let mut draw = |range: [f64; 2]| stream.random_range(range[0]..range[1]);
-                let [x, y, _] = space.frame_m;
-                let point = [draw(x), draw(y), draw([1.0, 5.0])];
+                let [x, y, _] = space.bounds_m;
+                let point = Point::new(draw(x), draw(y), draw([1.0, 5.0]));
                 if space.distance_m(point) < CLEARANCE_M {
                     continue;
                 }
                 let all = roadmap.nodes().iter().zip(roadmap.cost_to_go_m());
-                let seen = all.filter(|(node, _)| space.is_clear(point, **node, CLEARANCE_M - 1e-9));
-                let seen: Vec<_> = seen.map(|(node, left_m)| (distance(point, *node), *left_m)).collect();
-                let best_within = |reach_m: f64| {
-                    let near = seen.iter().filter(|(away_m, left_m)| *away_m <= reach_m && left_m.is_finite());
-                    near.map(|(away_m, left_m)| away_m + left_m).reduce(f64::min)
+                let visible = all.filter(|(node, _)| space.is_clear(point, **node, CLEARANCE_M - 1e-9));
+                let visible: Vec<_> =
+                    visible.map(|(node, cost_to_go_m)| ((point - node).norm(), *cost_to_go_m)).collect();
+                let best_within = |max_link_m: f64| {
+                    let near = visible.iter().filter(|(link_m, rest_m)| *link_m <= max_link_m && rest_m.is_finite());
+                    near.map(|(link_m, rest_m)| link_m + rest_m).reduce(f64::min)
                 };
-                let reach_m = if ways == Ways::Voronoi { 4.0 } else { f64::INFINITY };
-                let expected = best_within(reach_m).or_else(|| best_within(f64::INFINITY));
-                let found = map.cost_to_go(point, space).map(|left| left.length_m);
+                let preferred_m = if kind == RoadmapKind::Voronoi { 4.0 } else { f64::INFINITY };
+                let expected = best_within(preferred_m).or_else(|| best_within(f64::INFINITY));
+                let found = map.cost_to_go(point, space).map(|cost_to_go| cost_to_go.length_m);
                 assert_eq!(found, expected);
-                assert_eq!(outlook.cost_to_go(point, &mut hints).map(|left| left.length_m), expected);
+                assert_eq!(query.cost_to_go(point, &mut hints).map(|cost_to_go| cost_to_go.length_m), expected);
             }
         }
     }
 }
 
-/// Around one box the shortest way touches its corner.
+/// The visibility graph gives the shorter path, the Voronoi graph the one with more clearance.
 #[test]
 fn visibility_is_short_and_voronoi_is_clear() {
     let arena = trap();
-    let [short, clear] = [Ways::Visibility, Ways::Voronoi].map(|ways| {
-        let map = map(&arena, ways);
-        let route = map.route(arena.start, &arena.space);
-        let length_m: f64 = route.windows(2).map(|ends| distance(ends[0], ends[1])).sum();
-        let inner = &route[1..route.len() - 1];
-        let room_m = inner.iter().map(|point| arena.space.distance_m(*point)).sum::<f64>() / inner.len() as f64;
-        (length_m, room_m)
+    let [short, clear] = [RoadmapKind::Visibility, RoadmapKind::Voronoi].map(|kind| {
+        let map = map(&arena, kind);
+        let path = map.path_from(arena.start, &arena.space);
+        let inner = &path[1..path.len() - 1];
+        let clearance_m = inner.iter().map(|point| arena.space.distance_m(*point)).sum::<f64>() / inner.len() as f64;
+        (path_length_m(&path), clearance_m)
     });
     assert!(short.0 < clear.0 && short.1 < clear.1, "{short:?} {clear:?}");
     assert!(
-        (short.0 - map(&arena, Ways::Visibility).cost_to_go(arena.start, &arena.space).unwrap().length_m).abs() < 1e-9
+        (short.0 - map(&arena, RoadmapKind::Visibility).cost_to_go(arena.start, &arena.space).unwrap().length_m).abs()
+            < 1e-9
     );
 }

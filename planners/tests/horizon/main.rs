@@ -1,4 +1,4 @@
-//! Planners in the loop, on maps that are made up, with an ideal vehicle.
+//! The receding-horizon controller and its parts on test maps.
 
 mod arena;
 mod closed_loop;

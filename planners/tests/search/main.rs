@@ -1,121 +1,117 @@
-//! Searches over the whole map: what they find is short, clear and can be flown.
+//! Searches over the whole map: their paths are short and clear, and the timed motions are within the limits.
 
-#[expect(dead_code, reason = "of the arenas' planners none is needed here")]
+#[expect(dead_code, reason = "the controllers of the arenas are not used here")]
 #[path = "../horizon/arena.rs"]
 mod arena;
 
-use arena::{LIMITS, random, trap};
-use planners::free_space::FreeSpace;
-use planners::free_space::vector::{Point, distance, dot, interpolate, minus, norm};
-use planners::search::sparse_astar::{self, search};
-use planners::search::tree::{self, grow};
-use planners::search::{length_m, timing};
+use arena::{Arena, LIMITS, random, trap};
+use planners::free_space::{Point, interpolate, path_length_m};
+use planners::search::rrt::{self, RrtSettings};
+use planners::search::sparse_astar::{self, SparseAstarSettings};
+use planners::search::{PathProblem, timing};
 
 const CLEARANCE_M: f64 = 0.4;
 
-fn grid(axes: usize) -> sparse_astar::Rules {
-    sparse_astar::Rules {
-        spacing_m: 1.0,
-        leg: [1.0, 2.5],
-        turn_cosine: 0.5,
-        longest_m: 120.0,
-        axes,
-        budget: 2_000_000,
-        is_guided: true,
-    }
+const ASTAR: SparseAstarSettings = SparseAstarSettings {
+    spacing_m: 1.0,
+    leg_cells: [1.0, 2.5],
+    cos_max_turn: 0.5,
+    max_length_m: 120.0,
+    max_expansions: 2_000_000,
+    uses_heuristic: true,
+};
+
+const RRT: RrtSettings = RrtSettings { step_m: 2.0, goal_bias: 0.05, max_samples: 3000, rewire_radius_m: None };
+
+fn problem(arena: Arena, axes: usize) -> PathProblem {
+    let Arena { space, start, goal, .. } = arena;
+    PathProblem { space, start, goal, clearance_m: CLEARANCE_M, axes }
 }
 
-fn rules_of_a_tree(rewire_m: Option<f64>, axes: usize) -> tree::Rules {
-    tree::Rules { step_m: 2.0, goal_share: 0.05, samples: 3000, rewire_m, axes }
-}
-
-fn is_clear(space: &FreeSpace, path: &[Point]) -> bool {
+fn is_clear(problem: &PathProblem, path: &[Point]) -> bool {
     path.windows(2).all(|ends| {
         let points = (0..=200).map(|i| interpolate(ends[0], ends[1], f64::from(i) / 200.0));
-        points.map(|point| space.distance_m(point)).fold(f64::INFINITY, f64::min) >= CLEARANCE_M - 1e-9
+        points.map(|point| problem.space.distance_m(point)).fold(f64::INFINITY, f64::min) >= CLEARANCE_M - 1e-9
     })
 }
 
 #[test]
-fn sparse_astar_finds_what_dijkstra_finds_with_less() {
+fn sparse_astar_is_as_short_as_dijkstra_with_fewer_expansions() {
     for arena in [trap(), random(1, false), random(3, false)] {
-        let guided = search(&arena.space, arena.start, arena.goal, CLEARANCE_M, &grid(2)).unwrap();
-        let rules = sparse_astar::Rules { is_guided: false, ..grid(2) };
-        let plain = search(&arena.space, arena.start, arena.goal, CLEARANCE_M, &rules).unwrap();
-        assert!((length_m(&guided.path) - length_m(&plain.path)).abs() < 1e-9);
-        assert!(guided.expanded < plain.expanded);
-        assert!(is_clear(&arena.space, &guided.path));
+        let problem = problem(arena, 2);
+        let astar = sparse_astar::search(&problem, &ASTAR).unwrap();
+        let settings = SparseAstarSettings { uses_heuristic: false, ..ASTAR };
+        let dijkstra = sparse_astar::search(&problem, &settings).unwrap();
+        assert!((path_length_m(&astar.path) - path_length_m(&dijkstra.path)).abs() < 1e-9);
+        assert!(astar.expanded < dijkstra.expanded);
+        assert!(is_clear(&problem, &astar.path));
     }
 }
 
 #[test]
 fn sparse_astar_keeps_its_limits() {
-    let arena = trap();
-    let found = search(&arena.space, arena.start, arena.goal, CLEARANCE_M, &grid(2)).unwrap();
+    let problem = problem(trap(), 2);
+    let found = sparse_astar::search(&problem, &ASTAR).unwrap();
     for corner in found.path.windows(3) {
-        let (u, w) = (minus(corner[1], corner[0]), minus(corner[2], corner[1]));
-        assert!(dot(u, w) >= (0.5 - 1e-9) * norm(u) * norm(w));
+        let (u, w) = (corner[1] - corner[0], corner[2] - corner[1]);
+        assert!(u.dot(&w) >= (0.5 - 1e-9) * u.norm() * w.norm());
     }
-    let legs = found.path.windows(2).map(|ends| distance(ends[0], ends[1]));
+    let legs = found.path.windows(2).map(|ends| (ends[0] - ends[1]).norm());
     assert!(legs.take(found.path.len() - 2).all(|leg_m| (1.0 - 1e-9..=2.5 + 1e-9).contains(&leg_m)));
-    let short = sparse_astar::Rules { longest_m: length_m(&found.path) - 0.1, ..grid(2) };
-    assert_eq!(search(&arena.space, arena.start, arena.goal, CLEARANCE_M, &short), None);
+    let short = SparseAstarSettings { max_length_m: path_length_m(&found.path) - 0.1, ..ASTAR };
+    assert_eq!(sparse_astar::search(&problem, &short), None);
 }
 
 #[test]
 fn sparse_astar_in_space_is_clear() {
-    let arena = random(2, true);
-    let rules = sparse_astar::Rules { leg: [1.0, 1.8], ..grid(3) };
-    let found = search(&arena.space, arena.start, arena.goal, CLEARANCE_M, &rules).unwrap();
-    assert!(is_clear(&arena.space, &found.path));
+    let problem = problem(random(2, true), 3);
+    let settings = SparseAstarSettings { leg_cells: [1.0, 1.8], ..ASTAR };
+    let found = sparse_astar::search(&problem, &settings).unwrap();
+    assert!(is_clear(&problem, &found.path));
 }
 
 #[test]
 fn trees_are_clear_between_their_nodes_and_reproducible() {
     for (arena, axes) in [(trap(), 2), (random(2, true), 3)] {
+        let problem = problem(arena, axes);
+        let search = |seed: u64, rewire_radius_m: Option<f64>| {
+            let settings = RrtSettings { rewire_radius_m, ..RRT };
+            rrt::search(&problem, &settings, &mut scenarios::stream(seed, "tree")).unwrap()
+        };
         for seed in 0..10 {
-            let found = [None, Some(4.0)].map(|rewire_m| {
-                let rules = rules_of_a_tree(rewire_m, axes);
-                let mut stream = scenarios::stream(seed, "tree");
-                grow(&arena.space, arena.start, arena.goal, CLEARANCE_M, &rules, &mut stream).unwrap()
-            });
-            assert!(found.iter().all(|path| is_clear(&arena.space, path)));
-            assert!(length_m(&found[1]) < length_m(&found[0]), "seed {seed}");
-            let mut stream = scenarios::stream(seed, "tree");
-            let rules = rules_of_a_tree(None, axes);
-            let again = grow(&arena.space, arena.start, arena.goal, CLEARANCE_M, &rules, &mut stream);
-            assert_eq!(again.as_ref(), Some(&found[0]));
+            let [rrt, rrt_star] = [None, Some(4.0)].map(|radius_m| search(seed, radius_m));
+            assert!(is_clear(&problem, &rrt) && is_clear(&problem, &rrt_star));
+            assert!(path_length_m(&rrt_star) < path_length_m(&rrt), "seed {seed}");
+            assert_eq!(search(seed, None), rrt);
         }
     }
 }
 
 #[test]
 fn timed_paths_keep_speed_acceleration_and_corners() {
-    let arena = trap();
+    let problem = PathProblem { clearance_m: CLEARANCE_M + 0.1, ..problem(trap(), 2) };
     for seed in 0..10 {
-        let mut stream = scenarios::stream(seed, "tree");
-        let rules = rules_of_a_tree(None, 2);
-        let path = grow(&arena.space, arena.start, arena.goal, CLEARANCE_M + 0.1, &rules, &mut stream).unwrap();
-        let motion = timing::motion(&path, LIMITS, 0.1);
-        assert!(motion.is_clear(0.0, &arena.space, CLEARANCE_M - 0.05), "seed {seed}");
+        let path = rrt::search(&problem, &RRT, &mut scenarios::stream(seed, "tree")).unwrap();
+        let motion = timing::timed_motion(&path, LIMITS, 0.1);
+        assert!(motion.is_clear(0.0, &problem.space, CLEARANCE_M - 0.05), "seed {seed}");
         let (end_s, end) = *motion.last();
-        assert_eq!((end.position, end.velocity), (arena.goal, [0.0; 3]));
+        assert_eq!((end.position, end.velocity), (problem.goal, Point::zeros()));
         let step_s = 1e-3;
         for i in 0..(end_s / step_s) as usize {
             let [now, next] = [i, i + 1].map(|i| motion.state_at(i as f64 * step_s));
-            assert!(norm(now.velocity) <= LIMITS.speed_mps + 1e-9);
-            let change_mps2 = distance(now.velocity, next.velocity) / step_s;
+            assert!(now.velocity.norm() <= LIMITS.speed_mps + 1e-9);
+            let change_mps2 = (now.velocity - next.velocity).norm() / step_s;
             assert!(change_mps2 <= LIMITS.acceleration_mps2 + 1e-6, "{change_mps2}");
-            let moved_m = distance(now.position, next.position);
+            let moved_m = (now.position - next.position).norm();
             assert!(moved_m <= LIMITS.speed_mps * step_s + 1e-9, "{moved_m}");
         }
-        assert!(end_s >= length_m(&path) / LIMITS.speed_mps - 0.5 * path.len() as f64);
+        assert!(end_s >= path_length_m(&path) / LIMITS.speed_mps - 0.5 * path.len() as f64);
     }
 }
 
 #[test]
-fn a_straight_path_is_accelerate_cruise_brake() {
-    let motion = timing::motion(&[[0.0; 3], [4.0, 0.0, 0.0], [9.0, 0.0, 0.0]], LIMITS, 0.1);
-    // 1 s up, 1 s down over 1.5 m each, 6 m at 3 m/s
+fn a_straight_path_has_a_trapezoidal_speed_profile() {
+    let motion = timing::timed_motion(&[0.0, 4.0, 9.0].map(|x| Point::new(x, 0.0, 0.0)), LIMITS, 0.1);
+    // 1 s of acceleration and of braking over 1.5 m each, 6 m at 3 m/s
     assert!((motion.last().0 - 4.0).abs() < 1e-9);
 }

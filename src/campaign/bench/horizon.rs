@@ -3,7 +3,7 @@
 mod cases;
 mod show;
 
-use planners::free_space::FreeSpace;
+use planners::free_space::{FreeSpace, Point};
 use scenarios::Scenario;
 use serde::Serialize;
 use sim::{Flight, Replan};
@@ -160,16 +160,16 @@ impl FlownMotions {
 
 fn path_m(flight: &Flight) -> f64 {
     let steps = flight.vehicles.iter().flat_map(|vehicle| vehicle.samples.windows(2));
-    steps.map(|ends| planners::free_space::vector::distance(ends[0].position_m, ends[1].position_m)).sum()
+    steps.map(|ends| (Point::from(ends[0].position_m) - Point::from(ends[1].position_m)).norm()).sum()
 }
 
 /// Distance of the bodies from what stands still, mean over the samples.
 fn mean_clearance_m(scenario: &Scenario, flight: &Flight) -> Option<f64> {
-    let space = FreeSpace::of(&scenario.world, scenario.is_planar());
+    let space = FreeSpace::from_world(&scenario.world, scenario.is_planar());
     let distances = flight.vehicles.iter().zip(&scenario.vehicles).flat_map(|(log, vehicle)| {
         let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
         let space = &space;
-        log.samples.iter().map(move |sample| space.distance_m(sample.position_m) - radius_m)
+        log.samples.iter().map(move |sample| space.distance_m(sample.position_m.into()) - radius_m)
     });
     mean(distances)
 }

@@ -1,23 +1,23 @@
-//! Covariance matrix adaptation: the distribution takes the shape of the cost (Hansen, Ostermeier 2001; here with the
-//! triangular root of the covariance, as in Suttorp, Hansen, Igel 2009).
+//! Covariance matrix adaptation evolution strategy (Hansen, Ostermeier 2001), with the triangular root of the covariance as
+//! in Suttorp, Hansen, Igel (2009).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{Frame, Sampler, ranking};
-use crate::horizon::draw::Draws;
-use crate::horizon::group::Group;
+use super::{Sampler, SamplerDimensions};
+use crate::horizon::counter_rng::CounterRng;
+use crate::horizon::particle_batch::{ParticleBatch, ranking};
 use crate::lanes::WIDTH;
 
-/// First deviation over the bound.
-const FIRST_DEVIATION: f64 = 0.3;
+/// Initial standard deviation σ, as a fraction of the bound.
+const INITIAL_DEVIATION: f64 = 0.3;
 
-/// Iterations between two factorisations of the covariance.
-const REFACTOR: usize = 2;
+/// Number of iterations between two factorisations of the covariance.
+const FACTORISATION_INTERVAL: usize = 2;
 
-/// A normal distribution x = m + σ L z with covariance σ² L L^T.
+/// A normal distribution x = m + σ L z, z ~ N(0, I), with the covariance σ² L L^T.
 #[derive(Clone, Debug)]
 pub struct CmaEs {
-    frame: Frame,
+    dimensions: SamplerDimensions,
     weights: Vec<f64>,
     rates: Rates,
     mean: DVector<f64>,
@@ -62,71 +62,71 @@ impl Rates {
 }
 
 impl CmaEs {
-    /// Around `center`.
-    pub fn new(frame: Frame, center: Vec<f64>) -> Self {
-        let n = center.len();
-        let half = frame.particles / 2;
-        // weights that fall linearly with the rank: logarithms have different digits on different machines
+    /// Around `mean`.
+    pub fn new(dimensions: SamplerDimensions, mean: Vec<f64>) -> Self {
+        let n = mean.len();
+        let half = dimensions.particles / 2;
+        // weights that fall linearly with the rank: logarithms are not equal to the bit on every machine
         let raw: Vec<f64> = (0..half).map(|rank| (half - rank) as f64).collect();
         let sum: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|weight| weight / sum).collect();
         Self {
             rates: Rates::new(n as f64, &weights),
-            frame,
+            dimensions,
             weights,
-            mean: DVector::from_vec(center),
-            σ: FIRST_DEVIATION * frame.bound_mps2,
+            mean: DVector::from_vec(mean),
+            σ: INITIAL_DEVIATION * dimensions.bound_mps2,
             covariance: DMatrix::identity(n, n),
             root: DMatrix::identity(n, n),
             path: DVector::zeros(n),
             σ_path: DVector::zeros(n),
-            samples: vec![DVector::zeros(n); frame.particles],
+            samples: vec![DVector::zeros(n); dimensions.particles],
             iteration: 0,
         }
     }
 
-    /// Moves mean, width and covariance along the weighted means of z and L z.
+    /// Updates mean, step size and covariance from the best particles' weighted means of z and L z.
     fn adapt(&mut self, best: &[usize]) {
         let Rates { μ_eff, c_σ, d_σ, c_c, c_1, c_μ, expected } = self.rates;
         let n = self.mean.len() as f64;
         let mut z = DVector::zeros(self.mean.len());
-        let mut spread = DMatrix::zeros(self.mean.len(), self.mean.len());
+        let mut rank_μ = DMatrix::zeros(self.mean.len(), self.mean.len());
         for (&particle, &weight) in best.iter().zip(&self.weights) {
             let sample = &self.samples[particle];
             z.axpy(weight, sample, 1.0);
             let y = &self.root * sample;
-            spread.ger(weight, &y, &y, 1.0);
+            rank_μ.ger(weight, &y, &y, 1.0);
         }
         let y = &self.root * &z;
         self.mean.axpy(self.σ, &y, 1.0);
         self.σ_path = (1.0 - c_σ) * &self.σ_path + (c_σ * (2.0 - c_σ) * μ_eff).sqrt() * z;
         let length = self.σ_path.norm();
-        let moves = length < (1.4 + 2.0 / (n + 1.0)) * expected;
-        self.path = (1.0 - c_c) * &self.path + if moves { (c_c * (2.0 - c_c) * μ_eff).sqrt() } else { 0.0 } * y;
+        let updates_path = length < (1.4 + 2.0 / (n + 1.0)) * expected;
+        self.path = (1.0 - c_c) * &self.path + if updates_path { (c_c * (2.0 - c_c) * μ_eff).sqrt() } else { 0.0 } * y;
         self.covariance *= 1.0 - c_1 - c_μ;
         self.covariance.ger(c_1, &self.path, &self.path, 1.0);
-        self.covariance += c_μ * spread;
-        self.σ *= growing(c_σ / d_σ * (length / expected - 1.0));
+        self.covariance += c_μ * rank_μ;
+        self.σ *= exp_near_zero(c_σ / d_σ * (length / expected - 1.0));
     }
 }
 
 impl Sampler for CmaEs {
-    fn propose(&mut self, iteration: usize, draws: Draws, groups: &mut [Group]) {
-        for particle in 0..self.frame.particles {
+    fn propose(&mut self, iteration: usize, rng: CounterRng, batches: &mut [ParticleBatch]) {
+        for particle in 0..self.dimensions.particles {
             let z = &mut self.samples[particle];
             for (unknown, value) in z.iter_mut().enumerate() {
-                *value = draws.normal(self.frame.place(iteration, particle, unknown));
+                *value = rng.normal(self.dimensions.counter(iteration, particle, unknown));
             }
             let x = &self.mean + self.σ * (&self.root * &*z);
-            groups[particle / WIDTH].set_particle(particle % WIDTH, x.as_slice());
+            batches[particle / WIDTH].set_particle(particle % WIDTH, x.as_slice());
         }
     }
 
-    fn learn(&mut self, groups: &[Group]) {
-        let best: Vec<usize> = ranking(groups).iter().map(|&(group, lane)| group * WIDTH + lane).collect();
+    fn learn(&mut self, batches: &[ParticleBatch]) {
+        let best: Vec<usize> = ranking(batches).iter().map(|&(batch, lane)| batch * WIDTH + lane).collect();
         self.adapt(&best[..self.weights.len()]);
         self.iteration += 1;
-        if self.iteration.is_multiple_of(REFACTOR)
+        if self.iteration.is_multiple_of(FACTORISATION_INTERVAL)
             && let Some(factor) = Cholesky::new(self.covariance.clone())
         {
             self.root = factor.unpack();
@@ -134,7 +134,7 @@ impl Sampler for CmaEs {
     }
 }
 
-/// exp(x) for small x, from products alone: the same digits on every machine.
-fn growing(x: f64) -> f64 {
+/// (1 + x/64)^64, an approximation of exp(x) for small x. Products alone are equal to the bit on every machine.
+fn exp_near_zero(x: f64) -> f64 {
     (1.0 + x.clamp(-1.0, 1.0) / 64.0).powi(64)
 }

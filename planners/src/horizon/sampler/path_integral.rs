@@ -1,68 +1,61 @@
 //! Model predictive path integral control, iterated: the mean moves to the particles' mean, weighted by exp(-J/λ).
 
-use super::{Frame, Sampler, ranking};
-use crate::horizon::draw::Draws;
-use crate::horizon::group::Group;
-use crate::lanes::WIDTH;
+use super::{Sampler, SamplerDimensions};
+use crate::horizon::counter_rng::CounterRng;
+use crate::horizon::particle_batch::{ParticleBatch, ranking};
 
-/// First and last deviation of the samples over the bound.
-const DEVIATION: [f64; 2] = [0.5, 0.02];
+/// Standard deviation in the first and the last iteration, as fractions of the bound.
+const DEVIATION_RANGE: [f64; 2] = [0.5, 0.02];
 
-/// The temperature λ is this share of the cost between the best and the median of the feasible particles.
-const TEMPERATURE: f64 = 0.3;
+/// Temperature λ, as a fraction of the difference between the best and the median cost of the feasible particles.
+const TEMPERATURE_FRACTION: f64 = 0.3;
 
-/// Samples of given width about a mean.
+/// Samples about a mean, with a deviation that shrinks linearly with the iterations.
 #[derive(Clone, Debug)]
 pub struct PathIntegral {
-    frame: Frame,
+    dimensions: SamplerDimensions,
     mean: Vec<f64>,
 }
 
 impl PathIntegral {
-    /// Around `center`.
-    pub fn new(frame: Frame, center: Vec<f64>) -> Self {
-        Self { frame, mean: center }
+    /// Around `mean`.
+    pub fn new(dimensions: SamplerDimensions, mean: Vec<f64>) -> Self {
+        Self { dimensions, mean }
     }
 
     fn deviation(&self, iteration: usize) -> f64 {
-        let [first, last] = DEVIATION;
-        let progress = iteration as f64 / self.frame.iterations as f64;
-        (first + (last - first) * progress) * self.frame.bound_mps2
+        let [first, last] = DEVIATION_RANGE;
+        let progress = iteration as f64 / self.dimensions.iterations as f64;
+        (first + (last - first) * progress) * self.dimensions.bound_mps2
     }
 }
 
 impl Sampler for PathIntegral {
-    fn propose(&mut self, iteration: usize, draws: Draws, groups: &mut [Group]) {
+    fn propose(&mut self, iteration: usize, rng: CounterRng, batches: &mut [ParticleBatch]) {
         let deviation = self.deviation(iteration);
-        for (g, group) in groups.iter_mut().enumerate() {
-            for (unknown, quad) in group.controls.iter_mut().enumerate() {
-                for (lane, control) in quad.iter_mut().enumerate() {
-                    let normal = draws.normal(self.frame.place(iteration, g * WIDTH + lane, unknown));
-                    *control = self.mean[unknown] + deviation * normal;
-                }
-            }
-        }
+        self.dimensions.sample_normal(iteration, rng, |unknown| (self.mean[unknown], deviation), batches);
     }
 
-    fn learn(&mut self, groups: &[Group]) {
-        let ranking = ranking(groups);
-        let fitness = |&(group, lane): &(usize, usize)| groups[group].fitness[lane];
-        let feasible = ranking.iter().take_while(|at| fitness(at).is_feasible()).count();
-        // where none is feasible the violation takes the cost's place
+    fn learn(&mut self, batches: &[ParticleBatch]) {
+        let ranking = ranking(batches);
+        let fitness = |&(batch, lane): &(usize, usize)| batches[batch].fitness[lane];
+        let feasible = ranking.iter().take_while(|index| fitness(index).is_feasible()).count();
+        // without a feasible particle the violation takes the place of the cost
         let count = if feasible > 0 { feasible } else { ranking.len() };
-        let worth = |at: &(usize, usize)| if feasible > 0 { fitness(at).cost } else { fitness(at).violation };
-        let best = worth(&ranking[0]);
-        let λ = (TEMPERATURE * (worth(&ranking[count / 2]) - best)).max(f64::MIN_POSITIVE);
-        let weights: Vec<f64> = ranking[..count].iter().map(|at| falling((worth(at) - best) / λ)).collect();
+        let cost = |index: &(usize, usize)| if feasible > 0 { fitness(index).cost } else { fitness(index).violation };
+        let best = cost(&ranking[0]);
+        let λ = (TEMPERATURE_FRACTION * (cost(&ranking[count / 2]) - best)).max(f64::MIN_POSITIVE);
+        let weights: Vec<f64> = ranking[..count].iter().map(|index| exp_of_minus((cost(index) - best) / λ)).collect();
         let total: f64 = weights.iter().sum();
         for (unknown, mean) in self.mean.iter_mut().enumerate() {
-            let parts = ranking.iter().zip(&weights);
-            *mean = parts.map(|(&(group, lane), weight)| weight / total * groups[group].controls[unknown][lane]).sum();
+            let terms = ranking.iter().zip(&weights);
+            *mean = terms.map(|(&(batch, lane), weight)| weight / total * batches[batch].controls[unknown][lane]).sum();
         }
     }
 }
 
-/// exp(-x) for x >= 0 as (1 - x/64)^64, zero from 64 on: products alone have the same digits on every machine.
-fn falling(x: f64) -> f64 {
+/// (1 - x/64)^64, an approximation of exp(-x) for x >= 0 that is zero from 64 on. Products alone are equal to the bit on
+/// every machine.
+fn exp_of_minus(x: f64) -> f64 {
     (1.0 - x / 64.0).max(0.0).powi(64)
 }

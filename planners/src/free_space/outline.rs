@@ -1,0 +1,57 @@
+//! Outlines around obstacles in the plane: offset polygons and sampled boundaries.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::Obstacle;
+
+/// Corners of an offset cylinder's polygon.
+const CYLINDER_CORNERS: usize = 8;
+
+/// Tolerance on the quarter turn up to which an offset corner stays a single one, in quarter turns.
+const QUARTER_TURN_TOLERANCE: f64 = 1e-9;
+
+/// Corners of a polygon around the obstacle whose edges keep `offset_m` from the obstacle's polygon, counterclockwise.
+///
+/// A corner that turns by a quarter turn or less has one corner in the offset polygon (mitre joint); sharper corners and
+/// cylinders are cut off by several.
+pub fn offset_polygon(obstacle: &Obstacle, offset_m: f64) -> Vec<[f64; 2]> {
+    let edges = obstacle.edges();
+    let mut corners = Vec::new();
+    for (i, edge) in edges.iter().enumerate() {
+        let previous = edges[(i + edges.len() - 1) % edges.len()].normal;
+        let first = previous[1].atan2(previous[0]);
+        let (turn, pieces) = if obstacle.is_cylinder() {
+            (TAU, CYLINDER_CORNERS)
+        } else {
+            let turn = turn_angle(previous, edge.normal);
+            (turn, (turn / FRAC_PI_2 - QUARTER_TURN_TOLERANCE).ceil().max(1.0) as usize)
+        };
+        let half = 0.5 * turn / pieces as f64;
+        for piece in 0..pieces {
+            let angle = first + half * (2 * piece + 1) as f64;
+            let radius = offset_m / half.cos();
+            corners.push([edge.corner[0] + radius * angle.cos(), edge.corner[1] + radius * angle.sin()]);
+        }
+    }
+    corners
+}
+
+/// The closed polygon with additional points on its edges, at most `spacing_m` apart.
+pub fn subdivided(corners: &[[f64; 2]], spacing_m: f64) -> Vec<[f64; 2]> {
+    let edge = |i: usize| subdivided_edge(corners[i], corners[(i + 1) % corners.len()], spacing_m);
+    (0..corners.len()).flat_map(edge).collect()
+}
+
+/// Points from `from` (included) to `to` (excluded), equally spaced, at most `spacing_m` apart.
+fn subdivided_edge(from: [f64; 2], to: [f64; 2], spacing_m: f64) -> impl Iterator<Item = [f64; 2]> {
+    let pieces = ((to[0] - from[0]).hypot(to[1] - from[1]) / spacing_m).ceil().max(1.0);
+    (0..pieces as usize).map(move |piece| {
+        let fraction = piece as f64 / pieces;
+        [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]))
+    })
+}
+
+/// Counterclockwise angle from `a` to `b`, rad; in [0, π] for the normals at a convex corner.
+fn turn_angle(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+}

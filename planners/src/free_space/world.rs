@@ -1,0 +1,36 @@
+//! Free space of a scenario's world.
+
+use scenarios::{Prism, Range, World};
+
+use super::{FreeSpace, Obstacle};
+
+impl FreeSpace {
+    /// Bounds and static obstacles of a world; in the plane altitude is unbounded.
+    pub fn from_world(world: &World, is_planar: bool) -> Self {
+        let static_obstacles = static_obstacles(world).map(|(_, obstacle)| obstacle).collect();
+        Self { static_obstacles, ..Self::empty(bounds_m(world, is_planar)) }
+    }
+}
+
+/// Lower and upper bound of each coordinate, m; in the plane altitude is unbounded.
+pub fn bounds_m(world: &World, is_planar: bool) -> [[f64; 2]; 3] {
+    let [x, y, z] = world.map.axes().map(|range| [range.min, range.max]);
+    [x, y, if is_planar { altitude_range_m(None) } else { z }]
+}
+
+/// Every static obstacle, with its name.
+pub fn static_obstacles(world: &World) -> impl Iterator<Item = (String, Obstacle)> {
+    let cylinders = world.cylinders.iter().map(|cylinder| {
+        (cylinder.name.clone(), Obstacle::cylinder(cylinder.center_m, cylinder.radius_m, altitude_range_m(None)))
+    });
+    let prism = |prism: Prism| {
+        let obstacle = Obstacle::prism(&prism.corners_m, altitude_range_m(prism.z_m));
+        (prism.name, obstacle)
+    };
+    cylinders.chain(world.flat_obstacles().into_iter().map(prism))
+}
+
+/// Lowest and highest altitude, m; infinite where absent.
+pub fn altitude_range_m(z_m: Option<Range>) -> [f64; 2] {
+    z_m.map_or([f64::NEG_INFINITY, f64::INFINITY], |range| [range.min, range.max])
+}

@@ -1,0 +1,115 @@
+//! Controller settings from a scenario.
+
+use scenarios::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler, Scenario};
+
+use super::controller::{ControllerSettings, CostModel};
+use super::optimiser::Budget;
+use super::problem::{ControlGrid, Repulsion};
+use super::sampler::{SamplerKind, SwarmSettings};
+use crate::multirotor::{self, PlanningLimits};
+use crate::roadmap::RoadmapKind;
+
+/// Number of node altitudes of cost maps in space, in addition to those of start and goal.
+const NODE_ALTITUDES: usize = 4;
+
+/// Variant of the receding-horizon planner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// RHC with the additions to the paper.
+    Default,
+    /// RHC-PSO.
+    Pso,
+    /// RHC-FPSO.
+    Fpso,
+    /// RHC-APF: FPSO with a potential field.
+    Apf,
+}
+
+/// Altitudes at which cost maps have their nodes, m: in the plane only that of the vehicle.
+pub fn node_altitudes_m(scenario: &Scenario, vehicle: usize) -> Vec<f64> {
+    let vehicle = &scenario.vehicles[vehicle];
+    let [start_m, goal_m] = [&vehicle.start, &vehicle.goal].map(|point| point.position_m()[2]);
+    let mut altitudes_m = vec![start_m];
+    if !scenario.is_planar() {
+        let range = scenario.world.map.z_m;
+        let fraction = |level: usize| (level + 1) as f64 / (NODE_ALTITUDES + 1) as f64;
+        altitudes_m.push(goal_m);
+        altitudes_m.extend((0..NODE_ALTITUDES).map(|level| range.min + fraction(level) * (range.max - range.min)));
+    }
+    altitudes_m.sort_by(f64::total_cmp);
+    altitudes_m.dedup();
+    altitudes_m
+}
+
+/// Settings of a vehicle's controller.
+pub fn controller_settings(scenario: &Scenario, vehicle: usize, variant: Variant) -> ControllerSettings {
+    let horizon = scenario.planner.horizon.clone().unwrap_or_default();
+    let is_default = variant == Variant::Default;
+    ControllerSettings {
+        sampler: sampler(&horizon, variant),
+        budget: Budget {
+            particles: horizon.particles.unwrap_or(40),
+            max_iterations: horizon.iterations.unwrap_or(60),
+            stall_iterations: horizon.stall_iterations,
+        },
+        cost_model: cost_model(&horizon, variant),
+        grid: ControlGrid { steps: horizon.steps.unwrap_or(12), axes: if scenario.is_planar() { 2 } else { 3 } },
+        step_s: horizon.step_s.unwrap_or(0.25),
+        limits: PlanningLimits::of_vehicle(scenario, vehicle),
+        clearance_m: multirotor::clearance_m(scenario, vehicle),
+        smoothness_weight: if is_default { 1e-2 } else { 0.0 },
+        stage_weight: 1.0,
+        starts_warm: is_default,
+        projects_controls: is_default,
+        requires_stop: is_default,
+        costs_infeasible: horizon.costs_infeasible.unwrap_or(false),
+        known_radius_m: known_radius_m(scenario, vehicle),
+    }
+}
+
+/// Distance from the state at which an answer takes effect within which all static obstacles are known, m.
+fn known_radius_m(scenario: &Scenario, vehicle: usize) -> f64 {
+    let model = scenario.multirotor_model(&scenario.vehicles[vehicle]);
+    model.sensor_range_m - model.planning_limits.speed_mps * scenario.simulation.planning.deadline_s
+}
+
+fn sampler(horizon: &Horizon, variant: Variant) -> SamplerKind {
+    let sampler = match variant {
+        Variant::Default => horizon.sampler.unwrap_or(Sampler::Fpso),
+        Variant::Pso => Sampler::Pso,
+        Variant::Fpso | Variant::Apf => Sampler::Fpso,
+    };
+    let moves_as_printed = horizon.moves_as_printed.unwrap_or(false);
+    match sampler {
+        Sampler::Pso => SamplerKind::ParticleSwarm(SwarmSettings { moves_as_printed, ..SwarmSettings::STANDARD }),
+        Sampler::Fpso => {
+            SamplerKind::ParticleSwarm(SwarmSettings { moves_as_printed, ..SwarmSettings::FEASIBILITY_DRIVEN })
+        }
+        Sampler::Cem => SamplerKind::CrossEntropy,
+        Sampler::Mppi => SamplerKind::PathIntegral,
+        Sampler::CmaEs => SamplerKind::CmaEs,
+    }
+}
+
+fn cost_model(horizon: &Horizon, variant: Variant) -> CostModel {
+    let roadmap = match horizon.cost_map {
+        Some(CostMap::Voronoi) => RoadmapKind::Voronoi,
+        Some(CostMap::Visibility) | None => RoadmapKind::Visibility,
+    };
+    let field = horizon.field.clone().unwrap_or_default();
+    match (variant, field.form) {
+        (Variant::Apf, Some(PotentialFieldForm::Alone)) => {
+            CostModel::PotentialField { attraction: field.attraction.unwrap_or(0.1), repulsion: repulsion(&field) }
+        }
+        (Variant::Apf, _) => CostModel::CostMap { roadmap, repulsion: Some(repulsion(&field)) },
+        _ => CostModel::CostMap { roadmap, repulsion: None },
+    }
+}
+
+fn repulsion(field: &PotentialField) -> Repulsion {
+    Repulsion {
+        gain: field.gain.unwrap_or(0.05),
+        reach_m: field.reach_m.unwrap_or(1.0),
+        is_squared: field.repulsion != Some(RepulsionForm::Printed),
+    }
+}
