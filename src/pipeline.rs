@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use scenarios::{Plan, Scenario};
-use sim::{Flight, Setup};
+use sim::{Flight, FlightOptions};
 
 use crate::campaign::margin_budget;
 use crate::campaign::margin_budget::MarginBudget;
@@ -105,7 +105,7 @@ fn fly(job: &Job, plan: &Plan, progress: &mut Progress) -> Option<Flight> {
 
 /// The same flight with half and with a quarter of the plant's step, and how far they are apart.
 fn refine_step(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
-    let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &Setup::finer(halvings), &mut |_| {});
+    let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &FlightOptions::finer(halvings), &mut |_| {});
     let (half, quarter) = rayon::join(|| finer(1), || finer(2));
     Integration::by_finer_steps(flight, [&half, &quarter])
 }

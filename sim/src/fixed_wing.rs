@@ -5,21 +5,21 @@
 
 mod air_path;
 mod aircraft;
+mod aircraft_batch;
 mod attitude;
 mod collisions;
 mod fleet;
-mod flow;
 mod plant;
+mod propagate;
 mod quintic;
 mod reference;
 mod replay;
-mod squadron;
 mod tracker;
 
 pub use air_path::{AirPath, acceleration_mps2, gravity_mps2};
 pub use attitude::world_from_body;
 pub(crate) use fleet::fly;
-pub use flow::{Knot, flow, rollout};
 use plant::mid_step_force_n;
+pub use propagate::{Knot, propagate, rollout};
 pub use reference::{Reference, ReferencePoint};
-pub use replay::{Acting, replayed};
+pub use replay::{AppliedControls, replayed};

@@ -7,7 +7,7 @@ use crate::{Flight, fixed_wing, multirotor, slung_load};
 
 /// Who decides on the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Pilot {
+pub enum ControlMode {
     /// The tracker follows the plan from the measured state.
     #[default]
     Tracker,
@@ -18,9 +18,9 @@ pub enum Pilot {
 /// How a flight differs from an ordinary one, to look at plant and tracker apart: the tests hold open-loop flights
 /// against an independent integrator, and let the tracker catch up from a wrong start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Setup {
+pub struct FlightOptions {
     /// Who decides on the controls.
-    pub pilot: Pilot,
+    pub control_mode: ControlMode,
     /// Where every vehicle starts, relative to its plan's first state, world frame, m.
     pub start_offset_m: [f64; 3],
     /// Velocity over ground with which every vehicle starts, relative to its plan's first state, world frame, m/s.
@@ -29,7 +29,7 @@ pub struct Setup {
     pub halvings: u32,
 }
 
-impl Setup {
+impl FlightOptions {
     /// An ordinary flight with a plant whose step is halved so often.
     pub fn finer(halvings: u32) -> Self {
         Self { halvings, ..Self::default() }
@@ -50,11 +50,17 @@ impl Setup {
 ///
 /// Panics if the plan is not what it should be: whoever loaded it should have seen.
 pub fn fly(scenario: &Scenario, plan: &Plan, seed: u64, progress: &mut dyn FnMut(f64)) -> Flight {
-    fly_with(scenario, plan, seed, &Setup::default(), progress)
+    fly_with(scenario, plan, seed, &FlightOptions::default(), progress)
 }
 
-/// [`fly`] with another pilot or another start.
-pub fn fly_with(scenario: &Scenario, plan: &Plan, seed: u64, setup: &Setup, progress: &mut dyn FnMut(f64)) -> Flight {
+/// [`fly`] with another control_mode or another start.
+pub fn fly_with(
+    scenario: &Scenario,
+    plan: &Plan,
+    seed: u64,
+    setup: &FlightOptions,
+    progress: &mut dyn FnMut(f64),
+) -> Flight {
     let began = Instant::now();
     assert_flyable(scenario, plan);
     let steps = number_of_steps(scenario, plan);

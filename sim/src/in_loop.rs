@@ -1,15 +1,15 @@
 //! Planning in the loop: who is asked when, what he is told, and when his answer is flown.
 
 mod acceptance;
-mod helm;
 mod planning_time;
-mod senses;
+mod reference_manager;
+mod sensed_world;
 
 use scenarios::in_loop::{Node, ReplanDiagnostics, ReplanStatus};
 use scenarios::multirotor::Trajectory;
 
-pub(crate) use helm::{Fix, Helm};
-pub(crate) use senses::{Other, Senses};
+pub(crate) use reference_manager::{NavigationInput, ReferenceManager};
+pub(crate) use sensed_world::{Other, SensedWorld};
 
 /// Everything that was planned during a flight.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,6 +7,7 @@
 //! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier.
 
 mod air;
+mod collision;
 pub mod fixed_wing;
 mod flight;
 mod fly;
@@ -20,9 +21,8 @@ mod sensors;
 pub mod slung_load;
 mod start;
 mod state_hash;
-mod touch;
 
 pub use flight::{Actuation, Commanded, Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
-pub use fly::{Pilot, Setup, fly, fly_in_loop, fly_with};
+pub use fly::{ControlMode, FlightOptions, fly, fly_in_loop, fly_with};
 pub use in_loop::{PlanningLog, Replan};
 pub use state_hash::StateHash;

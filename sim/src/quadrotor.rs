@@ -5,7 +5,7 @@ mod attitude;
 
 use nalgebra::{Vector3, Vector4};
 
-pub(crate) use attitude::{Turning, torque_nm};
+pub(crate) use attitude::{AttitudeState, torque_nm};
 
 /// Where the rotors sit and how they turn.
 #[derive(Clone, Copy, Debug, PartialEq)]

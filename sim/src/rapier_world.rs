@@ -1,13 +1,13 @@
 //! The only place that knows rapier: bodies under gravity and forces.
 
-mod hoist;
+mod tethered_pair;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
 
 use crate::fixed_wing::gravity_mps2;
 
-pub(crate) use hoist::{Hoist, Loads};
+pub(crate) use tethered_pair::{AppliedForces, TetheredPair};
 
 /// Rapier cuts off faster bodies.
 const MAX_SPEED_MPS: f64 = 1000.0;

@@ -4,8 +4,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::quadrotor::Turning;
-use crate::slung_load::Body;
+use crate::quadrotor::AttitudeState;
+use crate::slung_load::SlungLoadState;
 
 /// What the sensors say of position (m) and velocity over ground (m/s), world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,10 +35,10 @@ impl Sensors {
     }
 
     /// What is measured of the attitude (world from body) and of the angular velocity in body axes, rad/s.
-    pub fn measure_turning(&mut self, truth: &Turning) -> Turning {
+    pub fn measure_turning(&mut self, truth: &AttitudeState) -> AttitudeState {
         let scenarios::Sensors { attitude_noise_deg, rate_noise_degps, .. } = self.settings;
         let turn = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
-        Turning {
+        AttitudeState {
             attitude: truth.attitude * UnitQuaternion::from_scaled_axis(turn),
             rate_radps: self.disturbed(truth.rate_radps, rate_noise_degps.to_radians()),
         }
@@ -53,11 +53,11 @@ impl Sensors {
     }
 
     /// One measurement of a quadrotor and its load.
-    pub fn measure_slung_load(&mut self, truth: &Body) -> Body {
+    pub fn measure_slung_load(&mut self, truth: &SlungLoadState) -> SlungLoadState {
         let Measurement { position_m, velocity_mps } = self.measure(truth.position_m, truth.velocity_mps);
-        let turning = Turning { attitude: truth.attitude, rate_radps: truth.body_rate_radps };
-        let Turning { attitude, rate_radps } = self.measure_turning(&turning);
-        Body {
+        let turning = AttitudeState { attitude: truth.attitude, rate_radps: truth.body_rate_radps };
+        let AttitudeState { attitude, rate_radps } = self.measure_turning(&turning);
+        SlungLoadState {
             position_m,
             velocity_mps,
             attitude,

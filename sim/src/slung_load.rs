@@ -3,24 +3,24 @@
 //!
 //! Planners write the same motion in cable angles (Kang, Huang, Wen 2020); the two share no formula.
 
-mod body;
-mod cable_watch;
+mod cable_detector;
 mod dynamics;
-mod flow;
 mod fly;
 mod gains;
 mod linear;
+mod propagate;
 mod reference;
 mod replay;
 mod shapes;
+mod state;
 mod tracker;
 
-pub use body::Body;
-pub use cable_watch::SHORTEST_PHASE_S;
+pub use cable_detector::SHORTEST_PHASE_S;
 pub use dynamics::{Plant, impact};
-pub use flow::{Knot, flow};
+pub use propagate::{Knot, propagate};
 pub use reference::{Reference, ReferencePoint};
-pub use replay::{Acting, Replay};
+pub use replay::{AppliedControls, Replay};
 pub use shapes::{GROUND, OVERHANG_M, Part, Parts, Plane};
+pub use state::SlungLoadState;
 
 pub(crate) use fly::fly;

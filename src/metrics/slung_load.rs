@@ -4,7 +4,7 @@ use scenarios::slung_load::Cable;
 use scenarios::{Plan, Scenario};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use sim::slung_load::{Body, Parts};
+use sim::slung_load::{Parts, SlungLoadState};
 use sim::{EventKind, Flight};
 
 use super::{Metrics, finite};
@@ -70,7 +70,7 @@ fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Slun
 
 fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoadMetrics) {
     let parts = Parts::of(scenario.slung_load_model(&scenario.vehicles[0]));
-    let reach_m = |body: &Body| body.cable_m().xy().norm() - parts.body_radius_m();
+    let reach_m = |body: &SlungLoadState| body.cable_m().xy().norm() - parts.body_radius_m();
     for pair in planned.knots.windows(2) {
         let (before, after) = (reach_m(&pair[0].body), reach_m(&pair[1].body));
         if (before > 0.0) != (after > 0.0) && pair[1].t_s > pair[0].t_s {
@@ -118,7 +118,7 @@ fn switch(t_s: f64, cable: Cable, impulse_ns: Option<f64>) -> CableSwitch {
 }
 
 /// Angle of the cable from straight down, deg.
-fn swing_deg(body: &Body) -> f64 {
+fn swing_deg(body: &SlungLoadState) -> f64 {
     let cable_m = body.cable_m();
     cable_m.xy().norm().atan2(-cable_m.z).to_degrees()
 }

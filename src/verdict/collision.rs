@@ -1,7 +1,7 @@
 //! Do airframes touch each other or an obstacle?
 
 use scenarios::{Family, Scenario};
-use sim::multirotor::Surroundings;
+use sim::multirotor::Obstacles;
 
 use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::evidence::Measurement;
@@ -36,7 +36,7 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
 /// The first sample of a multirotor inside an obstacle, one that moves included. What lies between two samples is a matter
 /// for the clearance.
 fn sampled(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
-    let surroundings = Surroundings::of(&scenario.world);
+    let surroundings = Obstacles::of(&scenario.world);
     scenario.vehicles.iter().zip(motions).find_map(|(vehicle, motion)| {
         let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
         motion.knots().iter().find_map(|knot| {

@@ -6,7 +6,7 @@ use harness::verdict::{Check, Status, Verdict, judge};
 use nalgebra::Vector3;
 use scenarios::slung_load::{Cable, Control, GRAVITY_MPS2, State, Trajectory};
 use scenarios::{BoxObstacle, LoadPoint, Plan, Scenario, Waypoint};
-use sim::slung_load::{Body, Plant, flow, impact};
+use sim::slung_load::{Plant, SlungLoadState, impact, propagate};
 use sim::{Actuation, Commanded, Flight, LoadSample, Sample, fly};
 
 use crate::arena::{model, plan, scenario, silent, trajectory};
@@ -58,10 +58,11 @@ impl Case {
         let first = State::at(&start, model.cable_length_m);
         let fall_s = (2.0 * 0.2 / GRAVITY_MPS2).sqrt();
         let last = |knots: Vec<sim::slung_load::Knot>| knots[knots.len() - 1].body;
-        let before = last(flow(&plant, &Body::from(&first), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01));
+        let before =
+            last(propagate(&plant, &SlungLoadState::from(&first), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01));
         let (after, _) = impact(&plant, &before);
         let rest_s = fall_s - after.velocity_mps.z / 2.0;
-        let rest = State::from(&last(flow(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, rest_s], 0.01)));
+        let rest = State::from(&last(propagate(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, rest_s], 0.01)));
         let nodes = [
             (0.0, first, hover.thrust_n, Cable::Slack),
             (fall_s, State::from(&before), hover.thrust_n, Cable::Slack),

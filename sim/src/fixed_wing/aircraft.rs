@@ -7,13 +7,13 @@ use super::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
 use crate::air::Air;
 use crate::saturation::SaturationWatch;
 use crate::sensors::{Delay, Measurement, Sensors};
-use crate::{Actuation, Commanded, EventKind, Pilot, Sample, VehicleLog};
+use crate::{Actuation, Commanded, ControlMode, EventKind, Sample, VehicleLog};
 
 /// One aircraft of the fleet: everything about it but its body.
 pub(crate) struct Aircraft {
     model: Model,
     reference: Reference,
-    pilot: Pilot,
+    control_mode: ControlMode,
     tracker: Tracker,
     sensors: Sensors,
     delay: Delay<Measurement>,
@@ -36,7 +36,7 @@ impl Aircraft {
         scenario: &Scenario,
         vehicle: &Vehicle,
         trajectory: &Trajectory,
-        pilot: Pilot,
+        control_mode: ControlMode,
         seed: u64,
         steps: usize,
     ) -> Self {
@@ -45,7 +45,7 @@ impl Aircraft {
         Self {
             model: scenario.fixed_wing_model(vehicle).clone(),
             reference: Reference::new(trajectory),
-            pilot,
+            control_mode,
             tracker: Tracker::new(&settings.tracker, settings.step_s),
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
@@ -90,7 +90,7 @@ impl Aircraft {
     }
 
     /// It crashed: what it did after so many steps never happened.
-    pub fn take_out(&mut self, steps: usize) {
+    pub fn remove(&mut self, steps: usize) {
         self.is_flying = false;
         self.log.samples.truncate(steps + 1);
     }
@@ -128,14 +128,14 @@ impl Aircraft {
 
     fn command(&self, t_s: f64, measured: &Measurement, reference: &ReferencePoint) -> Control {
         let ahead = self.reference.at(t_s + self.step_s / 2.0);
-        match self.pilot {
-            Pilot::Tracker => self.tracker.command(measured, reference, &ahead),
-            Pilot::OpenLoop => ahead.control,
+        match self.control_mode {
+            ControlMode::Tracker => self.tracker.command(measured, reference, &ahead),
+            ControlMode::OpenLoop => ahead.control,
         }
     }
 
     /// The air moves on by the coming step. The truth at its beginning, for which [`decide`](Self::decide) was called.
-    pub fn let_air_pass(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
+    pub fn advance_wind(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
         self.air.advance(self.step_s, position_m.z, (velocity_mps - self.wind_mps).norm());
         self.wind_ahead_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
     }
@@ -152,7 +152,7 @@ impl Aircraft {
     }
 
     /// The flight is over. Returns the log, and an event with its time, s, if one was still to come.
-    pub fn land(mut self) -> (VehicleLog, Option<(f64, EventKind)>) {
+    pub fn finish(mut self) -> (VehicleLog, Option<(f64, EventKind)>) {
         (self.log, self.saturation.finish())
     }
 }

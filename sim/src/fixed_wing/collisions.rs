@@ -2,12 +2,12 @@ use nalgebra::{Vector2, Vector3};
 use scenarios::Cylinder;
 
 use crate::Sample;
-use crate::touch::{first_touch, horizontal};
+use crate::collision::{horizontal, time_of_impact};
 
 /// Two aircraft, or an aircraft and a pillar, begin to touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Collision {
-    /// Index of the stretch's step, from 0.
+    /// Index of the time_chunk's step, from 0.
     pub step: usize,
     /// When during that step, as a share in [0, 1].
     pub share: f64,
@@ -24,17 +24,17 @@ pub(super) enum Obstacle {
     Pillar(usize),
 }
 
-/// The way of a ball on a stretch of steps: straight between one sample and the next, as the simulator moves it.
+/// The way of a ball on a time_chunk of steps: straight between one sample and the next, as the simulator moves it.
 #[derive(Clone, Copy)]
-pub(super) struct Way<'a> {
+pub(super) struct SweptPath<'a> {
     pub aircraft: usize,
     pub radius_m: f64,
     pub samples: &'a [Sample],
 }
 
-/// Everything that touches on a stretch, in the order of time, then of the aircraft. Each pair appears with its first
+/// Everything that touches on a time_chunk, in the order of time, then of the aircraft. Each pair appears with its first
 /// touch only. Nothing passes through anything between two steps.
-pub(super) fn collisions(ways: &[Way<'_>], pillars: &[Cylinder]) -> Vec<Collision> {
+pub(super) fn collisions(ways: &[SweptPath<'_>], pillars: &[Cylinder]) -> Vec<Collision> {
     let mut swept: Vec<Swept<'_>> = ways.iter().map(|way| Swept::by(*way)).collect();
     swept.sort_by(|a, b| a.west_m().total_cmp(&b.west_m()));
     let mut found: Vec<Collision> = Vec::new();
@@ -50,13 +50,13 @@ pub(super) fn collisions(ways: &[Way<'_>], pillars: &[Cylinder]) -> Vec<Collisio
 
 /// A way within the ball that surely holds all of it.
 struct Swept<'a> {
-    way: Way<'a>,
+    way: SweptPath<'a>,
     center_m: Vector3<f64>,
     reach_m: f64,
 }
 
 impl<'a> Swept<'a> {
-    fn by(way: Way<'a>) -> Self {
+    fn by(way: SweptPath<'a>) -> Self {
         let center_m = position_m(&way.samples[0]);
         let distances_m = way.samples.iter().map(|sample| (position_m(sample) - center_m).norm());
         Self { way, center_m, reach_m: distances_m.fold(0.0, f64::max) + way.radius_m }
@@ -77,7 +77,8 @@ impl<'a> Swept<'a> {
         let (a, b) = if self.way.aircraft < other.way.aircraft { (self, other) } else { (other, self) };
         let relative_m = |index: usize| position_m(&a.way.samples[index]) - position_m(&b.way.samples[index]);
         let reach_m = a.way.radius_m + b.way.radius_m;
-        let (step, share) = self.first_step(|step| first_touch(&relative_m(step), &relative_m(step + 1), reach_m))?;
+        let (step, share) =
+            self.first_step(|step| time_of_impact(&relative_m(step), &relative_m(step + 1), reach_m))?;
         Some(Collision { step, share, aircraft: a.way.aircraft, with: Obstacle::Aircraft(b.way.aircraft) })
     }
 
@@ -89,7 +90,8 @@ impl<'a> Swept<'a> {
         let axis_m = Vector3::new(center_m.x, center_m.y, 0.0);
         let relative_m = |index: usize| horizontal(&(position_m(&self.way.samples[index]) - axis_m));
         let reach_m = self.way.radius_m + pillar.radius_m;
-        let (step, share) = self.first_step(|step| first_touch(&relative_m(step), &relative_m(step + 1), reach_m))?;
+        let (step, share) =
+            self.first_step(|step| time_of_impact(&relative_m(step), &relative_m(step + 1), reach_m))?;
         Some(Collision { step, share, aircraft: self.way.aircraft, with: Obstacle::Pillar(index) })
     }
 

@@ -3,22 +3,22 @@ use rayon::prelude::*;
 use scenarios::{Cylinder, Plan, Scenario};
 
 use super::aircraft::Aircraft;
-use super::collisions::{Collision, Obstacle, Way, collisions};
-use super::squadron::Squadron;
-use crate::{Event, EventKind, Setup, VehicleLog, start};
+use super::aircraft_batch::AircraftBatch;
+use super::collisions::{Collision, Obstacle, SweptPath, collisions};
+use crate::{Event, EventKind, FlightOptions, VehicleLog, start};
 
-/// Length of a stretch, s: after each it is seen who touched what.
+/// Length of a time_chunk, s: after each it is seen who touched what.
 const STRETCH_S: f64 = 1.0;
 
 /// Flies a plan of fixed wings for so many steps, and returns their logs and what happened.
 ///
-/// Aircraft do not feel each other, so squadrons of them fly side by side, a stretch at a time. Whoever touched something
+/// Aircraft do not feel each other, so squadrons of them fly side by side, a time_chunk at a time. Whoever touched something
 /// on it should not have flown on: the log is cut, and the others never noticed.
 pub(crate) fn fly(
     scenario: &Scenario,
     plan: &Plan,
     seed: u64,
-    setup: &Setup,
+    setup: &FlightOptions,
     steps: usize,
     progress: &mut dyn FnMut(f64),
 ) -> (Vec<VehicleLog>, Vec<Event>) {
@@ -30,37 +30,37 @@ pub(crate) fn fly(
         fleet.fly(first, last);
         progress(last as f64 * step_s);
     }
-    fleet.land()
+    fleet.finish()
 }
 
 /// The fleet in the air.
 struct Fleet<'a> {
-    squadrons: Vec<Squadron>,
+    squadrons: Vec<AircraftBatch>,
     pillars: &'a [Cylinder],
     step_s: f64,
     events: Vec<Event>,
 }
 
 impl<'a> Fleet<'a> {
-    fn new(scenario: &'a Scenario, plan: &Plan, seed: u64, setup: &Setup, steps: usize) -> Self {
+    fn new(scenario: &'a Scenario, plan: &Plan, seed: u64, setup: &FlightOptions, steps: usize) -> Self {
         let step_s = scenario.simulation.step_s;
-        let mut squadrons: Vec<Squadron> = Vec::new();
+        let mut squadrons: Vec<AircraftBatch> = Vec::new();
         for (vehicle, trajectory) in scenario.vehicles.iter().zip(&plan.trajectories) {
-            if squadrons.last().is_none_or(Squadron::is_full) {
-                squadrons.push(Squadron::new(step_s, setup.substeps()));
+            if squadrons.last().is_none_or(AircraftBatch::is_full) {
+                squadrons.push(AircraftBatch::new(step_s, setup.substeps()));
             }
             let trajectory = trajectory.fixed_wing();
             let first = &trajectory.states[0];
             let offset_m = start::offset_m(scenario, vehicle, setup, seed);
             squadrons.last_mut().expect("one was added").add(
-                Aircraft::new(scenario, vehicle, trajectory, setup.pilot, seed, steps),
+                Aircraft::new(scenario, vehicle, trajectory, setup.control_mode, seed, steps),
                 scenario.simulation.mismatch.mass_ratio,
                 Vector3::from(first.position_m()) + offset_m,
                 Vector3::from(first.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps),
             );
         }
         let mut fleet = Self { squadrons, pillars: &scenario.world.cylinders, step_s, events: Vec::new() };
-        fleet.squadrons.par_iter_mut().for_each(Squadron::begin);
+        fleet.squadrons.par_iter_mut().for_each(AircraftBatch::begin);
         fleet
     }
 
@@ -70,19 +70,19 @@ impl<'a> Fleet<'a> {
         for collision in self.collisions(first) {
             self.crash(first, &collision);
         }
-        for aircraft in self.squadrons.iter_mut().flat_map(Squadron::aircraft_mut) {
+        for aircraft in self.squadrons.iter_mut().flat_map(AircraftBatch::aircraft_mut) {
             let happened = aircraft.saturations(first);
             let vehicle = aircraft.name();
             self.events.extend(happened.into_iter().map(|(t_s, kind)| event(t_s, kind, vehicle)));
         }
     }
 
-    /// Who touches what on the stretch that began with step `first`.
+    /// Who touches what on the time_chunk that began with step `first`.
     fn collisions(&self, first: usize) -> Vec<Collision> {
-        let everybody = self.squadrons.iter().flat_map(Squadron::aircraft).enumerate();
+        let everybody = self.squadrons.iter().flat_map(AircraftBatch::aircraft).enumerate();
         let flying = everybody.filter(|(_, aircraft)| aircraft.is_flying());
-        let ways: Vec<Way<'_>> = flying
-            .map(|(index, aircraft)| Way {
+        let ways: Vec<SweptPath<'_>> = flying
+            .map(|(index, aircraft)| SweptPath {
                 aircraft: index,
                 radius_m: aircraft.body_radius_m(),
                 samples: &aircraft.samples()[first..],
@@ -105,18 +105,18 @@ impl<'a> Fleet<'a> {
         let vehicles = out.iter().map(|index| self.aircraft(*index).name().to_owned()).collect();
         self.events.push(Event { t_s, kind: EventKind::Crash { obstacle }, vehicles });
         for index in out {
-            self.squadrons[index / Squadron::SIZE].take_out(index % Squadron::SIZE, step + 1);
+            self.squadrons[index / AircraftBatch::SIZE].remove(index % AircraftBatch::SIZE, step + 1);
         }
     }
 
     fn aircraft(&self, index: usize) -> &Aircraft {
-        &self.squadrons[index / Squadron::SIZE].aircraft()[index % Squadron::SIZE]
+        &self.squadrons[index / AircraftBatch::SIZE].aircraft()[index % AircraftBatch::SIZE]
     }
 
-    fn land(mut self) -> (Vec<VehicleLog>, Vec<Event>) {
+    fn finish(mut self) -> (Vec<VehicleLog>, Vec<Event>) {
         let mut vehicles = Vec::new();
-        for aircraft in self.squadrons.into_iter().flat_map(Squadron::land) {
-            let (log, last_event) = aircraft.land();
+        for aircraft in self.squadrons.into_iter().flat_map(AircraftBatch::finish) {
+            let (log, last_event) = aircraft.finish();
             self.events.extend(last_event.map(|(t_s, kind)| event(t_s, kind, &log.vehicle)));
             vehicles.push(log);
         }

@@ -2,7 +2,7 @@ use nalgebra::Vector3;
 use scenarios::Interpolation;
 use scenarios::fixed_wing::{Control, Trajectory};
 
-use super::flow::{Knot, first_order_hold, flow};
+use super::propagate::{Knot, first_order_hold, propagate};
 use super::quintic::{Jet, Quintic};
 use super::{AirPath, acceleration_mps2, gravity_mps2};
 
@@ -87,7 +87,7 @@ fn interval_pieces(trajectory: &Trajectory, interval: usize) -> Vec<Piece> {
     let (start_s, end_s) = (trajectory.times_s[interval], trajectory.times_s[interval + 1]);
     let controls = [trajectory.controls[interval], trajectory.controls[interval + 1]];
     let duration_s = end_s - start_s;
-    let knots = flow(&trajectory.states[interval], controls, start_s, duration_s, PIECE_S);
+    let knots = propagate(&trajectory.states[interval], controls, start_s, duration_s, PIECE_S);
     let next = Knot::of(&trajectory.states[interval + 1], end_s);
     let correction = defect_correction(&knots[knots.len() - 1], &next, duration_s);
     let control_at = |t_s: f64| first_order_hold(controls, (t_s - start_s) / duration_s);

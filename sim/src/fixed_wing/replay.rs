@@ -6,7 +6,7 @@ use crate::runge_kutta;
 
 /// What acts on an aircraft during one step of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Acting {
+pub struct AppliedControls {
     /// Load factors, constant over the step.
     pub control: Control,
     /// Velocity of the air at the step's two ends, linear in time between them, world frame, m/s.
@@ -26,7 +26,7 @@ pub struct Acting {
 ///
 /// - `start`: the motion at the step's beginning
 /// - `end_s`: the time at its end, later than `start`, s
-pub fn replayed(start: &Knot, acting: &Acting, end_s: f64) -> Knot {
+pub fn replayed(start: &Knot, acting: &AppliedControls, end_s: f64) -> Knot {
     let step_s = end_s - start.t_s;
     let mut motion = Vector6::zeros();
     motion.fixed_rows_mut::<3>(0).copy_from(&start.position_m);

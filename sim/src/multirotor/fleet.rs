@@ -3,14 +3,14 @@ use scenarios::in_loop::{InLoopPlanner, ReplanStatus};
 use scenarios::multirotor::Plant;
 use scenarios::{AppliedLimits, Plan, Scenario};
 
-use super::craft::{Craft, Truth};
+use super::multirotor_sim::{MultirotorSim, Truth};
+use super::obstacles::Obstacles;
 use super::reference::Reference;
-use super::surroundings::Surroundings;
-use crate::in_loop::{Fix, Helm, Other, PlanningLog, Replan, Senses};
+use crate::collision::time_of_impact;
+use crate::in_loop::{NavigationInput, Other, PlanningLog, ReferenceManager, Replan, SensedWorld};
 use crate::rapier_world::RapierWorld;
 use crate::sensors::{Measurement, Sensors};
-use crate::touch::first_touch;
-use crate::{Event, EventKind, Flight, Pilot, Setup, VehicleLog, start};
+use crate::{ControlMode, Event, EventKind, Flight, FlightOptions, VehicleLog, start};
 
 /// Longest step of a quadrotor's plant, s: an ordinary step of the simulator, for which a command is held, is divided into
 /// such.
@@ -21,7 +21,7 @@ pub(crate) fn fly(
     scenario: &Scenario,
     plan: &Plan,
     seed: u64,
-    setup: &Setup,
+    setup: &FlightOptions,
     steps: usize,
     progress: &mut dyn FnMut(f64),
 ) -> (Vec<VehicleLog>, Vec<Event>) {
@@ -41,7 +41,7 @@ pub(crate) fn fly(
         }
         report(t_s, fleet.step_s, progress);
     }
-    fleet.land()
+    fleet.finish()
 }
 
 /// Flies multirotors with their planners, until all have come to rest at their goals and coasted, or for the longest
@@ -53,7 +53,7 @@ pub(crate) fn fly_in_loop(
     progress: &mut dyn FnMut(f64),
 ) -> Flight {
     let settings = &scenario.simulation;
-    let mut fleet = Fleet::new(scenario, seed, &Setup::default());
+    let mut fleet = Fleet::new(scenario, seed, &FlightOptions::default());
     let mut crew = Crew::new(scenario, planners, seed);
     let most_steps = (settings.max_duration_s / settings.step_s - 1e-3).ceil() as usize;
     let (mut steps, mut arrived_s) = (most_steps, None);
@@ -86,7 +86,7 @@ pub(crate) fn fly_in_loop(
         step += 1;
     }
     let end_s = arrived_s.unwrap_or(fleet.time_s(step.min(steps)));
-    let (vehicles, events) = fleet.land();
+    let (vehicles, events) = fleet.finish();
     let planning = Some(crew.log(scenario, end_s));
     Flight { step_s: settings.step_s, plan_end_s: end_s, vehicles, events, planning, wall_s: 0.0 }
 }
@@ -94,8 +94,8 @@ pub(crate) fn fly_in_loop(
 /// Multirotors in the air.
 struct Fleet {
     world: RapierWorld,
-    surroundings: Surroundings,
-    crafts: Vec<Craft>,
+    surroundings: Obstacles,
+    crafts: Vec<MultirotorSim>,
     is_flying: Vec<bool>,
     events: Vec<Event>,
     step_s: f64,
@@ -104,12 +104,12 @@ struct Fleet {
 }
 
 impl Fleet {
-    fn new(scenario: &Scenario, seed: u64, setup: &Setup) -> Self {
+    fn new(scenario: &Scenario, seed: u64, setup: &FlightOptions) -> Self {
         let step_s = scenario.simulation.step_s;
         let has_rotors = scenario.vehicles.iter().any(|it| scenario.multirotor_model(it).plant == Plant::Quadrotor);
         let plant_steps = if has_rotors { (step_s / LONGEST_PLANT_STEP_S - 1e-6).ceil().max(1.0) as usize } else { 1 };
         let mut world = RapierWorld::new(step_s / plant_steps as f64);
-        let crafts: Vec<Craft> = scenario
+        let crafts: Vec<MultirotorSim> = scenario
             .vehicles
             .iter()
             .enumerate()
@@ -118,18 +118,18 @@ impl Fleet {
                 let position_m = Vector3::from(vehicle.start.position_m()) + offset_m;
                 let velocity_mps =
                     Vector3::from(vehicle.start.velocity_mps()) + Vector3::from(setup.start_velocity_offset_mps);
-                Craft::new(scenario, (index, vehicle), seed, &mut world, [position_m, velocity_mps])
+                MultirotorSim::new(scenario, (index, vehicle), seed, &mut world, [position_m, velocity_mps])
             })
             .collect();
         Self {
             world,
-            surroundings: Surroundings::of(&scenario.world),
+            surroundings: Obstacles::of(&scenario.world),
             is_flying: vec![true; crafts.len()],
             crafts,
             events: Vec::new(),
             step_s,
             plant_steps,
-            open_loop: setup.pilot == Pilot::OpenLoop,
+            open_loop: setup.control_mode == ControlMode::OpenLoop,
         }
     }
 
@@ -175,7 +175,7 @@ impl Fleet {
                 let start_m = a.position_m - b.position_m;
                 let end_m = self.world.position_m(first) - self.world.position_m(second);
                 let reach_m = self.crafts[first].model.body_radius_m + self.crafts[second].model.body_radius_m;
-                touches.extend(first_touch(&start_m, &end_m, reach_m).map(|share| (share, [first, second])));
+                touches.extend(time_of_impact(&start_m, &end_m, reach_m).map(|share| (share, [first, second])));
             }
         }
         touches.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -191,7 +191,7 @@ impl Fleet {
             let Some(start) = start.filter(|_| self.is_flying[index]) else { continue };
             let ends_m = [start.position_m, self.world.position_m(index)];
             let radius_m = self.crafts[index].model.body_radius_m;
-            if let Some((share, obstacle)) = self.surroundings.first_touch(times_s, ends_m, radius_m) {
+            if let Some((share, obstacle)) = self.surroundings.time_of_impact(times_s, ends_m, radius_m) {
                 let name = self.surroundings.name(obstacle).to_owned();
                 self.crash(&[index], Some(name), times_s[0] + share * (times_s[1] - times_s[0]));
             }
@@ -207,7 +207,7 @@ impl Fleet {
         }
     }
 
-    fn land(mut self) -> (Vec<VehicleLog>, Vec<Event>) {
+    fn finish(mut self) -> (Vec<VehicleLog>, Vec<Event>) {
         let mut logs = Vec::with_capacity(self.crafts.len());
         for mut craft in self.crafts {
             let vehicle = craft.name().to_owned();
@@ -222,8 +222,8 @@ impl Fleet {
 struct Crew {
     names: Vec<String>,
     plans_shared: bool,
-    senses: Vec<Senses>,
-    helms: Vec<Helm>,
+    senses: Vec<SensedWorld>,
+    helms: Vec<ReferenceManager>,
     replans: Vec<Replan>,
 }
 
@@ -235,11 +235,22 @@ impl Crew {
         for (index, (vehicle, planner)) in scenario.vehicles.iter().zip(planners).enumerate() {
             let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
             let range_m = scenario.multirotor_model(vehicle).sensor_range_m;
-            senses.push(Senses::new(&scenario.world, range_m, Sensors::new(&settings.sensors, stream("sightings"))));
+            senses.push(SensedWorld::new(
+                &scenario.world,
+                range_m,
+                Sensors::new(&settings.sensors, stream("sightings")),
+            ));
             let share = index as f64 / count;
             let start_m = Vector3::from(vehicle.start.position_m());
             let rng = stream("planning");
-            helms.push(Helm::new((index, planner), &settings.planning, rng, settings.step_s, share, start_m));
+            helms.push(ReferenceManager::new(
+                (index, planner),
+                &settings.planning,
+                rng,
+                settings.step_s,
+                share,
+                start_m,
+            ));
         }
         let names = scenario.vehicles.iter().map(|vehicle| vehicle.name.clone()).collect();
         Self { names, plans_shared: scenario.fleet.plans_shared, senses, helms, replans: Vec::new() }
@@ -260,7 +271,7 @@ impl Crew {
     fn plan(
         &mut self,
         t_s: f64,
-        crafts: &[Craft],
+        crafts: &[MultirotorSim],
         truths: &[Option<Truth>],
         measured: &[Option<Measurement>],
         events: &mut Vec<Event>,
@@ -275,14 +286,14 @@ impl Crew {
             let senses = &mut self.senses[index];
             let moving = senses.sightings(t_s, &truth.position_m);
             let neighbours = senses.neighbours(&truth.position_m, &others);
-            let replan = self.helms[index].ask(Fix { t_s, own, senses, moving, neighbours });
+            let replan = self.helms[index].ask(NavigationInput { t_s, own, senses, moving, neighbours });
             events.extend(about(&replan).map(|kind| Event { t_s, kind, vehicles: vec![self.names[index].clone()] }));
             self.replans.push(replan);
             self.helms[index].install(t_s);
         }
     }
 
-    fn others(&self, own: usize, crafts: &[Craft], truths: &[Option<Truth>]) -> Vec<Other> {
+    fn others(&self, own: usize, crafts: &[MultirotorSim], truths: &[Option<Truth>]) -> Vec<Other> {
         let others = (0..crafts.len()).filter(|index| *index != own);
         let other = |index: usize| {
             let truth = truths[index]?;

@@ -6,7 +6,7 @@ use crate::runge_kutta;
 
 /// What carries a multirotor during one step of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lift {
+pub enum AppliedControls {
     /// Of a point mass: the acceleration that it was told, beyond what carries its weight, m/s².
     Acceleration(Vector3<f64>),
     /// Of a quadrotor: thrust along its axis.
@@ -44,7 +44,7 @@ impl Replay {
     pub fn advanced(
         &self,
         [position_m, velocity_mps]: [Vector3<f64>; 2],
-        lift: &Lift,
+        lift: &AppliedControls,
         wind_mps: [Vector3<f64>; 2],
         step_s: f64,
     ) -> [Vector3<f64>; 2] {
@@ -63,10 +63,12 @@ impl Replay {
         [0, 3].map(|row| motion.fixed_rows::<3>(row).into_owned())
     }
 
-    fn lift_n(&self, lift: &Lift, share: f64) -> Vector3<f64> {
+    fn lift_n(&self, lift: &AppliedControls, share: f64) -> Vector3<f64> {
         match lift {
-            Lift::Acceleration(told_mps2) => (told_mps2 + Vector3::z() * GRAVITY_MPS2) * self.nominal_mass_kg,
-            Lift::Thrust { mean_n, attitude: [from, to] } => {
+            AppliedControls::Acceleration(told_mps2) => {
+                (told_mps2 + Vector3::z() * GRAVITY_MPS2) * self.nominal_mass_kg
+            }
+            AppliedControls::Thrust { mean_n, attitude: [from, to] } => {
                 let turn = (from.inverse() * to).scaled_axis() * share;
                 from * UnitQuaternion::from_scaled_axis(turn) * Vector3::z() * *mean_n
             }

@@ -2,7 +2,7 @@ use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use scenarios::multirotor::{Airframe, GRAVITY_MPS2, Limits, Model};
 
 use super::reference::ReferencePoint;
-use crate::quadrotor::{Rotors, Turning, allocation, torque_nm};
+use crate::quadrotor::{AttitudeState, Rotors, allocation, torque_nm};
 use crate::sensors::Measurement;
 
 /// Follows a reference from measured position and velocity.
@@ -109,7 +109,7 @@ impl Autopilot {
     /// - `limited_mps2`: what of it is inside the vehicle's limits
     pub fn thrusts_n(
         &self,
-        turning: &Turning,
+        turning: &AttitudeState,
         wanted_mps2: &Vector3<f64>,
         limited_mps2: &Vector3<f64>,
     ) -> [Vector4<f64>; 2] {
@@ -125,13 +125,13 @@ impl Autopilot {
 
     /// Total thrust, N, and torque, N m, for an acceleration: the thrust axis turns towards the force by the shortest way,
     /// the nose slowly back to the east.
-    fn wrench(&self, turning: &Turning, acceleration_mps2: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    fn wrench(&self, turning: &AttitudeState, acceleration_mps2: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let force_n = (acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.mass_kg;
         let axis = turning.attitude * Vector3::z();
         let tilt = UnitQuaternion::rotation_between(&axis, &force_n).unwrap_or_else(UnitQuaternion::identity);
         let (_, _, yaw) = turning.attitude.euler_angles();
         let rate_radps = Vector3::z() * (-YAW_RATE_PER_RAD * yaw);
-        let wanted = Turning { attitude: tilt * turning.attitude, rate_radps };
+        let wanted = AttitudeState { attitude: tilt * turning.attitude, rate_radps };
         let torque_nm = torque_nm(turning, &wanted, &Vector3::zeros(), &self.airframe.inertia_kgm2.into());
         (force_n.dot(&axis), torque_nm)
     }

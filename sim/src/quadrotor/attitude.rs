@@ -6,7 +6,7 @@ const DAMPING_RATIO: f64 = 0.8;
 
 /// How a body is turned and turns. World from body; rates in body axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Turning {
+pub(crate) struct AttitudeState {
     /// World from body.
     pub attitude: UnitQuaternion<f64>,
     /// Angular velocity, rad/s.
@@ -22,8 +22,8 @@ pub(crate) struct Turning {
 /// - `feed_forward_radps2`: angular acceleration of the wanted motion, in its own body axes, rad/s²
 /// - `inertia_kgm2`: moments of inertia about the body axes, kg m²
 pub(crate) fn torque_nm(
-    measured: &Turning,
-    wanted: &Turning,
+    measured: &AttitudeState,
+    wanted: &AttitudeState,
     feed_forward_radps2: &Vector3<f64>,
     inertia_kgm2: &Vector3<f64>,
 ) -> Vector3<f64> {

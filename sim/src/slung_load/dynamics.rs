@@ -1,7 +1,7 @@
 use nalgebra::{Quaternion, Vector3, Vector4};
 use scenarios::slung_load::{Cable, GRAVITY_MPS2, Model};
 
-use super::body::{Body, Numbers};
+use super::state::{Numbers, SlungLoadState};
 use crate::quadrotor::Rotors;
 
 /// A load this close above the height at which it rests, m, and this slow, m/s, lies on the ground.
@@ -63,7 +63,7 @@ impl Plant {
     /// ```
     ///
     /// of the velocity the part across the cable; gravity pulls at both ends alike, and drops out.
-    pub fn tension_n(&self, body: &Body, thrust_n: f64) -> f64 {
+    pub fn tension_n(&self, body: &SlungLoadState, thrust_n: f64) -> f64 {
         let cable_m = body.cable_m();
         let (length_m, d) = (cable_m.norm(), cable_m.normalize());
         let relative_mps = body.load_relative_mps();
@@ -78,7 +78,7 @@ impl Plant {
     }
 
     /// Accelerations of quadrotor and load, world frame, m/s².
-    pub fn accelerations_mps2(&self, body: &Body, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
+    pub fn accelerations_mps2(&self, body: &SlungLoadState, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
         let gravity = Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
         let free = body.thrust_axis() * (thrust_n / self.mass_kg) + gravity;
         match cable {
@@ -102,21 +102,21 @@ impl Plant {
     }
 
     /// Does the load lie on the ground?
-    pub fn is_resting(&self, body: &Body) -> bool {
+    pub fn is_resting(&self, body: &SlungLoadState) -> bool {
         body.load_position_m.z <= self.resting_height_m + RESTING_M && body.load_velocity_mps.norm() <= RESTING_MPS
     }
 
     /// Derivative of a motion under four thrusts, N.
     pub(super) fn rate(&self, numbers: &Numbers, thrust_n: &Vector4<f64>, cable: Cable) -> Numbers {
-        let body = Body::from_numbers(numbers);
+        let body = SlungLoadState::from_numbers(numbers);
         let (thrust_n, torque_nm) = self.wrench(thrust_n);
         let [acceleration, load_acceleration] = self.accelerations_mps2(&body, thrust_n, cable);
         let quaternion = Quaternion::from(numbers.fixed_rows::<4>(6).into_owned());
-        let spin = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
+        let update_rotors = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
         let mut rate = Numbers::zeros();
         rate.fixed_rows_mut::<3>(0).copy_from(&body.velocity_mps);
         rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
-        rate.fixed_rows_mut::<4>(6).copy_from(&spin.coords);
+        rate.fixed_rows_mut::<4>(6).copy_from(&update_rotors.coords);
         rate.fixed_rows_mut::<3>(10).copy_from(&self.angular_acceleration_radps2(&body.body_rate_radps, &torque_nm));
         rate.fixed_rows_mut::<3>(13).copy_from(&body.load_velocity_mps);
         rate.fixed_rows_mut::<3>(16).copy_from(&load_acceleration);
@@ -131,10 +131,10 @@ impl Plant {
 /// ```
 ///
 /// Returns the motion after it, and the impulse Λ, N s: 0 if the ends do not part.
-pub fn impact(plant: &Plant, before: &Body) -> (Body, f64) {
+pub fn impact(plant: &Plant, before: &SlungLoadState) -> (SlungLoadState, f64) {
     let d = before.cable_m().normalize();
     let impulse_ns = (d.dot(&before.load_relative_mps()) * plant.reduced_mass_kg()).max(0.0);
-    let after = Body {
+    let after = SlungLoadState {
         velocity_mps: before.velocity_mps + d * (impulse_ns / plant.mass_kg),
         load_velocity_mps: before.load_velocity_mps - d * (impulse_ns / plant.load_mass_kg),
         ..*before

@@ -2,17 +2,19 @@ use nalgebra::{Vector3, Vector4};
 use scenarios::slung_load::{Control, Model, Trajectory};
 use scenarios::{Plan, Prism, Scenario, Vehicle};
 
-use super::body::Body;
-use super::cable_watch::CableWatch;
+use super::cable_detector::CableDetector;
 use super::dynamics::Plant;
 use super::reference::{Reference, ReferencePoint};
 use super::shapes::{GROUND, Part, Parts};
+use super::state::SlungLoadState;
 use super::tracker::{Thrusts, Tracker};
 use crate::air::{Air, drag_n};
-use crate::rapier_world::{Hoist, Loads};
+use crate::rapier_world::{AppliedForces, TetheredPair};
 use crate::saturation::SaturationWatch;
 use crate::sensors::{Delay, Sensors};
-use crate::{Actuation, Commanded, Event, EventKind, LoadSample, Pilot, Sample, Setup, VehicleLog, start};
+use crate::{
+    Actuation, Commanded, ControlMode, Event, EventKind, FlightOptions, LoadSample, Sample, VehicleLog, start,
+};
 
 /// Longest step of the plant, s: an ordinary step of the simulator, for which a command is held, is divided into such.
 const LONGEST_PLANT_STEP_S: f64 = 5e-4;
@@ -22,14 +24,14 @@ pub(crate) fn fly(
     scenario: &Scenario,
     plan: &Plan,
     seed: u64,
-    setup: &Setup,
+    setup: &FlightOptions,
     steps: usize,
     progress: &mut dyn FnMut(f64),
 ) -> (Vec<VehicleLog>, Vec<Event>) {
     let mut events = Vec::new();
     let mut logs = Vec::new();
     for (vehicle, trajectory) in scenario.vehicles.iter().zip(&plan.trajectories) {
-        let sortie = Sortie::new(scenario, vehicle, trajectory.slung_load(), setup, seed);
+        let sortie = SlungLoadSim::new(scenario, vehicle, trajectory.slung_load(), setup, seed);
         let (log, happened) = sortie.fly(steps, progress);
         events.extend(happened.into_iter().map(|(t_s, kind)| Event {
             t_s,
@@ -42,15 +44,15 @@ pub(crate) fn fly(
 }
 
 /// One quadrotor with its load.
-struct Sortie {
+struct SlungLoadSim {
     model: Model,
     plant: Plant,
-    hoist: Hoist,
+    hoist: TetheredPair,
     reference: Reference,
-    pilot: Pilot,
+    control_mode: ControlMode,
     tracker: Tracker,
     sensors: Sensors,
-    delay: Delay<Body>,
+    delay: Delay<SlungLoadState>,
     air: Air,
     obstacles: Vec<Prism>,
     parts: Parts,
@@ -60,15 +62,15 @@ struct Sortie {
     /// Thrusts that the rotors give, N.
     rotors_n: Vector4<f64>,
     saturation: SaturationWatch,
-    cable: CableWatch,
+    cable: CableDetector,
     /// Tension over the last step, N.
     tension_n: f64,
     log: VehicleLog,
     events: Vec<(f64, EventKind)>,
 }
 
-impl Sortie {
-    fn new(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory, setup: &Setup, seed: u64) -> Self {
+impl SlungLoadSim {
+    fn new(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory, setup: &FlightOptions, seed: u64) -> Self {
         let settings = &scenario.simulation;
         let model = scenario.slung_load_model(vehicle).clone();
         let nominal = Plant::nominal(&model, scenario.world.ground_m);
@@ -81,7 +83,7 @@ impl Sortie {
         let first = reference.at(0.0);
         let offset_m = start::offset_m(scenario, vehicle, setup, seed);
         let offset_mps = Vector3::from(setup.start_velocity_offset_mps);
-        let start = Body {
+        let start = SlungLoadState {
             position_m: first.body.position_m + offset_m,
             velocity_mps: first.body.velocity_mps + offset_mps,
             load_position_m: first.body.load_position_m + offset_m,
@@ -91,7 +93,7 @@ impl Sortie {
         let plant_steps = (settings.step_s / LONGEST_PLANT_STEP_S).ceil().max(1.0) as usize * setup.substeps();
         let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
         Self {
-            hoist: Hoist::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
+            hoist: TetheredPair::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
             tracker: Tracker::new(&reference, &nominal, model.limits.thrust_n, settings.step_s),
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
@@ -103,14 +105,14 @@ impl Sortie {
             plant_steps,
             rotors_n: first.thrust_n,
             saturation: SaturationWatch::default(),
-            cable: CableWatch::new(first.cable),
+            cable: CableDetector::new(first.cable),
             tension_n: match first.cable {
                 scenarios::slung_load::Cable::Taut => plant.tension_n(&start, first.thrust_n.sum()),
                 scenarios::slung_load::Cable::Slack => 0.0,
             },
             log: VehicleLog { vehicle: vehicle.name.clone(), samples: Vec::new(), loads: Vec::new() },
             events: Vec::new(),
-            pilot: setup.pilot,
+            control_mode: setup.control_mode,
             model,
             plant,
             reference,
@@ -142,9 +144,9 @@ impl Sortie {
         let measured = self.delay.pass(self.sensors.measure_slung_load(&truth));
         let reference = self.reference.at(t_s);
         let ahead = self.reference.at(t_s + self.step_s / 2.0);
-        let thrusts = match self.pilot {
-            Pilot::Tracker => self.tracker.command(&measured, &reference, &ahead),
-            Pilot::OpenLoop => Thrusts { command_n: ahead.thrust_n, limited_n: ahead.thrust_n },
+        let thrusts = match self.control_mode {
+            ControlMode::Tracker => self.tracker.command(&measured, &reference, &ahead),
+            ControlMode::OpenLoop => Thrusts { command_n: ahead.thrust_n, limited_n: ahead.thrust_n },
         };
         self.record(t_s, &truth, &measured, &reference, &thrusts);
         let is_saturated = thrusts.command_n != thrusts.limited_n;
@@ -152,7 +154,14 @@ impl Sortie {
         thrusts.limited_n
     }
 
-    fn record(&mut self, t_s: f64, truth: &Body, measured: &Body, reference: &ReferencePoint, thrusts: &Thrusts) {
+    fn record(
+        &mut self,
+        t_s: f64,
+        truth: &SlungLoadState,
+        measured: &SlungLoadState,
+        reference: &ReferencePoint,
+        thrusts: &Thrusts,
+    ) {
         let wanted = &reference.body;
         let control = |thrust_n: &Vector4<f64>| Control { thrust_n: (*thrust_n).into() };
         self.log.samples.push(Sample {
@@ -213,7 +222,7 @@ impl Sortie {
     }
 
     /// What acts in the middle of the coming step of the plant. Rotors and air move on.
-    fn loads(&mut self, command_n: &Vector4<f64>, plant_step_s: f64) -> Loads {
+    fn loads(&mut self, command_n: &Vector4<f64>, plant_step_s: f64) -> AppliedForces {
         let body = self.hoist.body();
         let lag = self.model.rotor_time_constant_s.map_or(0.0, |time_s| (-plant_step_s / time_s).exp());
         let next_n = command_n + (self.rotors_n - command_n) * lag;
@@ -224,7 +233,7 @@ impl Sortie {
             body.attitude * nalgebra::UnitQuaternion::from_scaled_axis(body.body_rate_radps * (plant_step_s / 2.0));
         let wind_mps = self.air.velocity_mps(body.position_m.z, &body.velocity_mps);
         self.air.advance(plant_step_s, body.position_m.z, (body.velocity_mps - wind_mps).norm());
-        Loads {
+        AppliedForces {
             force_n: attitude * Vector3::z() * total_n
                 + drag_n(&(wind_mps - body.velocity_mps), self.model.drag_area_m2),
             torque_nm: attitude * torque_nm,

@@ -2,9 +2,9 @@ use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use scenarios::Interpolation;
 use scenarios::slung_load::{Cable, Trajectory};
 
-use super::body::Body;
 use super::dynamics::Plant;
-use super::flow::{Knot, flow};
+use super::propagate::{Knot, propagate};
+use super::state::SlungLoadState;
 
 /// Distance between the reference's points, s: between them it is followed to better than 1e-6 m.
 const PIECE_S: f64 = 0.005;
@@ -26,7 +26,7 @@ pub struct ReferencePoint {
     /// Time, s.
     pub t_s: f64,
     /// Motion.
-    pub body: Body,
+    pub body: SlungLoadState,
     /// Planned thrusts, N.
     pub thrust_n: Vector4<f64>,
     /// What the cable does from here on.
@@ -70,7 +70,7 @@ impl Reference {
             Cable::Taut => end.body.position_m - Vector3::z() * self.plant.cable_length_m,
             Cable::Slack => end.body.load_position_m,
         };
-        let body = Body {
+        let body = SlungLoadState {
             velocity_mps: Vector3::zeros(),
             attitude: UnitQuaternion::from_euler_angles(0.0, 0.0, yaw),
             body_rate_radps: Vector3::zeros(),
@@ -91,9 +91,9 @@ fn interval_points(trajectory: &Trajectory, plant: &Plant, interval: usize) -> V
     }
     let controls = [&trajectory.controls[interval], &trajectory.controls[interval + 1]];
     let cable = trajectory.cable[interval];
-    let start = Body::from(&trajectory.states[interval]);
-    let knots = flow(plant, &start, controls, cable, times_s, PIECE_S);
-    let defect = Defect::between(&knots[knots.len() - 1].body, &Body::from(&trajectory.states[interval + 1]));
+    let start = SlungLoadState::from(&trajectory.states[interval]);
+    let knots = propagate(plant, &start, controls, cable, times_s, PIECE_S);
+    let defect = Defect::between(&knots[knots.len() - 1].body, &SlungLoadState::from(&trajectory.states[interval + 1]));
     let point = |knot: &Knot| {
         let share = (knot.t_s - times_s[0]) / (times_s[1] - times_s[0]);
         let body = defect.taken_up(&knot.body, share);
@@ -114,7 +114,7 @@ struct Defect {
 }
 
 impl Defect {
-    fn between(flown: &Body, planned: &Body) -> Self {
+    fn between(flown: &SlungLoadState, planned: &SlungLoadState) -> Self {
         Self {
             position_m: planned.position_m - flown.position_m,
             velocity_mps: planned.velocity_mps - flown.velocity_mps,
@@ -126,9 +126,9 @@ impl Defect {
     }
 
     /// The motion with so much of the defect taken up as fits the share of the interval, in [0, 1]: s²(3 - 2s).
-    fn taken_up(&self, body: &Body, share: f64) -> Body {
+    fn taken_up(&self, body: &SlungLoadState, share: f64) -> SlungLoadState {
         let weight = share * share * (3.0 - 2.0 * share);
-        Body {
+        SlungLoadState {
             position_m: body.position_m + self.position_m * weight,
             velocity_mps: body.velocity_mps + self.velocity_mps * weight,
             attitude: body.attitude * UnitQuaternion::from_scaled_axis(self.turn * weight),
@@ -155,7 +155,7 @@ fn between(from: &ReferencePoint, to: &ReferencePoint, t_s: f64) -> ReferencePoi
             + v1 * ((s3 - s2) * duration_s)
     };
     let (a, b) = (&from.body, &to.body);
-    let body = Body {
+    let body = SlungLoadState {
         position_m: cubic(&a.position_m, &a.velocity_mps, &b.position_m, &b.velocity_mps),
         velocity_mps: linear(&a.velocity_mps, &b.velocity_mps),
         attitude: a.attitude.nlerp(&b.attitude, s),

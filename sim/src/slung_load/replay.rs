@@ -1,14 +1,14 @@
 use nalgebra::{SVector, UnitQuaternion, Vector3};
 use scenarios::slung_load::{GRAVITY_MPS2, Model};
 
-use super::body::Body;
 use super::dynamics::Plant;
+use super::state::SlungLoadState;
 use crate::air::drag_n;
 use crate::runge_kutta;
 
 /// What acts on quadrotor and load during one step of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Acting {
+pub struct AppliedControls {
     /// Mean of the rotors' total thrust over the step, N.
     pub thrust_n: f64,
     /// World from body at the step's two ends, turning at a constant rate between them.
@@ -43,7 +43,7 @@ impl Replay {
     }
 
     /// Where a step of `step_s`, s, leads, by a Runge-Kutta method of order 6. The attitude is the logged one at its end.
-    pub fn advanced(&self, start: &Body, acting: &Acting, step_s: f64) -> Body {
+    pub fn advanced(&self, start: &SlungLoadState, acting: &AppliedControls, step_s: f64) -> SlungLoadState {
         let mut motion = Motion::zeros();
         let parts = [start.position_m, start.velocity_mps, start.load_position_m, start.load_velocity_mps];
         for (index, part) in parts.iter().enumerate() {
@@ -51,7 +51,7 @@ impl Replay {
         }
         let motion = runge_kutta::advanced(&motion, step_s, |motion, share| self.rate(motion, acting, share));
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
-        Body {
+        SlungLoadState {
             position_m: part(0),
             velocity_mps: part(1),
             load_position_m: part(2),
@@ -61,7 +61,7 @@ impl Replay {
         }
     }
 
-    fn rate(&self, motion: &Motion, acting: &Acting, share: f64) -> Motion {
+    fn rate(&self, motion: &Motion, acting: &AppliedControls, share: f64) -> Motion {
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
         let (velocity_mps, load_velocity_mps) = (part(1), part(3));
         let turn = (acting.attitude[0].inverse() * acting.attitude[1]).scaled_axis() * share;

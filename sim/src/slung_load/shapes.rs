@@ -5,9 +5,9 @@ mod distance;
 use scenarios::Prism;
 use scenarios::slung_load::Model;
 
-use self::distance::{Flat, point_to_prism_m, to_prism, to_prism_m};
+use self::distance::{ConvexPart, point_to_prism_m, to_prism, to_prism_m};
 pub use self::distance::{OVERHANG_M, Plane};
-use super::body::Body;
+use super::state::SlungLoadState;
 
 /// What the ground is called where an obstacle has a name.
 pub const GROUND: &str = "ground";
@@ -51,35 +51,38 @@ impl Parts {
     }
 
     /// Signed distance between a part and an obstacle with its corners counterclockwise, m: negative when they overlap.
-    pub fn distance_m(&self, part: Part, body: &Body, obstacle: &Prism) -> f64 {
+    pub fn distance_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => {
-                let disc =
-                    Flat::Disc { center_m: body.position_m, axis: body.thrust_axis(), radius_m: self.body_radius_m };
+                let disc = ConvexPart::Disc {
+                    center_m: body.position_m,
+                    axis: body.thrust_axis(),
+                    radius_m: self.body_radius_m,
+                };
                 to_prism_m(&disc, obstacle)
             }
-            Part::Cable => to_prism_m(&Flat::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
+            Part::Cable => to_prism_m(&ConvexPart::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
             Part::Load => point_to_prism_m(&body.load_position_m, obstacle) - self.load_radius_m,
         }
     }
 
     /// That distance, and a plane between part (the load's centre) and obstacle if they do not overlap.
-    pub fn distance_and_plane(&self, part: Part, body: &Body, obstacle: &Prism) -> (f64, Option<Plane>) {
+    pub fn distance_and_plane(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> (f64, Option<Plane>) {
         match part {
             Part::Body => {
                 let (center_m, axis) = (body.position_m, body.thrust_axis());
-                to_prism(&Flat::Disc { center_m, axis, radius_m: self.body_radius_m }, obstacle)
+                to_prism(&ConvexPart::Disc { center_m, axis, radius_m: self.body_radius_m }, obstacle)
             }
-            Part::Cable => to_prism(&Flat::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
+            Part::Cable => to_prism(&ConvexPart::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
             Part::Load => {
-                let plane = to_prism(&Flat::Line { ends_m: [body.load_position_m; 2] }, obstacle).1;
+                let plane = to_prism(&ConvexPart::Line { ends_m: [body.load_position_m; 2] }, obstacle).1;
                 (self.distance_m(part, body, obstacle), plane)
             }
         }
     }
 
     /// A bound of that distance from below that costs little, m: by the ball about the part.
-    pub fn at_least_m(&self, part: Part, body: &Body, obstacle: &Prism) -> f64 {
+    pub fn at_least_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => point_to_prism_m(&body.position_m, obstacle) - self.body_radius_m,
             Part::Cable => {
@@ -91,18 +94,18 @@ impl Parts {
     }
 
     /// Signed distance in the plane between the envelope circle and an obstacle at whatever height, m.        [Kang 2020, eq. 14]
-    pub fn envelope_distance_m(&self, body: &Body, obstacle: &Prism) -> f64 {
+    pub fn envelope_distance_m(&self, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         obstacle.signed_distance_m([body.position_m.x, body.position_m.y]) - self.envelope_radius_m(body)
     }
 
     /// Altitude of the lowest point of the body, m.
-    pub fn height_m(&self, body: &Body) -> f64 {
+    pub fn height_m(&self, body: &SlungLoadState) -> f64 {
         let upright = body.thrust_axis().z;
         body.position_m.z - self.body_radius_m * (1.0 - upright * upright).max(0.0).sqrt()
     }
 
     /// Radius of the envelope circle: that of the body, or the horizontal reach of the load, whichever is larger, m.
-    pub fn envelope_radius_m(&self, body: &Body) -> f64 {
+    pub fn envelope_radius_m(&self, body: &SlungLoadState) -> f64 {
         body.cable_m().xy().norm().max(self.body_radius_m)
     }
 

@@ -2,12 +2,12 @@ use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use scenarios::Range;
 use scenarios::slung_load::{Cable, GRAVITY_MPS2};
 
-use super::body::Body;
 use super::dynamics::Plant;
 use super::gains::Gains;
 use super::linear::Errors;
 use super::reference::{Reference, ReferencePoint};
-use crate::quadrotor::{Turning, allocation, torque_nm};
+use super::state::SlungLoadState;
+use crate::quadrotor::{AttitudeState, allocation, torque_nm};
 
 /// Largest correction of the acceleration, m/s²: beyond it the linear law says nothing.
 const LARGEST_CORRECTION_MPS2: f64 = 6.0;
@@ -50,7 +50,12 @@ impl Tracker {
     ///
     /// - `reference`: now, for the feedback
     /// - `ahead`: half a step ahead, for the feed-forward
-    pub fn command(&mut self, measured: &Body, reference: &ReferencePoint, ahead: &ReferencePoint) -> Thrusts {
+    pub fn command(
+        &mut self,
+        measured: &SlungLoadState,
+        reference: &ReferencePoint,
+        ahead: &ReferencePoint,
+    ) -> Thrusts {
         let correction_mps2 = self.correction_mps2(measured, reference);
         let force_n = self.force_n(measured, ahead, &correction_mps2);
         let torque_nm = self.torque_nm(measured, reference, ahead, &force_n);
@@ -67,7 +72,7 @@ impl Tracker {
         Thrusts { command_n: if fits { limited_n } else { command_n }, limited_n }
     }
 
-    fn correction_mps2(&mut self, measured: &Body, reference: &ReferencePoint) -> Vector3<f64> {
+    fn correction_mps2(&mut self, measured: &SlungLoadState, reference: &ReferencePoint) -> Vector3<f64> {
         let wanted = &reference.body;
         let error_m = measured.position_m - wanted.position_m;
         self.integral_ms += error_m * self.step_s;
@@ -84,7 +89,12 @@ impl Tracker {
     }
 
     /// Force of the rotors, world frame, N.
-    fn force_n(&self, measured: &Body, ahead: &ReferencePoint, correction_mps2: &Vector3<f64>) -> Vector3<f64> {
+    fn force_n(
+        &self,
+        measured: &SlungLoadState,
+        ahead: &ReferencePoint,
+        correction_mps2: &Vector3<f64>,
+    ) -> Vector3<f64> {
         let [planned_mps2, _] = self.plant.accelerations_mps2(&ahead.body, ahead.thrust_n.sum(), ahead.cable);
         let acceleration_mps2 = planned_mps2 + correction_mps2;
         let weightless = acceleration_mps2 + Vector3::z() * GRAVITY_MPS2;
@@ -105,7 +115,7 @@ impl Tracker {
     /// Torque in body axes, N m, that turns the thrust axis towards `force_n` and the rest as the plan has it.
     fn torque_nm(
         &self,
-        measured: &Body,
+        measured: &SlungLoadState,
         reference: &ReferencePoint,
         ahead: &ReferencePoint,
         force_n: &Vector3<f64>,
@@ -115,8 +125,8 @@ impl Tracker {
         let wanted = turn * reference.body.attitude;
         let (_, planned_nm) = self.plant.wrench(&ahead.thrust_n);
         let planned = self.plant.angular_acceleration_radps2(&ahead.body.body_rate_radps, &planned_nm);
-        let measured = Turning { attitude: measured.attitude, rate_radps: measured.body_rate_radps };
-        let wanted = Turning { attitude: wanted, rate_radps: reference.body.body_rate_radps };
+        let measured = AttitudeState { attitude: measured.attitude, rate_radps: measured.body_rate_radps };
+        let wanted = AttitudeState { attitude: wanted, rate_radps: reference.body.body_rate_radps };
         torque_nm(&measured, &wanted, &planned, &self.plant.inertia_kgm2)
     }
 }

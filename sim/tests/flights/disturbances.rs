@@ -1,7 +1,7 @@
 use nalgebra::Vector3;
 use scenarios::fixed_wing::Control;
 use scenarios::{Gusts, Wind};
-use sim::{Flight, Setup, fly, fly_with};
+use sim::{Flight, FlightOptions, fly, fly_with};
 
 use crate::arena::{self, G};
 use crate::open_loop::OPEN_LOOP;
@@ -15,7 +15,7 @@ fn in_steady_wind_the_flight_relative_to_the_air_is_the_windless_one() {
     // The same velocity through the air: in still air the start is the planned one, in the wind it drifts with it.
     let still = fly_with(&scenario, &plan, 0, &OPEN_LOOP, &mut arena::silent);
     scenario.simulation.wind = Some(Wind { mean_mps: WIND_MPS, gusts: None, pulses: vec![] });
-    let setup = Setup { start_velocity_offset_mps: WIND_MPS, ..OPEN_LOOP };
+    let setup = FlightOptions { start_velocity_offset_mps: WIND_MPS, ..OPEN_LOOP };
     let windy = fly_with(&scenario, &plan, 0, &setup, &mut arena::silent);
     for (still, windy) in still.vehicles[0].samples.iter().zip(&windy.vehicles[0].samples) {
         let drifted = arena::position(still) + Vector3::from(WIND_MPS) * still.t_s;

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use scenarios::{Scenario, Sensors, Wind};
-use sim::fixed_wing::{Acting, Knot, replayed};
-use sim::{Flight, Setup, fly_with};
+use sim::fixed_wing::{AppliedControls, Knot, replayed};
+use sim::{Flight, FlightOptions, fly_with};
 
 use crate::arena;
 
@@ -16,7 +16,7 @@ fn disturbed() -> Scenario {
 }
 
 fn flown(scenario: &Scenario, halvings: u32) -> Flight {
-    fly_with(scenario, &arena::plan(vec![arena::manoeuvres()]), 5, &Setup::finer(halvings), &mut arena::silent)
+    fly_with(scenario, &arena::plan(vec![arena::manoeuvres()]), 5, &FlightOptions::finer(halvings), &mut arena::silent)
 }
 
 fn apart_m(one: &Flight, other: &Flight) -> f64 {
@@ -49,7 +49,7 @@ fn a_replay_stays_with_the_flight_and_tells_a_wrong_mass() {
         };
         let follow = |motion: Knot, index: usize| {
             let wind_mps = [index, index + 1].map(|index| Vector3::from(samples[index].wind_mps));
-            let acting = Acting { control: samples[index].load_factors().control, wind_mps, mass_ratio };
+            let acting = AppliedControls { control: samples[index].load_factors().control, wind_mps, mass_ratio };
             replayed(&motion, &acting, samples[index + 1].t_s)
         };
         ((4000..4250).fold(knot(4000), follow).position_m - knot(4250).position_m).norm()

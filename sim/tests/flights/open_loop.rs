@@ -1,10 +1,14 @@
 use nalgebra::Vector3;
-use sim::{Pilot, Setup, fly_with};
+use sim::{ControlMode, FlightOptions, fly_with};
 
 use crate::arena;
 
-pub const OPEN_LOOP: Setup =
-    Setup { pilot: Pilot::OpenLoop, start_offset_m: [0.0; 3], start_velocity_offset_mps: [0.0; 3], halvings: 0 };
+pub const OPEN_LOOP: FlightOptions = FlightOptions {
+    control_mode: ControlMode::OpenLoop,
+    start_offset_m: [0.0; 3],
+    start_velocity_offset_mps: [0.0; 3],
+    halvings: 0,
+};
 
 /// Largest distance, at the nodes of 230 s of manoeuvres, between rapier's flight and the polar equations', m.
 fn error_m(step_s: f64) -> f64 {

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 use scenarios::Tracker;
-use sim::{EventKind, Flight, Setup, fly, fly_with};
+use sim::{EventKind, Flight, FlightOptions, fly, fly_with};
 
 use crate::arena;
 
@@ -16,7 +16,13 @@ fn from_offset(natural_frequency_radps: f64, damping_ratio: f64, offset_m: [f64;
     let mut scenario = arena::scenario(1);
     scenario.simulation.tracker = Tracker { natural_frequency_radps, damping_ratio };
     let plan = arena::plan(vec![arena::manoeuvres()]);
-    fly_with(&scenario, &plan, 0, &Setup { start_offset_m: offset_m, ..Setup::default() }, &mut arena::silent)
+    fly_with(
+        &scenario,
+        &plan,
+        0,
+        &FlightOptions { start_offset_m: offset_m, ..FlightOptions::default() },
+        &mut arena::silent,
+    )
 }
 
 /// e'' + 2 ζ ω e' + ω² e = 0 from e = 1, e' = 0.

@@ -3,7 +3,7 @@
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 use scenarios::multirotor::GRAVITY_MPS2;
-use sim::{Actuation, Flight, Pilot, Sample, Setup, fly, fly_with};
+use sim::{Actuation, ControlMode, Flight, FlightOptions, Sample, fly, fly_with};
 
 use crate::arena::{nodes, plan, scenario};
 
@@ -101,13 +101,13 @@ fn a_quadrotor_moves_as_its_rotors_and_the_air_make_it() {
                     0.16 * (-f[0] - f[1] + f[2] + f[3]),
                     0.016 * (f[0] - f[1] + f[2] - f[3]),
                 );
-                let spin = (torque - rates.cross(&inertia.component_mul(&rates))).component_div(&inertia);
+                let update_rotors = (torque - rates.cross(&inertia.component_mul(&rates))).component_div(&inertia);
                 let acceleration = up * (f.sum() / MASS_KG) - Vector3::z() * GRAVITY_MPS2 + drag_mps2(velocity);
                 let mut rate = SVector::<f64, 17>::zeros();
                 rate.fixed_rows_mut::<3>(0).copy_from(&velocity);
                 rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
                 rate.fixed_rows_mut::<4>(6).copy_from(&(q * Quaternion::from_imag(rates) * 0.5).coords);
-                rate.fixed_rows_mut::<3>(10).copy_from(&spin);
+                rate.fixed_rows_mut::<3>(10).copy_from(&update_rotors);
                 let command = Vector4::from(thrusts.control.thrust_n);
                 rate.fixed_rows_mut::<4>(13).copy_from(&((command - f) / 0.03));
                 rate
@@ -136,7 +136,7 @@ fn open_loop_in_still_air_the_point_mass_flies_the_plan_itself() {
     let mut scenario = scenario("point-mass");
     scenario.simulation.wind = None;
     scenario.models.multirotor.get_mut("quad").expect("the model").drag_area_m2 = 0.0;
-    let setup = Setup { pilot: Pilot::OpenLoop, ..Setup::default() };
+    let setup = FlightOptions { control_mode: ControlMode::OpenLoop, ..FlightOptions::default() };
     let flight = fly_with(&scenario, &plan(&scenario, &nodes()), 0, &setup, &mut |_| {});
     let error_m = |sample: &Sample| error_m(sample, sample.reference_position_m.into());
     let worst_m = flight.vehicles[0].samples.iter().map(error_m).fold(0.0, f64::max);

@@ -1,13 +1,17 @@
 //! The plant on rapier bodies, open loop, against closed forms and against the integrator of `reference_flight`.
 
 use scenarios::slung_load::{Cable, GRAVITY_MPS2, State};
-use sim::{EventKind, Flight, LoadSample, Pilot, Sample, Setup, fly_with};
+use sim::{ControlMode, EventKind, Flight, FlightOptions, LoadSample, Sample, fly_with};
 
 use crate::arena::{plan, scenario, silent, trajectory};
 use crate::reference_flight::{self, L_0, M_L, M_Q, Pair};
 
-const OPEN_LOOP: Setup =
-    Setup { pilot: Pilot::OpenLoop, start_offset_m: [0.0; 3], start_velocity_offset_mps: [0.0; 3], halvings: 0 };
+const OPEN_LOOP: FlightOptions = FlightOptions {
+    control_mode: ControlMode::OpenLoop,
+    start_offset_m: [0.0; 3],
+    start_velocity_offset_mps: [0.0; 3],
+    halvings: 0,
+};
 
 /// Step of the plant, s.
 const PLANT_STEP_S: f64 = 5e-4;
@@ -74,7 +78,7 @@ fn a_free_pendulum_has_its_period_and_keeps_its_energy() {
     let late_s = turning as f64 * 0.002 - swings as f64 * period_s;
     let lost_m = relative(turning) - relative(0);
     println!(
-        "after {swings} swings: late {late_s:.4} s, swing {lost_m:.2e} m less, stretch {:.2e} m",
+        "after {swings} swings: late {late_s:.4} s, swing {lost_m:.2e} m less, time_chunk {:.2e} m",
         largest_stretch_m(&flight)
     );
     assert!(late_s.abs() < 0.004, "{late_s} s");
@@ -138,7 +142,10 @@ fn slack_and_taut_agree_with_an_independent_integrator() {
     for ((sample, load), wanted) in log(&flight).zip(&states) {
         worst_m = worst_m.max(distance_m(sample.position_m, wanted.p)).max(distance_m(load.position_m, wanted.load_p));
     }
-    println!("largest distance {worst_m:.2e} m, stretch {:.2e} m; switches {switches:?}", largest_stretch_m(&flight));
+    println!(
+        "largest distance {worst_m:.2e} m, time_chunk {:.2e} m; switches {switches:?}",
+        largest_stretch_m(&flight)
+    );
     println!("events {:?}", flight.events);
     assert!(switches.iter().filter(|switch| switch.1.is_some()).count() >= 1);
     assert_eq!(flight.events.len(), switches.len(), "{:?} {switches:?}", flight.events);

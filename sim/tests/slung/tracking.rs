@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use scenarios::slung_load::{Cable, Control, GRAVITY_MPS2, State};
 use scenarios::{GustPulse, Mismatch, Scenario, Sensors, Wind};
-use sim::slung_load::{Body, Plant, flow};
+use sim::slung_load::{Plant, SlungLoadState, propagate};
 use sim::{EventKind, Flight, fly};
 
 use crate::arena::{model, plan, scenario, silent, trajectory};
@@ -54,10 +54,11 @@ fn the_plan_from_flatness_obeys_the_equations() {
     let thrusts = trajectory.controls.iter().flat_map(|control| control.thrust_n);
     println!("thrusts from {:?} to {:?} N", thrusts.clone().reduce(f64::min), thrusts.reduce(f64::max));
     for k in 0..trajectory.times_s.len() - 1 {
-        let start = Body::from(&trajectory.states[k]);
+        let start = SlungLoadState::from(&trajectory.states[k]);
         let controls = [&trajectory.controls[k], &trajectory.controls[k + 1]];
-        let end = flow(&plant, &start, controls, Cable::Taut, [trajectory.times_s[k], trajectory.times_s[k + 1]], 0.01);
-        let (end, next) = (end.last().unwrap().body, Body::from(&trajectory.states[k + 1]));
+        let end =
+            propagate(&plant, &start, controls, Cable::Taut, [trajectory.times_s[k], trajectory.times_s[k + 1]], 0.01);
+        let (end, next) = (end.last().unwrap().body, SlungLoadState::from(&trajectory.states[k + 1]));
         assert!((end.position_m - next.position_m).norm() < 1e-7, "{k}");
         assert!(
             (end.velocity_mps - next.velocity_mps).norm() < 1e-4,
@@ -151,12 +152,15 @@ fn a_catch_is_flown_through() {
     };
     let fall_s = (2.0 * 0.2 / GRAVITY_MPS2).sqrt();
     let (hover, brake) = (Control { thrust_n: hover_n }, Control { thrust_n: brake_n });
-    let before = flow(&plant, &Body::from(&start), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01).last().unwrap().body;
+    let before = propagate(&plant, &SlungLoadState::from(&start), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01)
+        .last()
+        .unwrap()
+        .body;
     let (after, impulse_ns) = sim::slung_load::impact(&plant, &before);
     // Both fall at the same speed now; brake at 2 m/s².
     let speed_mps = -after.velocity_mps.z;
     let brake_s = speed_mps / 2.0;
-    let end = flow(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, fall_s + brake_s], 0.01);
+    let end = propagate(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, fall_s + brake_s], 0.01);
     let end = end.last().unwrap().body;
     let hover_both_n = [model.hover_thrust_n(); 4];
     let rest = State::from(&end);

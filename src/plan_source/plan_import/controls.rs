@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use scenarios::fixed_wing::{Control, GRAVITY_MPS2, State};
-use sim::fixed_wing::{AirPath, Knot, flow, gravity_mps2};
+use sim::fixed_wing::{AirPath, Knot, gravity_mps2, propagate};
 
 use crate::verdict::Reconstruction;
 
@@ -23,7 +23,7 @@ type Effect = SMatrix<f64, 6, 3>;
 /// Load factors at the nodes, linear between them, that lead from each state to the next as well as any do.
 ///
 /// ```text
-/// min_n  Σ_k |dp_k / h_k|² + |dv_k|²        (dp, dv)_k = node k+1 - flow(node k, n_k, n_{k+1}, h_k)
+/// min_n  Σ_k |dp_k / h_k|² + |dv_k|²        (dp, dv)_k = node k+1 - propagate(node k, n_k, n_{k+1}, h_k)
 /// ```
 ///
 /// by Gauss and Newton from the flat guess. There are six equations per interval and three unknowns per node: a motion
@@ -142,7 +142,7 @@ fn linearised(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2
 
 fn missed(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> Missed {
     let h = times_s[k + 1] - times_s[k];
-    let flown = flow(&states[k], controls, times_s[k], h, STEP_S);
+    let flown = propagate(&states[k], controls, times_s[k], h, STEP_S);
     let (end, next) = (flown[flown.len() - 1], Knot::of(&states[k + 1], times_s[k + 1]));
     let (dp, dv) = ((next.position_m - end.position_m) / h, next.velocity_mps - end.velocity_mps);
     Missed::new(dp.x, dp.y, dp.z, dv.x, dv.y, dv.z)

@@ -2,7 +2,7 @@
 
 use scenarios::fixed_wing::states_from_velocities;
 use scenarios::fixed_wing::{Control, State};
-use sim::fixed_wing::flow;
+use sim::fixed_wing::propagate;
 
 use super::{controls, velocities};
 
@@ -12,7 +12,7 @@ fn flown(step_s: f64, control: impl Fn(f64) -> Control, count: usize) -> (Vec<f6
     let controls: Vec<Control> = times_s.iter().map(|t| control(*t)).collect();
     let mut states = vec![State::from_array([0.0, 0.0, 400.0, 35.0, 0.3, 0.01])];
     for (k, pair) in controls.windows(2).enumerate() {
-        let end = *flow(&states[k], [pair[0], pair[1]], times_s[k], step_s, 0.1).last().expect("an end");
+        let end = *propagate(&states[k], [pair[0], pair[1]], times_s[k], step_s, 0.1).last().expect("an end");
         states.extend(states_from_velocities(&[end.position_m.into()], &[end.velocity_mps.into()]));
     }
     (times_s, states, controls)

@@ -1,7 +1,7 @@
 //! Does a fixed wing's flight obey the equations of motion? Its controls and the air in its log must explain it.
 
 use scenarios::{CheckSpec, Scenario};
-use sim::fixed_wing::{Acting, Knot, replayed};
+use sim::fixed_wing::{AppliedControls, Knot, replayed};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
@@ -29,7 +29,7 @@ fn largest_defect(log: &VehicleLog, window_s: f64, mass_ratio: f64) -> Option<De
         if pair[0].t_s - began_s >= window_s {
             (motion, began_s) = (knot(&pair[0]), pair[0].t_s);
         }
-        let acting = Acting {
+        let acting = AppliedControls {
             control: pair[0].load_factors().control,
             wind_mps: [pair[0].wind_mps.into(), pair[1].wind_mps.into()],
             mass_ratio,

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use scenarios::fixed_wing::Trajectory;
 use scenarios::{Plan, Scenario};
-use sim::fixed_wing::{self, flow, rollout};
+use sim::fixed_wing::{self, propagate, rollout};
 
 use crate::verdict::compare::exceeds;
 use crate::verdict::motion::{Knot, Motion};
@@ -57,7 +57,7 @@ fn interval(trajectory: &Trajectory, end: usize) -> Vec<Knot> {
     let begin = end - 1;
     let (t0_s, t1_s) = (trajectory.times_s[begin], trajectory.times_s[end]);
     let controls = [trajectory.controls[begin], trajectory.controls[end]];
-    let flown = flow(&trajectory.states[begin], controls, t0_s, t1_s - t0_s, MAX_STEP_S);
+    let flown = propagate(&trajectory.states[begin], controls, t0_s, t1_s - t0_s, MAX_STEP_S);
     let mut knots: Vec<Knot> = flown.iter().map(knot).collect();
     if let Some(last) = knots.last_mut() {
         // t0 + (t1 - t0) may round to beyond t1.

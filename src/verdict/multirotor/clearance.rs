@@ -7,7 +7,7 @@
 //! makes a vehicle larger in the search, and widens the bounds.
 
 use scenarios::{CheckSpec, Scenario};
-use sim::multirotor::Surroundings;
+use sim::multirotor::Obstacles;
 
 use crate::verdict::Check;
 use crate::verdict::compare::is_smaller;
@@ -69,7 +69,7 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, 
 
 /// The closest that any vehicle comes to anything. `None` without vehicles.
 pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ObstacleApproach> {
-    let surroundings = Surroundings::of(&scenario.world);
+    let surroundings = Obstacles::of(&scenario.world);
     let mut best = None;
     let (mut spans, mut unsure_m) = (0, f64::INFINITY);
     for (vehicle, motion) in motions.iter().enumerate() {
@@ -116,13 +116,13 @@ fn consider(best: &mut Option<ObstacleApproach>, distance_m: f64, found: impl Fn
 /// Distances at single instants.
 pub struct Clearances<'a> {
     scenario: &'a Scenario,
-    surroundings: Surroundings,
+    surroundings: Obstacles,
 }
 
 impl<'a> Clearances<'a> {
     /// In the world of a scenario.
     pub fn new(scenario: &'a Scenario) -> Self {
-        Self { scenario, surroundings: Surroundings::of(&scenario.world) }
+        Self { scenario, surroundings: Obstacles::of(&scenario.world) }
     }
 
     /// Distance of the surface of a vehicle at a place from what is nearest, m, and the name of that.
@@ -158,7 +158,7 @@ fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, 
 
 /// One vehicle against one obstacle.
 struct Search<'a> {
-    surroundings: &'a Surroundings,
+    surroundings: &'a Obstacles,
     obstacle: usize,
     /// How far the vehicle reaches from its curve, m.
     reach_m: f64,

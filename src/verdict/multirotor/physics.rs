@@ -4,7 +4,7 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::multirotor::Model;
 use scenarios::{CheckSpec, GRAVITY_MPS2, Scenario};
-use sim::multirotor::{Lift, Replay};
+use sim::multirotor::{AppliedControls, Replay};
 use sim::{Actuation, Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
@@ -51,14 +51,14 @@ fn hovering(model: &Model) -> Rotors {
 }
 
 /// What carries the vehicle over the step between two samples.
-fn lift(rotors: &mut Rotors, [from, to]: [&Sample; 2], step_s: f64) -> Lift {
+fn lift(rotors: &mut Rotors, [from, to]: [&Sample; 2], step_s: f64) -> AppliedControls {
     match &from.actuation {
-        Actuation::Acceleration(told) => Lift::Acceleration(told.control.into()),
-        Actuation::Thrusts(thrusts) => Lift::Thrust {
+        Actuation::Acceleration(told) => AppliedControls::Acceleration(told.control.into()),
+        Actuation::Thrusts(thrusts) => AppliedControls::Thrust {
             mean_n: rotors.mean_n(thrusts.control.thrust_n.iter().sum(), step_s),
             attitude: [from, to].map(attitude),
         },
-        Actuation::LoadFactors(_) => Lift::Acceleration([f64::NAN; 3].into()),
+        Actuation::LoadFactors(_) => AppliedControls::Acceleration([f64::NAN; 3].into()),
     }
 }
 

@@ -8,7 +8,7 @@
 use std::collections::BinaryHeap;
 
 use scenarios::slung_load::Trajectory;
-use sim::slung_load::{Body, OVERHANG_M};
+use sim::slung_load::{OVERHANG_M, SlungLoadState};
 
 use super::motion::{SlungLoadMotion, Speeds};
 use super::search_interval::SearchInterval;
@@ -41,7 +41,7 @@ impl ShapePairs<'_> {
     pub fn closest_node(&self, trajectory: &Trajectory, shapes: &[Shape]) -> Option<ClosestApproach> {
         let mut best: Option<ClosestApproach> = None;
         for node in trajectory.planner_nodes() {
-            let body = Body::from(&trajectory.states[node]);
+            let body = SlungLoadState::from(&trajectory.states[node]);
             for &shape in shapes {
                 let distance_m = self.distance_m(shape, &body);
                 if best.is_none_or(|best| is_smaller(distance_m, best.upper_m)) {
@@ -140,7 +140,7 @@ impl ClosestApproach {
 mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
     use scenarios::Prism;
-    use sim::slung_load::{Body, Part, Parts};
+    use sim::slung_load::{Part, Parts, SlungLoadState};
 
     use crate::verdict::random::Uniform;
     use crate::verdict::slung_load::motion::{MotionSample, SlungLoadMotion};
@@ -166,7 +166,14 @@ mod tests {
         let load_velocity_mps = velocity_mps;
         MotionSample {
             t_s,
-            body: Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps },
+            body: SlungLoadState {
+                position_m,
+                velocity_mps,
+                attitude,
+                body_rate_radps,
+                load_position_m,
+                load_velocity_mps,
+            },
         }
     }
 
@@ -195,7 +202,14 @@ mod tests {
             let (load_position_m, load_velocity_mps) = (position_m + vector(0.4), vector(3.0));
             let attitude = UnitQuaternion::from_scaled_axis(vector(1.2));
             let body_rate_radps = Vector3::zeros();
-            let body = Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps };
+            let body = SlungLoadState {
+                position_m,
+                velocity_mps,
+                attitude,
+                body_rate_radps,
+                load_position_m,
+                load_velocity_mps,
+            };
             t_s += uniform.between(0.05, 0.6);
             MotionSample { t_s, body }
         });

@@ -1,7 +1,7 @@
 //! The flight of a quadrotor with its load, as the judge looks at it.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use sim::slung_load::Body;
+use sim::slung_load::SlungLoadState;
 use sim::{Flight, LoadSample, Sample, VehicleLog};
 
 use super::motion::{MotionSample, SlungLoadMotion};
@@ -40,7 +40,7 @@ impl<'a> FlownMotion<'a> {
 
 /// Quadrotor and load at the instant of a sample.
 pub fn instant((sample, load): (&Sample, &LoadSample)) -> MotionSample {
-    let body = Body {
+    let body = SlungLoadState {
         position_m: sample.position_m.into(),
         velocity_mps: sample.velocity_mps.into(),
         attitude: UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body)),

@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 
 use scenarios::slung_load::Trajectory;
 use scenarios::{CheckSpec, Gate, Scenario, Vehicle};
-use sim::slung_load::Body;
+use sim::slung_load::SlungLoadState;
 
 use super::motion::SlungLoadMotion;
 use super::search_interval::SearchInterval;
@@ -82,13 +82,13 @@ impl<'a> Gates<'a> {
     }
 }
 
-fn depth_m(gate: &Gate, body: &Body) -> f64 {
+fn depth_m(gate: &Gate, body: &SlungLoadState) -> f64 {
     gate.margin_m(body.position_m.into(), body.load_position_m.into())
 }
 
 fn deepest_node(gate: &Gate, trajectory: &Trajectory) -> Option<Deepest> {
     let at = |node: usize| {
-        let depth_m = depth_m(gate, &Body::from(&trajectory.states[node]));
+        let depth_m = depth_m(gate, &SlungLoadState::from(&trajectory.states[node]));
         Deepest { lower_m: depth_m, upper_m: depth_m, deviation_m: 0.0, at_s: trajectory.times_s[node] }
     };
     let nodes = trajectory.planner_nodes().into_iter().map(at);

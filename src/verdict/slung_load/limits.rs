@@ -8,7 +8,7 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::slung_load::{Limits, Trajectory};
 use scenarios::{CheckSpec, Range, Scenario, Vehicle};
-use sim::slung_load::Body;
+use sim::slung_load::SlungLoadState;
 use sim::{Actuation, VehicleLog};
 
 use super::planned::PlannedMotion;
@@ -55,8 +55,8 @@ impl<'a> LimitChecks<'a> {
                 for position_m in [state.position_m, state.load_position_m] {
                     self.map.place(worst, position_m, t_s);
                 }
-                self.attitude(worst, &Body::from(state).attitude, self.promised.attitude_deg, t_s);
-                self.cable(worst, &Body::from(state), self.promised.cable_deg, t_s);
+                self.attitude(worst, &SlungLoadState::from(state).attitude, self.promised.attitude_deg, t_s);
+                self.cable(worst, &SlungLoadState::from(state), self.promised.cable_deg, t_s);
             }
         })
     }
@@ -144,7 +144,7 @@ impl<'a> LimitChecks<'a> {
         }
     }
 
-    fn cable(&self, worst: &mut Worst<'a>, body: &Body, range: Range, t_s: f64) {
+    fn cable(&self, worst: &mut Worst<'a>, body: &SlungLoadState, range: Range, t_s: f64) {
         for (name, angle) in ["cable angle alpha", "cable angle beta"].into_iter().zip(body.cable_angles_rad()) {
             worst.consider(self.vehicle, Quantity { name, unit: "deg", range }, angle.to_degrees(), t_s);
         }

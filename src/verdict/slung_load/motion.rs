@@ -2,7 +2,7 @@
 //! known speed.
 
 use nalgebra::Vector3;
-use sim::slung_load::Body;
+use sim::slung_load::SlungLoadState;
 
 use crate::verdict::bernstein;
 
@@ -18,7 +18,7 @@ pub struct MotionSample {
     /// Time, s.
     pub t_s: f64,
     /// Where they are.
-    pub body: Body,
+    pub body: SlungLoadState,
 }
 
 /// A motion through samples: positions between two of them are the cubic Hermite of their positions and velocities, the
@@ -153,11 +153,11 @@ impl SlungLoadMotion {
     }
 
     /// Quadrotor and load at the share `u` in [0, 1] of a segment. Velocities and rates are those of its beginning.
-    pub fn at(&self, segment: usize, u: f64) -> Body {
+    pub fn at(&self, segment: usize, u: f64) -> SlungLoadState {
         let (a, b) = self.ends(segment);
         let [quadrotor, load] = self.control_points(segment);
         let turn = (a.attitude.inverse() * b.attitude).scaled_axis();
-        Body {
+        SlungLoadState {
             position_m: cubic(&quadrotor, u),
             load_position_m: cubic(&load, u),
             attitude: a.attitude * nalgebra::UnitQuaternion::from_scaled_axis(turn * u),
@@ -196,7 +196,7 @@ impl SlungLoadMotion {
         a.attitude * (a.attitude.inverse() * b.attitude).scaled_axis()
     }
 
-    fn ends(&self, segment: usize) -> (&Body, &Body) {
+    fn ends(&self, segment: usize) -> (&SlungLoadState, &SlungLoadState) {
         (&self.samples[segment].body, &self.samples[segment + 1].body)
     }
 
@@ -222,7 +222,7 @@ fn cubic(points: &[Vector3<f64>; 4], u: f64) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
-    use sim::slung_load::Body;
+    use sim::slung_load::SlungLoadState;
 
     use super::{MotionSample, SlungLoadMotion};
 
@@ -235,7 +235,14 @@ mod tests {
             let load_position_m = position_m - Vector3::z();
             let attitude = UnitQuaternion::from_euler_angles(0.0, 0.0, t_s);
             let (body_rate_radps, load_velocity_mps) = (Vector3::z(), velocity_mps);
-            let body = Body { position_m, velocity_mps, attitude, body_rate_radps, load_position_m, load_velocity_mps };
+            let body = SlungLoadState {
+                position_m,
+                velocity_mps,
+                attitude,
+                body_rate_radps,
+                load_position_m,
+                load_velocity_mps,
+            };
             MotionSample { t_s, body }
         };
         let once: Vec<MotionSample> = (0..200).map(|k| at(0.005 * f64::from(k))).collect();

@@ -5,7 +5,7 @@
 
 use scenarios::slung_load::Trajectory;
 use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
-use sim::slung_load::{Acting, Body, Plant, Replay};
+use sim::slung_load::{AppliedControls, Plant, Replay, SlungLoadState};
 use sim::{Actuation, Flight, VehicleLog};
 
 use super::flown::instant;
@@ -65,7 +65,7 @@ impl<'a> Physics<'a> {
         if log.loads.len() != log.samples.len() {
             return Err(format!("the log of {} has not as many samples of the load as of the vehicle", self.vehicle));
         }
-        let bodies: Vec<Body> = log.samples.iter().zip(&log.loads).map(|both| instant(both).body).collect();
+        let bodies: Vec<SlungLoadState> = log.samples.iter().zip(&log.loads).map(|both| instant(both).body).collect();
         let mut rotors = self.rotors;
         let (mut motion, mut began_s, mut allowance_m) = (None, f64::NEG_INFINITY, 0.0);
         let mut worst: Option<Defect> = None;
@@ -76,7 +76,7 @@ impl<'a> Physics<'a> {
                 (motion, began_s, allowance_m) = (None, from.t_s, 0.0);
             }
             let tension_n = log.loads[step].tension_n;
-            let acting = Acting {
+            let acting = AppliedControls {
                 thrust_n: rotors.mean_n(commanded_n(&from.actuation), step_s),
                 attitude: [bodies[step - 1].attitude, bodies[step].attitude],
                 tension_n,
@@ -98,7 +98,7 @@ impl<'a> Physics<'a> {
     }
 
     /// Difference between replay and log, m.
-    fn momentum_m(&self, flown: &Body, logged: &Body, allowance_m: f64) -> f64 {
+    fn momentum_m(&self, flown: &SlungLoadState, logged: &SlungLoadState, allowance_m: f64) -> f64 {
         let quadrotor = difference_m(
             &(flown.position_m - logged.position_m),
             &((flown.velocity_mps - logged.velocity_mps) * WINDOW_S),
@@ -113,7 +113,7 @@ impl<'a> Physics<'a> {
     }
 
     /// By how much the law of the cable is broken, m. A push counts by the distance that it moves the load in a window.
-    fn cable_m(&self, ends: [&Body; 2], tension_n: f64, step_s: f64) -> f64 {
+    fn cable_m(&self, ends: [&SlungLoadState; 2], tension_n: f64, step_s: f64) -> f64 {
         let lengths_m = ends.map(|body| body.cable_m().norm());
         let stretch_m = lengths_m[1] - self.plant.cable_length_m;
         let push_m = -tension_n / self.plant.load_mass_kg * WINDOW_S * WINDOW_S / 2.0;
@@ -125,7 +125,7 @@ impl<'a> Physics<'a> {
         breaches_m.fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst })
     }
 
-    fn is_near_ground(&self, body: &Body) -> bool {
+    fn is_near_ground(&self, body: &SlungLoadState) -> bool {
         body.load_position_m.z <= self.plant.resting_height_m + NEAR_GROUND_M
     }
 }

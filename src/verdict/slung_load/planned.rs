@@ -2,7 +2,7 @@
 
 use scenarios::slung_load::{Cable, Trajectory};
 use scenarios::{Interpolation, Plan, Scenario};
-use sim::slung_load::{Body, Knot, Plant, flow, impact};
+use sim::slung_load::{Knot, Plant, SlungLoadState, impact, propagate};
 
 use super::motion::{MotionSample, SlungLoadMotion};
 use crate::verdict::compare::exceeds;
@@ -78,7 +78,7 @@ pub fn motions(vehicle: &str, samples: &[MotionSample]) -> Result<[Motion; 2], S
 
 /// The motion of one interval; of one without length only the node.
 fn flown(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
-    let mut knots = flown_from(&Body::from(&trajectory.states[interval]), trajectory, plant, interval);
+    let mut knots = flown_from(&SlungLoadState::from(&trajectory.states[interval]), trajectory, plant, interval);
     if trajectory.times_s[interval + 1] <= trajectory.times_s[interval] {
         // thrusts that jump as the cable goes slack never act on a taut one
         knots.truncate(1);
@@ -86,17 +86,17 @@ fn flown(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
     knots
 }
 
-fn flown_from(start: &Body, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
+fn flown_from(start: &SlungLoadState, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
     let Interpolation::FirstOrderHold = trajectory.interpolation;
     let controls = [&trajectory.controls[interval], &trajectory.controls[interval + 1]];
     let times_s = [trajectory.times_s[interval], trajectory.times_s[interval + 1]];
-    flow(plant, start, controls, trajectory.cable[interval], times_s, MAX_STEP_S)
+    propagate(plant, start, controls, trajectory.cable[interval], times_s, MAX_STEP_S)
 }
 
 /// What the plan lacks over the window that begins with an interval. Where the cable becomes taut, the impact is part of it.
 fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
     let (times_s, last) = (&trajectory.times_s, trajectory.times_s.len() - 1);
-    let mut body = Body::from(&trajectory.states[first]);
+    let mut body = SlungLoadState::from(&trajectory.states[first]);
     let mut end = first;
     while end < last {
         let knots = flown_from(&body, trajectory, plant, end);
@@ -111,14 +111,17 @@ fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
         }
     }
     let window_s = (times_s[end] - times_s[first]).max(WINDOW_S);
-    Defect { t_s: times_s[end], defect_m: difference_m(plant, &body, &Body::from(&trajectory.states[end]), window_s) }
+    Defect {
+        t_s: times_s[end],
+        defect_m: difference_m(plant, &body, &SlungLoadState::from(&trajectory.states[end]), window_s),
+    }
 }
 
 fn becomes_taut(trajectory: &Trajectory, node: usize) -> bool {
     (trajectory.cable[node - 1], trajectory.cable[node]) == (Cable::Slack, Cable::Taut)
 }
 
-fn difference_m(plant: &Plant, a: &Body, b: &Body, window_s: f64) -> f64 {
+fn difference_m(plant: &Plant, a: &SlungLoadState, b: &SlungLoadState, window_s: f64) -> f64 {
     let differences = [
         (a.position_m - b.position_m).norm(),
         (a.load_position_m - b.load_position_m).norm(),

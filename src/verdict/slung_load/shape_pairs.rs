@@ -1,7 +1,7 @@
 //! What is kept clear of what, and how far apart the two are at one instant.
 
 use scenarios::{Prism, Scenario, Vehicle};
-use sim::slung_load::{Body, Part, Parts, Plane};
+use sim::slung_load::{Part, Parts, Plane, SlungLoadState};
 
 use super::motion::{Deviation, Speeds};
 
@@ -47,7 +47,7 @@ impl<'a> ShapePairs<'a> {
     }
 
     /// Less than the distance, and quick to tell, m.
-    pub(super) fn at_least_m(&self, shape: Shape, body: &Body) -> f64 {
+    pub(super) fn at_least_m(&self, shape: Shape, body: &SlungLoadState) -> f64 {
         match shape {
             Shape::Part(part, obstacle) => self.parts.at_least_m(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(_) | Shape::AboveGround => self.distance_m(shape, body),
@@ -55,7 +55,7 @@ impl<'a> ShapePairs<'a> {
     }
 
     /// Signed distance, m, and a plane between the two, if one is known.
-    pub(super) fn distance_and_plane(&self, shape: Shape, body: &Body) -> (f64, Option<Plane>) {
+    pub(super) fn distance_and_plane(&self, shape: Shape, body: &SlungLoadState) -> (f64, Option<Plane>) {
         match shape {
             Shape::Part(part, obstacle) => self.parts.distance_and_plane(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(_) | Shape::AboveGround => (self.distance_m(shape, body), None),
@@ -63,7 +63,7 @@ impl<'a> ShapePairs<'a> {
     }
 
     /// Signed distance, m.
-    pub(super) fn distance_m(&self, shape: Shape, body: &Body) -> f64 {
+    pub(super) fn distance_m(&self, shape: Shape, body: &SlungLoadState) -> f64 {
         match shape {
             Shape::Part(part, obstacle) => self.parts.distance_m(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(obstacle) => self.parts.envelope_distance_m(body, &self.obstacles[obstacle]),

@@ -2,7 +2,7 @@
 
 use scenarios::slung_load::{State, Trajectory};
 use scenarios::{CheckSpec, Scenario, Vehicle};
-use sim::slung_load::Body;
+use sim::slung_load::SlungLoadState;
 
 use super::FlownMotion;
 use super::planned::PlannedMotion;
@@ -12,7 +12,7 @@ use crate::verdict::evidence::{Decide, Evidence, Measurement};
 /// A vehicle and where its motion should end.
 pub struct TerminalConditions<'a> {
     vehicle: &'a str,
-    goal: Body,
+    goal: SlungLoadState,
     goal_m: f64,
     rest_mps: f64,
 }
@@ -23,7 +23,7 @@ impl<'a> TerminalConditions<'a> {
         let model = scenario.slung_load_model(vehicle);
         Self {
             vehicle: &vehicle.name,
-            goal: Body::from(&State::at(&vehicle.goal, model.cable_length_m)),
+            goal: SlungLoadState::from(&State::at(&vehicle.goal, model.cable_length_m)),
             goal_m: scenario.limits().goal_m,
             rest_mps: scenario.limits().rest_mps,
         }
@@ -35,7 +35,7 @@ impl<'a> TerminalConditions<'a> {
             spec,
             trajectory.map(|trajectory| {
                 let last = trajectory.states.len().checked_sub(1)?;
-                Some((Body::from(&trajectory.states[last]), trajectory.times_s[last]))
+                Some((SlungLoadState::from(&trajectory.states[last]), trajectory.times_s[last]))
             }),
         )
     }
@@ -60,16 +60,16 @@ impl<'a> TerminalConditions<'a> {
         self.rest(spec, flown.map(|flown| flown_end(flown, end_s)))
     }
 
-    fn goal(&self, spec: &CheckSpec, end: Result<Option<(Body, f64)>, &str>) -> Check {
-        let distance_m = |body: &Body| {
+    fn goal(&self, spec: &CheckSpec, end: Result<Option<(SlungLoadState, f64)>, &str>) -> Check {
+        let distance_m = |body: &SlungLoadState| {
             [body.position_m - self.goal.position_m, body.load_position_m - self.goal.load_position_m]
                 .map(|difference| difference.norm())
         };
         self.answer(spec, end, distance_m, self.goal_m)
     }
 
-    fn rest(&self, spec: &CheckSpec, end: Result<Option<(Body, f64)>, &str>) -> Check {
-        let speed_mps = |body: &Body| {
+    fn rest(&self, spec: &CheckSpec, end: Result<Option<(SlungLoadState, f64)>, &str>) -> Check {
+        let speed_mps = |body: &SlungLoadState| {
             [body.velocity_mps - self.goal.velocity_mps, body.load_velocity_mps - self.goal.load_velocity_mps]
                 .map(|difference| difference.norm())
         };
@@ -79,8 +79,8 @@ impl<'a> TerminalConditions<'a> {
     fn answer(
         &self,
         spec: &CheckSpec,
-        end: Result<Option<(Body, f64)>, &str>,
-        measure: impl Fn(&Body) -> [f64; 2],
+        end: Result<Option<(SlungLoadState, f64)>, &str>,
+        measure: impl Fn(&SlungLoadState) -> [f64; 2],
         limit: f64,
     ) -> Check {
         match end {
@@ -99,12 +99,12 @@ impl<'a> TerminalConditions<'a> {
     }
 }
 
-fn planned_end(planned: &PlannedMotion) -> Option<(Body, f64)> {
+fn planned_end(planned: &PlannedMotion) -> Option<(SlungLoadState, f64)> {
     planned.knots.last().map(|knot| (knot.body, knot.t_s))
 }
 
 /// Quadrotor and load at the first sample at or beyond `end_s`.
-fn flown_end(flown: &FlownMotion<'_>, end_s: f64) -> Option<(Body, f64)> {
+fn flown_end(flown: &FlownMotion<'_>, end_s: f64) -> Option<(SlungLoadState, f64)> {
     // A thousandth of a millisecond is rounding, not time.
     let instant = flown.motion.samples().iter().find(|instant| instant.t_s >= end_s - 1e-6)?;
     Some((instant.body, instant.t_s))

@@ -21,12 +21,12 @@ pub const OVERHANG_M: f64 = 1.0;
 
 /// A flat disc or a straight line.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Flat {
+pub(super) enum ConvexPart {
     Disc { center_m: Vector3<f64>, axis: Vector3<f64>, radius_m: f64 },
     Line { ends_m: [Vector3<f64>; 2] },
 }
 
-impl Flat {
+impl ConvexPart {
     /// The point that lies farthest in a direction.
     fn support_m(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         match self {
@@ -65,13 +65,13 @@ pub struct Plane {
 }
 
 /// Signed distance between a shape and a prism with its corners counterclockwise, m.
-pub(super) fn to_prism_m(shape: &Flat, prism: &Prism) -> f64 {
+pub(super) fn to_prism_m(shape: &ConvexPart, prism: &Prism) -> f64 {
     to_prism(shape, prism).0
 }
 
 /// The same with a plane between the two that is as far from the shape, if they do not overlap. Of a prism without bottom or
 /// top it is one for shapes within [`OVERHANG_M`] of this one.
-pub(super) fn to_prism(shape: &Flat, prism: &Prism) -> (f64, Option<Plane>) {
+pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<Plane>) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
         Range::new(low - OVERHANG_M, high + OVERHANG_M)
@@ -104,7 +104,7 @@ fn prism_support_m(prism: &Prism, z_m: Range, direction: &Vector3<f64>) -> Vecto
 }
 
 /// Directions along which prism and shape may part.
-fn normals(shape: &Flat, prism: &Prism) -> Vec<Vector3<f64>> {
+fn normals(shape: &ConvexPart, prism: &Prism) -> Vec<Vector3<f64>> {
     let n = prism.corners_m.len();
     let mut normals = Vec::new();
     let edges = (0..n).map(|i| {
@@ -234,9 +234,9 @@ mod tests {
         Prism { name: "wall".into(), corners_m: vec![[0.05, 0.4], [-0.05, 0.4], [-0.05, -0.4], [0.05, -0.4]], z_m }
     }
 
-    fn disc(center_m: [f64; 3], roll: f64, pitch: f64) -> Flat {
+    fn disc(center_m: [f64; 3], roll: f64, pitch: f64) -> ConvexPart {
         let axis = UnitQuaternion::from_euler_angles(roll, pitch, 0.0) * Vector3::z();
-        Flat::Disc { center_m: center_m.into(), axis, radius_m: 0.352 }
+        ConvexPart::Disc { center_m: center_m.into(), axis, radius_m: 0.352 }
     }
 
     #[test]
@@ -245,7 +245,7 @@ mod tests {
             let (angle, x_m) = (f64::from(step) * 0.11, 0.04 * (f64::from(step) * 0.37).sin());
             let (roll, pitch) = (0.6 * angle.sin(), 0.5 * (1.7 * angle).cos());
             let shape = disc([x_m, -0.8, 1.3], roll, pitch);
-            let Flat::Disc { axis, radius_m, .. } = shape else { unreachable!() };
+            let ConvexPart::Disc { axis, radius_m, .. } = shape else { unreachable!() };
             let reach_m = radius_m * (1.0 - axis.y * axis.y).sqrt();
             let touch = shape.support_m(&Vector3::y());
             let distance_m = to_prism_m(&shape, &prism(None));
@@ -266,7 +266,7 @@ mod tests {
             let center_m = [0.5 * angle.sin(), 0.75 * (1.3 * angle).cos(), 1.0 + 0.3 * (0.7 * angle).sin()];
             let z_m = (step % 2 == 0).then_some(Range::new(0.2, 1.0));
             let (shape, prism) = (disc(center_m, 0.4 * angle.cos(), 0.3 * angle.sin()), prism(z_m));
-            let Flat::Disc { center_m, axis, radius_m } = shape else { unreachable!() };
+            let ConvexPart::Disc { center_m, axis, radius_m } = shape else { unreachable!() };
             let [u, v] = [axis.cross(&Vector3::x()).normalize(), axis.cross(&axis.cross(&Vector3::x()).normalize())];
             let rings = (0..=60).flat_map(|ring| (0..240).map(move |spoke| (f64::from(ring) / 60.0, f64::from(spoke))));
             let points = rings.map(|(share, spoke)| {
@@ -288,7 +288,7 @@ mod tests {
 
     #[test]
     fn a_line_is_told_apart_to_the_last_micrometre() {
-        let line = |x_m: f64| Flat::Line { ends_m: [Vector3::new(x_m, -1.0, 2.0), Vector3::new(x_m, 1.0, 0.5)] };
+        let line = |x_m: f64| ConvexPart::Line { ends_m: [Vector3::new(x_m, -1.0, 2.0), Vector3::new(x_m, 1.0, 0.5)] };
         for gap_m in [1.0, 1e-3, 1e-6] {
             assert!((to_prism_m(&line(0.05 + gap_m), &prism(None)) - gap_m).abs() < 1e-9);
             assert!((to_prism_m(&line(0.05 - gap_m * 0.01), &prism(None)) + gap_m * 0.01).abs() < 1e-9);

@@ -2,7 +2,7 @@
 
 use scenarios::Prism;
 use scenarios::slung_load::{Cable, Model, Trajectory};
-use sim::slung_load::{Body, Part, Parts};
+use sim::slung_load::{Part, Parts, SlungLoadState};
 use sim::{Actuation, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use super::super::{Channel, Channels, Curve, Plot, Scene, Series, StateSeries, colours, distance_m};
@@ -110,7 +110,7 @@ fn add_distances(scene: &mut Scene<'_>, run: &Run<'_>, model: &Model, flight: &F
     let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
     let stride = (DISTANCE_STEP_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
     // Infinite distances are left out: without an obstacle there is no curve.
-    let curve = |distance_m: &dyn Fn(&Body) -> f64| -> Curve {
+    let curve = |distance_m: &dyn Fn(&SlungLoadState) -> f64| -> Curve {
         flown.motion.samples().iter().step_by(stride).map(|at| (at.t_s, distance_m(&at.body))).collect()
     };
     let nearest = |distance_m: &dyn Fn(&Prism) -> f64| obstacles.iter().map(distance_m).fold(f64::INFINITY, f64::min);

@@ -6,7 +6,7 @@ use rapier3d_f64::prelude::{
 use scenarios::slung_load::{Cable, GRAVITY_MPS2};
 
 use super::{from_rapier, to_rapier};
-use crate::slung_load::{Body, Plant};
+use crate::slung_load::{Plant, SlungLoadState};
 
 /// Half the size of the block whose top is the ground, m.
 const GROUND_M: f64 = 1000.0;
@@ -19,7 +19,7 @@ const FRICTION: f64 = 0.8;
 /// (see [`RapierWorld`](super::RapierWorld)). The rope keeps the distance by an impulse inside the step, at which the
 /// velocities along it are those of the middle of the step. With one solver iteration and none of the internal
 /// stabilisation, which takes energy out, the rope's impulse is all of it, and says what the tension was.
-pub(crate) struct Hoist {
+pub(crate) struct TetheredPair {
     physics: PhysicsWorld,
     quadrotor: RigidBodyHandle,
     load: RigidBodyHandle,
@@ -33,7 +33,7 @@ pub(crate) struct Hoist {
 
 /// What acts on quadrotor and load during a step, beside gravity, cable and ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Loads {
+pub(crate) struct AppliedForces {
     /// Force on the quadrotor, world frame, N.
     pub force_n: Vector3<f64>,
     /// Torque on the quadrotor, world frame, N m.
@@ -42,9 +42,9 @@ pub(crate) struct Loads {
     pub load_force_n: Vector3<f64>,
 }
 
-impl Hoist {
+impl TetheredPair {
     /// Both at `start`. `load_radius_m`: with it the load lies on the ground, if the plant has one.
-    pub fn new(plant: &Plant, load_radius_m: f64, start: &Body, step_s: f64) -> Self {
+    pub fn new(plant: &Plant, load_radius_m: f64, start: &SlungLoadState, step_s: f64) -> Self {
         let mut physics = PhysicsWorld::new();
         physics.gravity = Vector::new(0.0, 0.0, -GRAVITY_MPS2);
         physics.integration_parameters.dt = step_s;
@@ -95,12 +95,12 @@ impl Hoist {
     /// A half of each step's impulses comes after rapier's own step; the rope's came inside it. While the cable stays taut,
     /// half of it belongs to what comes after: without it, the ends would seem to part by λ h/(2 m). How much that is, is
     /// told by their parting itself, and not by the last impulse, of which the rest of an impact may be a part.
-    pub fn body(&self) -> Body {
+    pub fn body(&self) -> SlungLoadState {
         let (quadrotor, load) = (&self.physics.bodies[self.quadrotor], &self.physics.bodies[self.load]);
         let rotation = quadrotor.rotation();
         let attitude =
             UnitQuaternion::new_normalize(nalgebra::Quaternion::new(rotation.w, rotation.x, rotation.y, rotation.z));
-        let mut body = Body {
+        let mut body = SlungLoadState {
             position_m: from_rapier(quadrotor.translation()),
             velocity_mps: from_rapier(quadrotor.linvel()),
             attitude,
@@ -119,7 +119,7 @@ impl Hoist {
     }
 
     /// Lets one step pass under `loads`, those of its middle.
-    pub fn step(&mut self, loads: &Loads) {
+    pub fn step(&mut self, loads: &AppliedForces) {
         self.apply_half_impulses(loads, -1.0);
         self.physics.step();
         self.apply_half_impulses(loads, 1.0);
@@ -139,7 +139,7 @@ impl Hoist {
     }
 
     /// Half a step's impulses, and half of gravity's with the sign that is given: rapier gives all of it in its step.
-    fn apply_half_impulses(&mut self, loads: &Loads, gravity_sign: f64) {
+    fn apply_half_impulses(&mut self, loads: &AppliedForces, gravity_sign: f64) {
         let half_step_s = self.step_s / 2.0;
         let gravity = self.physics.gravity * gravity_sign;
         let bodies = &mut self.physics.bodies;

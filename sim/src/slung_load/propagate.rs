@@ -1,8 +1,8 @@
 use nalgebra::Vector4;
 use scenarios::slung_load::{Cable, Control};
 
-use super::body::Body;
 use super::dynamics::Plant;
+use super::state::SlungLoadState;
 use crate::runge_kutta;
 
 /// A motion at one instant.
@@ -11,7 +11,7 @@ pub struct Knot {
     /// Time, s.
     pub t_s: f64,
     /// Motion.
-    pub body: Body,
+    pub body: SlungLoadState,
     /// Thrusts of the rotors, N.
     pub thrust_n: Vector4<f64>,
     /// Tension of the cable, N: 0 if it is slack, negative where a taut one would have to push.
@@ -26,9 +26,9 @@ pub struct Knot {
 ///
 /// Integrates by a Runge-Kutta method of order 6, one step per knot: with steps of 10 ms the error over an interval is
 /// below 1e-9 m. Returns the knots from the one end to the other, both included.
-pub fn flow(
+pub fn propagate(
     plant: &Plant,
-    start: &Body,
+    start: &SlungLoadState,
     controls: [&Control; 2],
     cable: Cable,
     times_s: [f64; 2],
@@ -39,7 +39,7 @@ pub fn flow(
     let steps = (duration_s / max_step_s).ceil().max(1.0);
     let step_s = duration_s / steps;
     let thrust_at = |share: f64| from + (to - from) * share;
-    let knot = |t_s: f64, body: Body, share: f64| {
+    let knot = |t_s: f64, body: SlungLoadState, share: f64| {
         let thrust_n = thrust_at(share);
         let tension_n = match cable {
             Cable::Taut => plant.tension_n(&body, thrust_n.sum()),
@@ -51,7 +51,7 @@ pub fn flow(
     let mut numbers = start.to_numbers();
     for step in 0..steps as usize {
         let rate = |numbers: &_, share: f64| plant.rate(numbers, &thrust_at((step as f64 + share) / steps), cable);
-        let body = Body::from_numbers(&runge_kutta::advanced(&numbers, step_s, rate));
+        let body = SlungLoadState::from_numbers(&runge_kutta::advanced(&numbers, step_s, rate));
         numbers = body.to_numbers();
         let is_last = step + 1 == steps as usize;
         let t_s = if is_last { times_s[1] } else { times_s[0] + (step + 1) as f64 * step_s };

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 ///
 /// Returns the share of the time that has passed by then: 0 if they overlap from the beginning, `None` if they never
 /// touch.
-pub(crate) fn first_touch(start_m: &Vector3<f64>, end_m: &Vector3<f64>, reach_m: f64) -> Option<f64> {
+pub(crate) fn time_of_impact(start_m: &Vector3<f64>, end_m: &Vector3<f64>, reach_m: f64) -> Option<f64> {
     let gap = start_m.norm_squared() - reach_m * reach_m;
     if gap <= 0.0 {
         return Some(0.0);
@@ -38,22 +38,22 @@ mod tests {
 
     #[test]
     fn head_on() {
-        let share = first_touch(&Vector3::new(10.0, 0.0, 0.0), &Vector3::new(-10.0, 0.0, 0.0), 2.0);
+        let share = time_of_impact(&Vector3::new(10.0, 0.0, 0.0), &Vector3::new(-10.0, 0.0, 0.0), 2.0);
         assert!((share.unwrap() - 0.4).abs() < 1e-15);
     }
 
     #[test]
     fn a_near_miss_between_the_ends_is_none_and_a_graze_is_seen() {
-        let pass = |offset| first_touch(&Vector3::new(5.0, offset, 0.0), &Vector3::new(-5.0, offset, 0.0), 1.0);
+        let pass = |offset| time_of_impact(&Vector3::new(5.0, offset, 0.0), &Vector3::new(-5.0, offset, 0.0), 1.0);
         assert_eq!(pass(1.0 + 1e-9), None);
         assert!((pass(1.0 - 1e-9).unwrap() - 0.5).abs() < 1e-4);
     }
 
     #[test]
     fn parting_late_and_overlapping() {
-        assert_eq!(first_touch(&Vector3::new(2.0, 0.0, 0.0), &Vector3::new(9.0, 0.0, 0.0), 1.0), None);
-        assert_eq!(first_touch(&Vector3::new(9.0, 0.0, 0.0), &Vector3::new(2.0, 0.0, 0.0), 1.0), None);
-        assert_eq!(first_touch(&Vector3::new(0.5, 0.0, 0.0), &Vector3::new(9.0, 0.0, 0.0), 1.0), Some(0.0));
-        assert_eq!(first_touch(&Vector3::new(2.0, 0.0, 0.0), &Vector3::new(2.0, 0.0, 0.0), 1.0), None);
+        assert_eq!(time_of_impact(&Vector3::new(2.0, 0.0, 0.0), &Vector3::new(9.0, 0.0, 0.0), 1.0), None);
+        assert_eq!(time_of_impact(&Vector3::new(9.0, 0.0, 0.0), &Vector3::new(2.0, 0.0, 0.0), 1.0), None);
+        assert_eq!(time_of_impact(&Vector3::new(0.5, 0.0, 0.0), &Vector3::new(9.0, 0.0, 0.0), 1.0), Some(0.0));
+        assert_eq!(time_of_impact(&Vector3::new(2.0, 0.0, 0.0), &Vector3::new(2.0, 0.0, 0.0), 1.0), None);
     }
 }

@@ -8,7 +8,7 @@ use scenarios::multirotor::Trajectory;
 
 use super::acceptance::defect;
 use super::planning_time::PlanningTime;
-use super::{Replan, Senses};
+use super::{Replan, SensedWorld};
 use crate::multirotor::Reference;
 use crate::sensors::Measurement;
 
@@ -16,7 +16,7 @@ use crate::sensors::Measurement;
 const ROUNDING_S: f64 = 1e-9;
 
 /// Asks one vehicle's planner, and says what is flown.
-pub(crate) struct Helm {
+pub(crate) struct ReferenceManager {
     vehicle: usize,
     planner: Box<dyn InLoopPlanner>,
     settings: Planning,
@@ -36,15 +36,15 @@ pub(crate) struct Helm {
 }
 
 /// Where a vehicle is, as it measures itself, and what it has seen.
-pub(crate) struct Fix<'a> {
+pub(crate) struct NavigationInput<'a> {
     pub t_s: f64,
     pub own: Measurement,
-    pub senses: &'a mut Senses,
+    pub senses: &'a mut SensedWorld,
     pub moving: Vec<ObstacleMeasurement>,
     pub neighbours: Vec<Neighbour>,
 }
 
-impl Helm {
+impl ReferenceManager {
     /// At the beginning the vehicle stands at its start, m.
     ///
     /// - `share`: of the period that passes before the first turn, in [0, 1)
@@ -104,8 +104,8 @@ impl Helm {
     }
 
     /// Asks the planner.
-    pub fn ask(&mut self, fix: Fix<'_>) -> Replan {
-        let Fix { t_s, own, senses, moving, neighbours } = fix;
+    pub fn ask(&mut self, fix: NavigationInput<'_>) -> Replan {
+        let NavigationInput { t_s, own, senses, moving, neighbours } = fix;
         let discovered = senses.news();
         let planned_s = self.on_step(t_s + self.settings.deadline_s);
         let observation = Observation {

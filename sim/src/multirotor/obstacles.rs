@@ -6,13 +6,13 @@ const TOUCH_M: f64 = 1e-9;
 
 /// All obstacles of a world, sensed or not, and how far they are.
 #[derive(Clone, Debug)]
-pub struct Surroundings {
+pub struct Obstacles {
     cylinders: Vec<Cylinder>,
     flat: Vec<Prism>,
     moving: Vec<MovingCylinder>,
 }
 
-impl Surroundings {
+impl Obstacles {
     /// Of a world.
     pub fn of(world: &World) -> Self {
         Self { cylinders: world.cylinders.clone(), flat: world.flat_obstacles(), moving: world.moving.clone() }
@@ -27,7 +27,7 @@ impl Surroundings {
     pub fn name(&self, obstacle: usize) -> &str {
         match self.kind(obstacle) {
             Kind::Cylinder(it) => &it.name,
-            Kind::Flat(it) => &it.name,
+            Kind::ConvexPart(it) => &it.name,
             Kind::Moving(it) => &it.name,
         }
     }
@@ -35,7 +35,7 @@ impl Surroundings {
     /// Largest speed of an obstacle, m/s.
     pub fn speed_mps(&self, obstacle: usize) -> f64 {
         match self.kind(obstacle) {
-            Kind::Cylinder(_) | Kind::Flat(_) => 0.0,
+            Kind::Cylinder(_) | Kind::ConvexPart(_) => 0.0,
             Kind::Moving(it) => it.speed_mps,
         }
     }
@@ -44,7 +44,7 @@ impl Surroundings {
     pub fn distance_m(&self, obstacle: usize, t_s: f64, position_m: [f64; 3]) -> f64 {
         match self.kind(obstacle) {
             Kind::Cylinder(it) => it.signed_distance_m(position_m[0], position_m[1]),
-            Kind::Flat(it) => it.signed_distance_in_space_m(position_m),
+            Kind::ConvexPart(it) => it.signed_distance_in_space_m(position_m),
             Kind::Moving(it) => it.signed_distance_m(t_s, position_m),
         }
     }
@@ -54,7 +54,7 @@ impl Surroundings {
     /// - `times_s`, `ends_m`: of the way's beginning and end
     ///
     /// No point can come nearer faster than both move: the ball goes on by what is free, until nothing is, or the way ends.
-    pub fn first_touch(&self, times_s: [f64; 2], ends_m: [Vector3<f64>; 2], radius_m: f64) -> Option<(f64, usize)> {
+    pub fn time_of_impact(&self, times_s: [f64; 2], ends_m: [Vector3<f64>; 2], radius_m: f64) -> Option<(f64, usize)> {
         let duration_s = times_s[1] - times_s[0];
         let way_m = (ends_m[1] - ends_m[0]).norm();
         let touches = (0..self.count()).filter_map(|obstacle| {
@@ -82,7 +82,7 @@ impl Surroundings {
         if obstacle < cylinders {
             Kind::Cylinder(&self.cylinders[obstacle])
         } else if obstacle < cylinders + flat {
-            Kind::Flat(&self.flat[obstacle - cylinders])
+            Kind::ConvexPart(&self.flat[obstacle - cylinders])
         } else {
             Kind::Moving(&self.moving[obstacle - cylinders - flat])
         }
@@ -91,7 +91,7 @@ impl Surroundings {
 
 enum Kind<'a> {
     Cylinder(&'a Cylinder),
-    Flat(&'a Prism),
+    ConvexPart(&'a Prism),
     Moving(&'a MovingCylinder),
 }
 
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use scenarios::{BoxObstacle, Map, Range};
 
-    fn surroundings() -> Surroundings {
+    fn surroundings() -> Obstacles {
         let wide = Range::new(-100.0, 100.0);
         let mut world = World::empty(Map { x_m: wide, y_m: wide, z_m: wide });
         world.boxes.push(BoxObstacle {
@@ -118,11 +118,11 @@ mod tests {
             speed_mps: 10.0,
             offset_m: 0.0,
         });
-        Surroundings::of(&world)
+        Obstacles::of(&world)
     }
 
     fn touch(from_m: [f64; 3], to_m: [f64; 3]) -> Option<(f64, usize)> {
-        surroundings().first_touch([0.0, 2.0], [from_m.into(), to_m.into()], 0.5)
+        surroundings().time_of_impact([0.0, 2.0], [from_m.into(), to_m.into()], 0.5)
     }
 
     #[test]

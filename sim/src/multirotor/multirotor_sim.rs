@@ -5,14 +5,14 @@ use scenarios::{Scenario, Vehicle, slung_load};
 use super::reference::{Reference, ReferencePoint};
 use super::tracker::{Autopilot, Tracker, limited_mps2, turned_towards, upright_towards};
 use crate::air::{Air, drag_n};
-use crate::quadrotor::Turning;
+use crate::quadrotor::AttitudeState;
 use crate::rapier_world::RapierWorld;
 use crate::saturation::SaturationWatch;
 use crate::sensors::{Delay, Measurement, Sensors};
 use crate::{Actuation, Commanded, EventKind, Sample, VehicleLog};
 
 /// One multirotor: everything about it but its body.
-pub(super) struct Craft {
+pub(super) struct MultirotorSim {
     index: usize,
     pub model: Model,
     tracker: Tracker,
@@ -20,7 +20,7 @@ pub(super) struct Craft {
     autopilot: Option<Autopilot>,
     sensors: Sensors,
     delay: Delay<Measurement>,
-    turning_delay: Delay<Turning>,
+    turning_delay: Delay<AttitudeState>,
     air: Air,
     step_s: f64,
     /// Acceleration that was decided on, m/s²: that of a point mass acts during the coming step.
@@ -37,10 +37,10 @@ pub(super) struct Craft {
 pub(super) struct Truth {
     pub position_m: Vector3<f64>,
     pub velocity_mps: Vector3<f64>,
-    pub turning: Turning,
+    pub turning: AttitudeState,
 }
 
-impl Craft {
+impl MultirotorSim {
     /// Adds its body to the world. `start`: position, m, and velocity, m/s.
     pub fn new(
         scenario: &Scenario,
@@ -87,7 +87,8 @@ impl Craft {
 
     /// The body as it is.
     pub fn truth(&self, world: &RapierWorld) -> Truth {
-        let turning = Turning { attitude: world.attitude(self.index), rate_radps: world.body_rate_radps(self.index) };
+        let turning =
+            AttitudeState { attitude: world.attitude(self.index), rate_radps: world.body_rate_radps(self.index) };
         Truth { position_m: world.position_m(self.index), velocity_mps: world.velocity_mps(self.index), turning }
     }
 
@@ -140,7 +141,7 @@ impl Craft {
             world.set_force_n(self.index, lift_n + drag_n);
             return;
         }
-        let thrust_n = self.spin(plant_step_s);
+        let thrust_n = self.update_rotors(plant_step_s);
         let Some(autopilot) = &self.autopilot else { return };
         let (total_n, torque_nm) = autopilot.rotors().wrench(&thrust_n);
         let middle = truth.turning.rate_radps * (plant_step_s / 2.0);
@@ -155,7 +156,7 @@ impl Craft {
     }
 
     /// Lets the rotors follow their command for a step of the plant; returns the thrusts in its middle, N.
-    fn spin(&mut self, plant_step_s: f64) -> Vector4<f64> {
+    fn update_rotors(&mut self, plant_step_s: f64) -> Vector4<f64> {
         let time_constant_s = self.autopilot.as_ref().and_then(|autopilot| autopilot.airframe().rotor_time_constant_s);
         let Some(time_constant_s) = time_constant_s else {
             self.rotors_n = self.command_n;

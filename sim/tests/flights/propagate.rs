@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 use scenarios::fixed_wing::{Control, State};
-use sim::fixed_wing::{flow, rollout};
+use sim::fixed_wing::{propagate, rollout};
 
 use crate::{arena, polar};
 
@@ -11,13 +11,13 @@ const CONTROLS: [Control; 2] = [Control { n_x: 0.2, n_y: 0.4, n_z: 1.3 }, Contro
 /// Distance of the flow's end from the polar equations', m.
 fn error_m(max_step_s: f64) -> f64 {
     let expected = polar::integrate(&CLIMBING_TURN, CONTROLS, 8.0);
-    let knots = flow(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, max_step_s);
+    let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, max_step_s);
     (knots[knots.len() - 1].position_m - Vector3::from(expected.position_m())).norm()
 }
 
 #[test]
 fn flow_agrees_with_the_polar_equations_at_every_knot() {
-    let knots = flow(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, 0.3);
+    let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, 0.3);
     let at_share = |share: f64| {
         let [first, last] = CONTROLS.map(Control::to_array);
         Control::from_array(std::array::from_fn(|i| first[i] + (last[i] - first[i]) * share))
@@ -32,7 +32,7 @@ fn flow_agrees_with_the_polar_equations_at_every_knot() {
 
 #[test]
 fn flow_holds_both_ends_and_equal_steps_within_the_bound() {
-    let knots = flow(&CLIMBING_TURN, CONTROLS, 10.0, 1.0, 0.3);
+    let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 1.0, 0.3);
     let times: Vec<f64> = knots.iter().map(|knot| knot.t_s).collect();
     assert_eq!(times, [10.0, 10.25, 10.5, 10.75, 11.0]);
     assert_eq!(knots[0].position_m, Vector3::from(CLIMBING_TURN.position_m()));

@@ -4,7 +4,7 @@ use scenarios::slung_load::State;
 /// Motion of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x
 /// forward, y left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct SlungLoadState {
     /// Position of the quadrotor, m.
     pub position_m: Vector3<f64>,
     /// Velocity of the quadrotor, m/s.
@@ -19,10 +19,10 @@ pub struct Body {
     pub load_velocity_mps: Vector3<f64>,
 }
 
-/// The numbers of a [`Body`] in the order of its fields, the quaternion as (x, y, z, w).
+/// The numbers of a [`SlungLoadState`] in the order of its fields, the quaternion as (x, y, z, w).
 pub(super) type Numbers = SVector<f64, 19>;
 
-impl Body {
+impl SlungLoadState {
     /// Thrust direction, the body's z axis, world frame.
     pub fn thrust_axis(&self) -> Vector3<f64> {
         self.attitude * Vector3::z()
@@ -69,7 +69,7 @@ impl Body {
     }
 }
 
-impl From<&State> for Body {
+impl From<&State> for SlungLoadState {
     fn from(state: &State) -> Self {
         let [roll, pitch, yaw] = state.roll_pitch_yaw_rad;
         Self {
@@ -83,8 +83,8 @@ impl From<&State> for Body {
     }
 }
 
-impl From<&Body> for State {
-    fn from(body: &Body) -> Self {
+impl From<&SlungLoadState> for State {
+    fn from(body: &SlungLoadState) -> Self {
         let (roll, pitch, yaw) = body.attitude.euler_angles();
         Self {
             position_m: body.position_m.into(),

@@ -35,7 +35,7 @@ impl Knot {
 /// 0.25 s the error over a 230 s flight of an ordinary aircraft stays below 1e-8 m.
 ///
 /// Returns the knots from `t0_s` to `t0_s + duration_s`, both ends included.
-pub fn flow(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f64, max_step_s: f64) -> Vec<Knot> {
+pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f64, max_step_s: f64) -> Vec<Knot> {
     let mut knots = vec![Knot::of(start, t0_s)];
     extend(&mut knots, controls, t0_s + duration_s, max_step_s);
     knots

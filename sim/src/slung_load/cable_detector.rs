@@ -9,13 +9,13 @@ const IMPACT_S: f64 = 0.0015;
 
 /// Turns "the cable is taut" at each step of the simulator into events at its switches.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CableWatch {
+pub(super) struct CableDetector {
     cable: Cable,
     /// Since when it has been the other, s, and the impulse at the beginning of it, N s.
     other: Option<(f64, f64)>,
 }
 
-impl CableWatch {
+impl CableDetector {
     pub fn new(cable: Cable) -> Self {
         Self { cable, other: None }
     }

@@ -5,7 +5,7 @@ use scenarios::{MovingCylinder, Prism, World};
 use crate::sensors::Sensors;
 
 /// What one vehicle has found out about the world.
-pub(crate) struct Senses {
+pub(crate) struct SensedWorld {
     range_m: f64,
     truth: World,
     flat: Vec<Prism>,
@@ -28,7 +28,7 @@ pub(crate) struct Other {
     pub plan: Vec<Node>,
 }
 
-impl Senses {
+impl SensedWorld {
     /// Of a vehicle that sees as far as `range_m`, from its centre to a surface. `sensors`: their noise.
     pub fn new(world: &World, range_m: f64, sensors: Sensors) -> Self {
         let moving = |name: &str| world.moving.iter().any(|moving| moving.name == name);

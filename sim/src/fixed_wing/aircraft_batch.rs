@@ -7,14 +7,14 @@ use crate::rapier_world::RapierWorld;
 
 /// Aircraft that share a rapier world: enough of them to share what a step of it costs however few they are, few enough
 /// to give every thread some squadrons.
-pub(super) struct Squadron {
+pub(super) struct AircraftBatch {
     world: RapierWorld,
     aircraft: Vec<Aircraft>,
     step_s: f64,
     substeps: usize,
 }
 
-impl Squadron {
+impl AircraftBatch {
     /// Most aircraft in one.
     pub const SIZE: usize = 10;
 
@@ -61,12 +61,12 @@ impl Squadron {
     }
 
     /// Takes an aircraft out that should have flown `steps` only.
-    pub fn take_out(&mut self, index: usize, steps: usize) {
-        self.aircraft[index].take_out(steps);
+    pub fn remove(&mut self, index: usize, steps: usize) {
+        self.aircraft[index].remove(steps);
         self.world.remove_body(index);
     }
 
-    pub fn land(self) -> Vec<Aircraft> {
+    pub fn finish(self) -> Vec<Aircraft> {
         self.aircraft
     }
 
@@ -77,7 +77,7 @@ impl Squadron {
         for (index, aircraft) in flying(aircraft) {
             let (position_m, velocity_mps) = (world.position_m(index), world.velocity_mps(index));
             if substep == 0 {
-                aircraft.let_air_pass(position_m, velocity_mps);
+                aircraft.advance_wind(position_m, velocity_mps);
             }
             let force_n = aircraft.force_n(velocity_mps, world.mass_kg(index), middle, share);
             world.set_force_n(index, force_n);
