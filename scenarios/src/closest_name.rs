@@ -1,6 +1,16 @@
-/// The candidate that `word` was probably meant to be: the one with the fewest edits (insertions, deletions,
-/// substitutions), if a third of the longer word or less has to change. A unit that is missing or too much (`mass` for
-/// `mass_kg`) counts as one edit.
+/// The candidate with the smallest edit distance to `word` (insertions, deletions, substitutions), for "did you mean".
+///
+/// `None` if more than a third of the longer of the two words would have to change. A missing or superfluous unit
+/// (`mass` for `mass_kg`) counts as one edit.
+///
+/// # Examples
+///
+/// ```
+/// use scenarios::closest_name;
+///
+/// assert_eq!(closest_name("margins_m", ["margin_m", "name"]), Some("margin_m"));
+/// assert_eq!(closest_name("colour", ["margin_m", "name"]), None);
+/// ```
 pub fn closest_name<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     candidates
         .into_iter()
@@ -19,7 +29,7 @@ fn edits(word: &str, candidate: &str) -> usize {
     }
 }
 
-/// Levenshtein distance, one row of the table at a time.
+/// Levenshtein distance, computed one row of the table at a time.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -40,14 +50,14 @@ mod tests {
     use super::{closest_name, edit_distance};
 
     #[test]
-    fn edit_distances_of_the_textbook() {
+    fn edit_distance_matches_textbook_values() {
         assert_eq!(edit_distance("kitten", "sitting"), 3);
         assert_eq!(edit_distance("", "abc"), 3);
         assert_eq!(edit_distance("speed_mps", "speed_mps"), 0);
     }
 
     #[test]
-    fn a_typo_finds_its_word_and_nonsense_finds_none() {
+    fn a_typo_has_a_closest_name_and_nonsense_has_none() {
         let keys = ["margin_m", "max_iterations", "name"];
         assert_eq!(closest_name("margins_m", keys), Some("margin_m"));
         assert_eq!(closest_name("margin", keys), Some("margin_m"));

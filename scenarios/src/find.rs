@@ -4,28 +4,28 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// Why no list of scenario files could be made.
+/// Why the scenario files could not be listed.
 #[derive(Debug, Error, Diagnostic)]
 pub enum FindError {
-    /// A path that is not there, or that may not be read.
+    /// A path that does not exist or cannot be read.
     #[error("{}: {reason}", path.display())]
-    #[diagnostic(help("give a scenario file, or a folder with scenario files in it or below it"))]
+    #[diagnostic(help("give a scenario file, or a folder that contains scenario files"))]
     Read {
         /// The path.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         reason: std::io::Error,
     },
-    /// A folder without any scenario.
-    #[error("{}: found no scenario file (*.toml) in this folder, nor below it", path.display())]
-    #[diagnostic(help("give a scenario file, or a folder with scenario files in it or below it"))]
+    /// A folder without scenario files.
+    #[error("{}: found no scenario file (*.toml) in or below this folder", path.display())]
+    #[diagnostic(help("give a scenario file, or a folder that contains scenario files"))]
     Empty {
         /// The folder.
         path: PathBuf,
     },
-    /// Two files of one name, whose results would land in the same place.
+    /// Two files with the same name, whose results would be written to the same place.
     #[error("two scenarios are named `{name}`: {} and {}", first.display(), second.display())]
-    #[diagnostic(help("rename one of the files, and its `name` with it"))]
+    #[diagnostic(help("rename one of the files, and change its `name` accordingly"))]
     SameName {
         /// The name.
         name: String,
@@ -36,10 +36,14 @@ pub enum FindError {
     },
 }
 
-/// All scenario files that `paths` stand for, sorted by folder and name, each once.
+/// All scenario files that `paths` denote, without duplicates, sorted by folder and name.
 ///
-/// A file stands for itself, a folder for every `*.toml` in it and below it, except for `Cargo.toml` and for files and
+/// A file denotes itself. A folder denotes every `*.toml` in or below it, except `Cargo.toml` and except files and
 /// folders whose names begin with a dot.
+///
+/// # Errors
+///
+/// A path cannot be read, a folder contains no scenario file, or two files have the same name.
 pub fn find(paths: &[impl AsRef<Path>]) -> Result<Vec<PathBuf>, FindError> {
     let mut files = Vec::new();
     for path in paths {
@@ -108,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn folders_are_searched_to_the_bottom_and_files_are_sorted() {
+    fn folders_are_searched_recursively_and_files_are_sorted() {
         let folder = folder_with(&["b/two.toml", "a/deep/one.toml", "Cargo.toml", "notes.md", ".hidden/no.toml"]);
         let found = find(&[folder.path()]).unwrap();
         let found: Vec<_> = found.iter().map(|file| file.strip_prefix(folder.path()).unwrap()).collect();
@@ -116,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_comes_before_the_longer_ones_that_begin_with_it() {
+    fn a_name_sorts_before_longer_names_that_begin_with_it() {
         let folder = folder_with(&["fleet-7-wind.toml", "fleet-7.toml"]);
         let found = find(&[folder.path()]).unwrap();
         let names: Vec<_> = found.iter().map(|file| file.file_name().unwrap()).collect();
@@ -124,20 +128,20 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_named_twice_counts_once() {
+    fn a_file_given_twice_is_listed_once() {
         let folder = folder_with(&["a/one.toml"]);
         let paths = [folder.path().join("a/one.toml"), folder.path().to_owned(), folder.path().join("a/../a/one.toml")];
         assert_eq!(find(&paths).unwrap().len(), 1);
     }
 
     #[test]
-    fn two_files_of_one_name_are_refused() {
+    fn two_files_with_the_same_name_are_rejected() {
         let folder = folder_with(&["a/one.toml", "b/one.toml"]);
         assert!(matches!(find(&[folder.path()]), Err(FindError::SameName { name, .. }) if name == "one"));
     }
 
     #[test]
-    fn nothing_found_is_an_error_that_names_the_path() {
+    fn an_empty_folder_is_an_error_that_names_the_path() {
         let folder = folder_with(&["notes.md"]);
         assert!(matches!(find(&[folder.path()]), Err(FindError::Empty { path }) if path == folder.path()));
         let missing = folder.path().join("missing.toml");

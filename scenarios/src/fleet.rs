@@ -1,16 +1,16 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the vehicles of a fleet owe to each other.
+/// Requirements between the vehicles of a fleet.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FleetRules {
-    /// Smallest horizontal distance R between any two vehicles at any time, m. Absent: no rule.
+    /// Minimum horizontal distance R between any two vehicles at any time, m. Absent: not required.
     pub separation_m: Option<f64>,
-    /// Do all vehicles have to arrive at the same time?
+    /// Whether all vehicles must arrive at the same time.
     #[serde(default)]
     pub simultaneous_arrival: bool,
-    /// Do vehicles that plan in the loop tell each other what they are going to fly?
+    /// Whether vehicles with in-loop planners share their references.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub plans_shared: bool,
 }

@@ -1,24 +1,60 @@
-//! Planning in the loop: the seam between a planner that is asked again and again while its vehicle flies, and whoever
-//! flies the vehicle.
+//! In-loop planning: the interface between a planner that replans while its vehicle flies, and the simulator.
 //!
 //! ```text
-//! t                    the vehicle measures, the planner is asked: Observation
-//! t + planning time    its ReplanResult is there
-//! t + deadline         an answer in time begins to be flown here, a late one when it is there
+//! t                    the vehicle measures, and the planner is called with an Observation
+//! t + planning time    the ReplanResult is available
+//! t + deadline         a result in time takes effect; a late one takes effect when it is available
 //! ```
 //!
-//! Neither side sees the other. Planners implement [`InLoopPlanner`]; the simulator calls it.
+//! Planners implement [`InLoopPlanner`]; the simulator calls it. Neither side depends on the other.
+//!
+//! # Examples
+//!
+//! ```
+//! use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult, ReplanStatus};
+//! use scenarios::{Map, Range, World};
+//!
+//! /// Flies to a point and stops there 5 s later, without regard to obstacles.
+//! struct Straight([f64; 3]);
+//!
+//! impl InLoopPlanner for Straight {
+//!     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
+//!         let begin_s = observation.takes_effect_s;
+//!         let begin = Node::at_rest(begin_s, observation.position_m);
+//!         ReplanResult::fly(vec![begin, Node::at_rest(begin_s + 5.0, self.0)])
+//!     }
+//! }
+//!
+//! let axis = Range::new(0.0, 20.0);
+//! let observation = Observation {
+//!     t_s: 1.0,
+//!     takes_effect_s: 1.1,
+//!     position_m: [1.0, 1.0, 2.0],
+//!     velocity_mps: [0.0; 3],
+//!     in_force: &[],
+//!     last: &ReplanStatus::None,
+//!     known: &World::empty(Map { x_m: axis, y_m: axis, z_m: axis }),
+//!     discovered: &[],
+//!     moving: &[],
+//!     neighbours: &[],
+//! };
+//! let result = Straight([9.0, 1.0, 2.0]).replan(&observation);
+//! assert_eq!(result, ReplanResult::fly(vec![
+//!     Node::at_rest(1.1, [1.0, 1.0, 2.0]),
+//!     Node::at_rest(6.1, [9.0, 1.0, 2.0]),
+//! ]));
+//! ```
 
 use serde::{Deserialize, Serialize};
 
 use crate::{Range, World};
 
-/// A planner for one vehicle, asked again and again while it flies.
+/// A planner for one vehicle that replans during the flight.
 pub trait InLoopPlanner: Send {
-    /// Answers what is known at one instant with where to fly from the next one on.
+    /// Plans from `observation.takes_effect_s` on, with what is known now.
     ///
-    /// The same observations in the same order give the same answers: a planner reads no clock, and draws random numbers
-    /// from the seed alone that it was made with.
+    /// The same observations in the same order must give the same results: a planner does not read a clock, and draws random
+    /// numbers only from the seed that it was created with.
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult;
 }
 
@@ -27,27 +63,27 @@ pub trait InLoopPlanner: Send {
 pub struct Observation<'a> {
     /// Time of the measurement, s.
     pub t_s: f64,
-    /// When an answer in time begins to be flown, s: plan from the state then.
+    /// Time at which a result in time takes effect, s: plan from the state at that time.
     pub takes_effect_s: f64,
     /// Own position as measured, m.
     pub position_m: [f64; 3],
     /// Own velocity as measured, m/s.
     pub velocity_mps: [f64; 3],
-    /// The reference that is flown now: from `t_s` or before to its end, after which the vehicle stands.
+    /// The reference being flown, from `t_s` or before to its end, after which the vehicle hovers.
     pub in_force: &'a [Node],
-    /// What became of the last answer.
+    /// Status of the previous result.
     pub last: &'a ReplanStatus,
-    /// Map, and every obstacle known so far that does not move.
+    /// The map, and the static obstacles known so far.
     pub known: &'a World,
-    /// Names of the obstacles in `known` that were not yet there at the last observation.
+    /// Names of the obstacles that were added to `known` since the previous observation.
     pub discovered: &'a [String],
-    /// MovingCylinder obstacles within sensor range.
+    /// Moving obstacles within sensor range.
     pub moving: &'a [ObstacleMeasurement],
     /// Other vehicles within sensor range.
     pub neighbours: &'a [Neighbour],
 }
 
-/// A point of a reference. Between two of them it is the cubic with their positions and velocities.
+/// A node of a reference. Between two nodes the reference is the cubic with their positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Node {
@@ -60,20 +96,20 @@ pub struct Node {
 }
 
 impl Node {
-    /// Standing at a position, m.
+    /// A node at rest at a position, m.
     pub fn at_rest(t_s: f64, position_m: [f64; 3]) -> Self {
         Self { t_s, position_m, velocity_mps: [0.0; 3] }
     }
 }
 
-/// A moving obstacle as it is seen: an upright cylinder.
+/// A measurement of a moving obstacle, an upright cylinder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObstacleMeasurement {
     /// Its name.
     pub name: String,
     /// Radius, m.
     pub radius_m: f64,
-    /// Lowest and highest altitude, m. Absent: without bottom or top.
+    /// Lowest and highest altitude, m. Absent: unbounded.
     pub z_m: Option<Range>,
     /// Axis as measured, (x, y) in m.
     pub position_m: [f64; 2],
@@ -81,7 +117,7 @@ pub struct ObstacleMeasurement {
     pub velocity_mps: [f64; 2],
 }
 
-/// Another vehicle as it is seen.
+/// A measurement of another vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Neighbour {
     /// Its name.
@@ -92,42 +128,42 @@ pub struct Neighbour {
     pub position_m: [f64; 3],
     /// Velocity as measured, m/s.
     pub velocity_mps: [f64; 3],
-    /// The last reference that it accepted, if the fleet shares its plans; else empty.
+    /// Its accepted reference if the fleet shares plans; otherwise empty.
     pub plan: Vec<Node>,
 }
 
-/// What became of a planner's last answer.
+/// Status of the previous result of a planner.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "what", rename_all = "kebab-case")]
 pub enum ReplanStatus {
-    /// There was none.
+    /// There was no previous result.
     #[default]
     None,
-    /// It was in time.
+    /// In time.
     InTime,
-    /// It came too late, and was joined in its middle.
+    /// Late; its reference was entered after its beginning.
     Late {
-        /// By how much, s.
+        /// Delay, s.
         by_s: f64,
     },
-    /// It said to keep the reference in force, for this reason.
+    /// The planner kept the reference in force.
     Kept {
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// It could not be flown, for this reason; the reference in force was flown on.
+    /// The result could not be flown; the reference in force was kept.
     Rejected {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// A planner's answer to one observation.
+/// The result of replanning for one observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReplanResult {
     /// What to fly.
     pub decision: Decision,
-    /// How it was found.
+    /// Diagnostics of the search.
     #[serde(rename = "account")]
     pub diagnostics: ReplanDiagnostics,
 }
@@ -135,46 +171,46 @@ pub struct ReplanResult {
 /// What to fly from now on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Decision {
-    /// A new reference: two nodes or more, times increasing, the first not after the instant at which it takes effect, all
-    /// numbers finite. After its last node the vehicle stands there.
+    /// A new reference: at least two nodes with finite numbers and increasing times, the first not after the time at which
+    /// the result takes effect. After the last node the vehicle hovers there.
     Fly(Vec<Node>),
-    /// Nothing better was found: the reference in force is flown to its end.
+    /// Keep flying the reference in force to its end.
     Keep {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// How an answer was found, as far as the planner cares to tell.
+/// Diagnostics of one replanning; planners leave out what they do not have.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReplanDiagnostics {
-    /// Iterations, or samples drawn.
+    /// Number of iterations or samples.
     pub iterations: usize,
-    /// The first iteration with a feasible candidate.
+    /// First iteration with a feasible candidate.
     pub first_feasible: Option<usize>,
-    /// Share of feasible candidates at the end, in [0, 1].
+    /// Fraction of feasible candidates at the end, in [0, 1].
     #[serde(rename = "feasible_share")]
     pub feasible_fraction: Option<f64>,
-    /// Cost of the answer, in the planner's unit.
+    /// Cost of the result, in the planner's unit.
     pub cost: Option<f64>,
-    /// Paths of the best candidates, m: a few.
+    /// Paths of some of the best candidates, m.
     pub candidates: Vec<Vec<[f64; 3]>>,
-    /// Way from the reference's end to the goal, m.
+    /// Path from the end of the reference to the goal, m.
     pub route: Vec<[f64; 3]>,
-    /// Edges of the cost map, m, when it was rebuilt.
+    /// Edges of the cost map, m, if it was rebuilt.
     pub graph: Option<Vec<[[f64; 3]; 2]>>,
-    /// Anything else worth a line.
+    /// Anything else, as text.
     pub note: Option<String>,
 }
 
 impl ReplanResult {
-    /// To fly through these nodes.
+    /// To fly through `nodes`.
     pub fn fly(nodes: Vec<Node>) -> Self {
         Self { decision: Decision::Fly(nodes), diagnostics: ReplanDiagnostics::default() }
     }
 
-    /// To fly on as before.
+    /// To keep the reference in force.
     pub fn keep(reason: impl Into<String>) -> Self {
         Self { decision: Decision::Keep { reason: reason.into() }, diagnostics: ReplanDiagnostics::default() }
     }

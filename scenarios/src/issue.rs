@@ -3,23 +3,23 @@ use std::fmt;
 /// What is wrong with one field of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Issue {
-    /// Path of the field from the root of the document, as `vehicles[3].start.x_m`.
+    /// Path of the field from the root of the document: `vehicles[3].start.x_m`.
     pub field: String,
-    /// What stands there.
+    /// The value found there.
     pub found: String,
-    /// What should.
+    /// The expected value.
     pub expected: String,
-    /// How to mend it.
+    /// How to correct it; empty if `expected` says it all.
     pub remedy: String,
 }
 
 impl Issue {
-    /// A issue with `field`.
+    /// An issue with `field`, without a remedy.
     pub fn new(field: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { field: field.into(), found: found.into(), expected: expected.into(), remedy: String::new() }
     }
 
-    /// Adds what the user can do.
+    /// Adds a remedy.
     pub fn remedy(mut self, remedy: impl Into<String>) -> Self {
         self.remedy = remedy.into();
         self

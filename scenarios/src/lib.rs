@@ -1,10 +1,11 @@
-//! The question that a planner is asked, and the form of its answer.
+//! Scenarios and plans: the input of a planner and its output.
 //!
-//! A [`Scenario`] holds the world, the vehicles, the fleet's rules, the disturbances and the limits that a verdict
-//! applies. A [`Plan`] is what a planner hands back. Nothing here knows how plans are made or flown.
+//! A [`Scenario`] holds the world, the vehicles, the requirements between them, the disturbances and the limits of the
+//! verdict. A [`Plan`] is the result of a planner. This crate depends neither on planners nor on the simulator; the
+//! interface between the two during a flight is [`in_loop`].
 //!
-//! Frames and units: the world frame is ENU (x east, y north, z up, REP 103); SI and radians everywhere, except that
-//! scenario files give angles in degrees, in fields whose names say so.
+//! The world frame is ENU (x east, y north, z up, REP 103). Units are SI and radians, except for fields of scenario files
+//! whose names end in `_deg` or `_degps`.
 
 mod checks;
 mod closest_name;
@@ -53,5 +54,5 @@ pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
 pub use world::{BoxObstacle, Cylinder, Gate, Map, MovingCylinder, Prism, Window, World};
 
-/// Gravity, m/s², as all four papers take it.
+/// Gravitational acceleration, m/s², as in all four papers.
 pub const GRAVITY_MPS2: f64 = 9.81;

@@ -1,4 +1,4 @@
-//! From the text of a file to a scenario that holds together, or to a list of everything that is wrong with it.
+//! Loading: from the text of a file to a valid scenario, or to the list of all its issues.
 
 mod error;
 mod finite;
@@ -17,16 +17,33 @@ pub use error::{InvalidScenario, LoadError, LocatedIssue};
 use crate::{Issue, Scenario, validate};
 
 /// Reads and validates a scenario file.
+///
+/// # Errors
+///
+/// The file cannot be read, or its content is not a valid scenario. All issues are reported together.
 pub fn load(path: &Path) -> Result<Scenario, LoadError> {
     ScenarioFile::read(path)?.scenario()
 }
 
-/// Validates the text of a scenario file. `name` stands for the file in messages; its stem must be the scenario's name.
+/// Parses and validates the text of a scenario file.
+///
+/// - `name`: name of the file for messages; its stem must be the scenario's name
+///
+/// # Errors
+///
+/// The text is not a valid scenario. All issues are reported together.
+///
+/// # Examples
+///
+/// ```
+/// let error = scenarios::parse("pair.toml", "name = \"pair\"\n[planner]\nnam = \"fleet-scp\"\n").unwrap_err();
+/// assert!(error.lines().iter().any(|line| line.starts_with("pair.toml:3:1: planner.nam: found an unknown key")));
+/// ```
 pub fn parse(name: &str, text: &str) -> Result<Scenario, LoadError> {
     ScenarioFile::new(name, text).scenario()
 }
 
-/// The text of a scenario file, kept so that whoever finds issue with a field later can point to it.
+/// A scenario file: its name and text, so that later findings can point to a line.
 #[derive(Clone, Debug)]
 pub struct ScenarioFile {
     name: String,
@@ -34,32 +51,39 @@ pub struct ScenarioFile {
 }
 
 impl ScenarioFile {
-    /// A file with this name and this text.
+    /// A file with the given name and text.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
 
     /// Reads the file.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read.
     pub fn read(path: &Path) -> Result<Self, LoadError> {
         let text = std::fs::read_to_string(path).map_err(|reason| LoadError::Read { path: path.to_owned(), reason })?;
         Ok(Self::new(path.display().to_string(), text))
     }
 
-    /// The file, as the user named it.
+    /// Name of the file, as the user gave it.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Line, from 1, on which the value of `field` stands; `None` if the file leaves it to its default.
+    /// Line of the value of `field`, from 1; `None` if the file does not give it.
     pub fn line_of(&self, field: &str) -> Option<usize> {
         let tree = DeTable::parse(&self.text).ok()?;
         let span = position::exact_span(tree.get_ref(), field)?;
         Some(position::line_and_column(&self.text, span.start).0)
     }
 
-    /// The scenario in this file. All issues of the file are reported together, as far as they can be told apart: a
-    /// text that is no TOML says nothing about fields, and without a field that must be there (or with one of the wrong
-    /// kind) there is no scenario yet whose values could be judged.
+    /// The scenario in this file.
+    ///
+    /// # Errors
+    ///
+    /// The text is not a valid scenario. The issues of the first failing stage are reported together: syntax; then keys,
+    /// types and finite numbers; then, unless a required field is missing or has the wrong type, also the values.
     pub fn scenario(&self) -> Result<Scenario, LoadError> {
         let tree = self.tree()?;
         let mut issues = shape::issues(&Scenario::json_schema(), &tree);
@@ -73,12 +97,12 @@ impl ScenarioFile {
                 issues.extend(fresh.into_iter().map(|issue| locate(tree.get_ref(), issue)));
                 if issues.is_empty() { Ok(scenario) } else { Err(self.invalid(issues)) }
             }
-            Err(error) if issues.is_empty() => Err(self.invalid(vec![beyond_the_schema(&error)])),
+            Err(error) if issues.is_empty() => Err(self.invalid(vec![not_in_schema(&error)])),
             Err(_) => Err(self.invalid(issues)),
         }
     }
 
-    /// An error that points to the fields of this file that `issues` are about.
+    /// An error that locates `issues` in this file.
     pub fn error(&self, issues: Vec<Issue>) -> LoadError {
         let located = |issue: Issue| match DeTable::parse(&self.text) {
             Ok(tree) => locate(tree.get_ref(), issue),
@@ -115,13 +139,13 @@ fn syntax_issue(error: &toml::de::Error) -> (Issue, Range<usize>) {
     (Issue::new("TOML syntax", found, expected), error.span().unwrap_or(0..0))
 }
 
-/// The last word is serde's: should the schema let something through that the types refuse, it is reported as this.
-fn beyond_the_schema(error: &toml::de::Error) -> (Issue, Range<usize>) {
+/// An error of serde that the schema did not catch.
+fn not_in_schema(error: &toml::de::Error) -> (Issue, Range<usize>) {
     let issue = Issue::new("scenario", error.message(), "the form that `harness schema scenario` shows");
     (issue, error.span().unwrap_or(0..0))
 }
 
-/// Is one of `issues` about `field`, about a part of it, or about what it is a part of?
+/// Whether one of `issues` concerns `field`, a part of it, or a parent of it.
 fn is_reported(field: &str, issues: &[(Issue, Range<usize>)]) -> bool {
     issues.iter().any(|(known, _)| known.field.starts_with(field) || field.starts_with(&known.field))
 }

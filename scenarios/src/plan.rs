@@ -6,33 +6,51 @@ mod diagnostics;
 
 pub use diagnostics::{Alternative, PlanDiagnostics, PlannedEvent};
 
-/// A planner's answer: one trajectory for every vehicle, and how it was found.
+/// The result of a planner: one trajectory per vehicle, status, history and diagnostics.
+///
+/// # Examples
+///
+/// ```
+/// use scenarios::multirotor::Trajectory;
+/// use scenarios::in_loop::Node;
+/// use scenarios::Plan;
+///
+/// let nodes = [Node::at_rest(0.0, [0.0; 3]), Node::at_rest(4.0, [2.0, 0.0, 0.0])];
+/// let trajectory = Trajectory::through("uav-1", &nodes);
+/// let plan = Plan { objective: Some(4.0), ..Plan::new("corridor", "by-hand", 0, vec![trajectory.into()]) };
+/// assert_eq!(plan.flight_time_s(), Some(4.0));
+///
+/// let mut csv = Vec::new();
+/// plan.write_csv(&mut csv)?;
+/// assert!(csv.starts_with(b"vehicle,t_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\nuav-1,0.0,0.0,"));
+/// # Ok::<(), std::io::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Version of this form: 1.
+    /// Version of the format: [`Plan::SCHEMA`].
     pub schema: u32,
-    /// Name of the scenario that it answers.
+    /// Name of the scenario.
     pub scenario: String,
     /// Name of the planner.
     pub planner: String,
-    /// Seed that it was made with.
+    /// Seed of the planner.
     pub seed: u64,
-    /// What the planner says of it. The judge does not ask.
+    /// Status reported by the planner. The judge ignores it.
     pub status: PlanStatus,
-    /// Why the status is not `solved`, for a person to read.
+    /// Why the status is not `solved`, as text.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
+    /// Value of the objective in the planner's unit: s for time-optimal planners.
     pub objective: Option<f64>,
-    /// One per vehicle, in the order of the scenario; empty when there is no plan.
+    /// One per vehicle, in the order of the scenario; empty without a plan.
     pub trajectories: Vec<Trajectory>,
-    /// How the planner got there, one entry per iteration.
+    /// One entry per iteration of the planner.
     pub history: Vec<Iteration>,
-    /// What the planner tells beyond its trajectories.
+    /// Events and alternatives.
     #[serde(default, rename = "account", skip_serializing_if = "PlanDiagnostics::is_empty")]
     pub diagnostics: PlanDiagnostics,
-    /// Time that planning took.
+    /// Planning time.
     pub timings: PlanTimings,
 }
 
@@ -75,23 +93,23 @@ impl Plan {
         Self { status: PlanStatus::NoPlan, reason, ..Self::new(scenario, planner, seed, Vec::new()) }
     }
 
-    /// Time at which the last vehicle reaches the end of its trajectory, s; `None` without a trajectory.
+    /// End time of the longest trajectory, s; `None` without a trajectory.
     pub fn flight_time_s(&self) -> Option<f64> {
         self.trajectories.iter().filter_map(Trajectory::end_s).reduce(f64::max)
     }
 }
 
-/// What a planner says of its own plan.
+/// Status of a plan, reported by the planner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlanStatus {
-    /// Converged, and every constraint that the planner knows holds at its nodes.
+    /// Converged, and every constraint of the planner holds at its nodes.
     Solved,
-    /// Trajectories are there, but the iteration had not come to rest, or a constraint is still violated.
+    /// There are trajectories, but the iteration has not converged or a constraint is violated.
     NotConverged,
-    /// Nothing that could be flown.
+    /// No trajectory was found.
     NoPlan,
-    /// Nothing: the plan was read from a table, which says nothing of itself.
+    /// Unknown: the plan was imported from a table, which states no status.
     Unstated,
 }
 
@@ -110,38 +128,38 @@ impl std::fmt::Display for PlanStatus {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Iteration {
-    /// Objective: for time-optimal planners the longest flight time of the fleet, s.
+    /// Objective: for time-optimal planners the flight time of the slowest vehicle, s.
     pub objective: f64,
-    /// Largest step length of any vehicle, s.
+    /// Largest time step of any vehicle, s.
     pub dt_s: f64,
-    /// Largest difference between the end of an interval and where the planner's own equations lead from its
-    /// beginning, position part, m.
+    /// Largest position defect of an interval: distance between its end and the end propagated from its beginning by the
+    /// planner's model, m.
     pub defect_m: f64,
-    /// Largest violation of a linearised row that the penalty left in the subproblems, in scaled units, -.
+    /// Largest remaining violation of a linearised row in the subproblems, in scaled units, -.
     pub slack: f64,
     /// Smallest horizontal distance between two vehicles at the nodes, m.
     pub separation_m: Option<f64>,
     /// Smallest distance to an obstacle's surface at the nodes, m.
     pub clearance_m: Option<f64>,
-    /// Largest change of a horizontal position since the last iteration, m.
+    /// Largest change in horizontal position since the previous iteration, m.
     pub change_m: f64,
     /// Half-width of the trust region in x and y, m.
     pub trust_region_m: f64,
     /// Interior-point iterations, summed over the vehicles.
     pub solver_iterations: usize,
-    /// Subproblems that the solver did not bring to its tolerance.
+    /// Number of subproblems not solved to tolerance.
     pub unsolved: usize,
     /// Wall time of the iteration, s.
     pub wall_s: f64,
-    /// Time of the slowest vehicle's subproblem: the iteration's time if every vehicle had its own computer, s.
+    /// Time of the slowest vehicle's subproblem, s: the wall time if every vehicle had its own computer.
     pub distributed_s: f64,
 }
 
-/// Time that planning took on the machine at hand.
+/// Planning time on this machine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlanTimings {
-    /// From the call to the answer, s.
+    /// Wall time of the whole call, s.
     pub wall_s: f64,
     /// Sum over the iterations of the slowest vehicle's time, s.
     pub distributed_s: f64,

@@ -1,21 +1,30 @@
-//! The two forms in which a plan is written: JSON, which holds all of it, and CSV, which any program can read.
+//! Writing plans: JSON holds everything, CSV the trajectories.
 
 use std::io::{self, Write};
 
 use crate::{Plan, TrajectoryNodes};
 
 impl Plan {
-    /// Writes the whole plan as JSON, indented. Numbers read back as they were, to the last bit; JSON has no NaN and no
-    /// infinity, so these are written as `null`.
+    /// Writes the plan as indented JSON. Numbers are read back exactly; NaN and infinity, which JSON lacks, are written as
+    /// `null`.
+    ///
+    /// # Errors
+    ///
+    /// The writer fails.
     pub fn write_json(&self, mut writer: impl Write) -> io::Result<()> {
         serde_json::to_writer_pretty(&mut writer, self)?;
         writer.write_all(b"\n")
     }
 
-    /// Writes the trajectories as CSV, the columns of their family as the first line. Numbers read back as they were, to the
-    /// last bit. Between the rows controls run linearly in time (first-order hold).
+    /// Writes the trajectories as CSV with a header, in the columns of their family. Numbers are read back exactly. Between
+    /// the rows controls are linear in time (first-order hold).
+    ///
+    /// # Errors
+    ///
+    /// The writer fails.
     pub fn write_csv(&self, mut writer: impl Write) -> io::Result<()> {
-        let columns = self.trajectories.first().map_or(&["vehicle", "t_s"][..], |first| first.nodes().csv_columns());
+        let first = self.trajectories.first();
+        let columns = first.map_or(&["vehicle", "t_s"][..], |first| first.family().spec().columns.written);
         writeln!(writer, "{}", columns.join(","))?;
         self.trajectories.iter().try_for_each(|trajectory| write_rows(trajectory.nodes(), &mut writer))
     }
@@ -33,7 +42,7 @@ mod tests {
     use crate::fixed_wing::{CSV_COLUMNS, Control, State, Trajectory};
     use crate::{Interpolation, Plan, PlanStatus};
 
-    /// Numbers that a format with a fixed number of digits would not bring back.
+    /// Numbers that a format with a fixed number of digits would change.
     const NODE: [f64; 10] = [0.1 + 0.2, -1.0 / 3.0, 1e-300, 4e22, 35.0, -0.0, f64::EPSILON, 1e-7, 123456789.123, 1.0];
 
     fn plan() -> Plan {
@@ -52,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn csv_numbers_read_back_to_the_last_bit() {
+    fn csv_numbers_are_read_back_exactly() {
         let mut csv = Vec::new();
         plan().write_csv(&mut csv).unwrap();
         let csv = String::from_utf8(csv).unwrap();
@@ -66,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn json_reads_back_as_the_same_plan() {
+    fn json_is_read_back_as_the_same_plan() {
         let mut json = Vec::new();
         plan().write_json(&mut json).unwrap();
         assert_eq!(serde_json::from_slice::<Plan>(&json).unwrap(), plan());

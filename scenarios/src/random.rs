@@ -1,10 +1,20 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// A stream of random numbers of its own for every `name`, the same for the same `seed` on every machine.
+/// An independent stream of random numbers for each `name`, reproducible from `seed` on every machine.
 ///
-/// Whoever draws takes a stream by a name that nobody else uses (`"gusts/uav-3"`), so that what one part draws never
-/// depends on how much another part has drawn. The name enters by the 64-bit FNV-1a hash.
+/// Each consumer uses a name of its own (`"gusts/uav-3"`), so that its numbers do not depend on how many others draw.
+/// The stream is selected by the 64-bit FNV-1a hash of the name.
+///
+/// # Examples
+///
+/// ```
+/// use rand::Rng;
+///
+/// let draw = |name| scenarios::stream(7, name).next_u64();
+/// assert_eq!(draw("gusts/uav-1"), draw("gusts/uav-1"));
+/// assert_ne!(draw("gusts/uav-1"), draw("gusts/uav-2"));
+/// ```
 pub fn stream(seed: u64, name: &str) -> ChaCha8Rng {
     let hash = name
         .bytes()

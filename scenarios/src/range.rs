@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A closed interval, written `[min, max]` in files; both ends in the unit of its field.
+/// A closed interval, written `[min, max]` in files; both ends in the unit of the field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
 #[schemars(with = "[f64; 2]")]
@@ -18,12 +18,12 @@ impl Range {
         Self { min, max }
     }
 
-    /// Does `value` lie inside, ends included? Never for NaN.
+    /// Whether `value` lies inside, ends included; false for NaN.
     pub fn contains(&self, value: f64) -> bool {
         self.min <= value && value <= self.max
     }
 
-    /// Does `inner` lie wholly inside?
+    /// Whether `inner` lies inside, ends included.
     pub fn encloses(&self, inner: &Range) -> bool {
         self.min <= inner.min && inner.max <= self.max
     }
@@ -43,7 +43,7 @@ impl Range {
         Self::new(self.min * factor, self.max * factor)
     }
 
-    /// Degrees to radians.
+    /// The interval converted from degrees to radians.
     pub fn to_radians(&self) -> Self {
         Self::new(self.min.to_radians(), self.max.to_radians())
     }

@@ -6,49 +6,69 @@ use crate::{
     VerdictLimits, World,
 };
 
-/// One scenario: everything a planner, the simulator and the judge need to know. One TOML file holds one scenario.
+/// One scenario: everything that a planner, the simulator and the judge need. A TOML file holds one scenario.
+///
+/// # Examples
+///
+/// ```
+/// use std::path::Path;
+///
+/// let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixed-wing/rendezvous-2.toml");
+/// let scenario = scenarios::load(&file)?;
+/// assert_eq!(scenario.vehicles.len(), 2);
+/// assert_eq!(scenario.family(), scenarios::Family::FixedWing);
+/// assert_eq!(scenarios::parse("rendezvous-2.toml", &scenario.to_toml())?, scenario);
+/// # Ok::<(), scenarios::LoadError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// Name of the scenario: the same as its file's name without `.toml`, unique over all families. Lower case letters,
-    /// digits and `-`.
+    /// Name: that of the file without `.toml`, unique over all families. Lower case letters, digits and `-`.
     pub name: String,
-    /// What is hard about it, in a sentence or two; shown by `harness list` and in the recording.
+    /// What makes it difficult, in one or two sentences; shown by `harness list` and in the recording.
     pub description: String,
-    /// Free words to select scenarios by.
+    /// Arbitrary words for selecting scenarios.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tags: Vec<String>,
-    /// The map and what stands on it.
+    /// Map and obstacles.
     pub world: World,
     /// Vehicle models: dynamics and limits, by family and name.
     pub models: Models,
-    /// The vehicles: which model, from where, to where. All are of one family.
+    /// Vehicles: model, start and goal. All are of one family.
     pub vehicles: Vec<Vehicle>,
-    /// What the vehicles owe to each other.
+    /// Requirements between the vehicles.
     #[serde(default)]
     pub fleet: FleetRules,
-    /// The planner that answers, unless the command line names another, and its options.
+    /// The planner, unless the command line names another, and its options.
     pub planner: PlannerSettings,
-    /// How the plan is flown.
+    /// Settings and disturbances of the simulated flight.
     #[serde(default)]
     pub simulation: Simulation,
-    /// The limits that the verdict applies.
+    /// Limits of the verdict.
     #[serde(default)]
     pub verdict: VerdictLimits,
 }
 
 impl Scenario {
-    /// The family of its vehicles: validation has seen to it that all are of one.
+    /// The family of the vehicles, which validation ensures is the same for all.
+    ///
+    /// # Panics
+    ///
+    /// Panics if there is no vehicle or its model is unknown, which validation excludes.
     pub fn family(&self) -> Family {
         self.model(&self.vehicles[0]).family()
     }
 
-    /// The model of a vehicle. Panics if there is none: validation has seen to that.
+    /// The model of a vehicle.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the model is unknown, which validation excludes.
     pub fn model(&self, vehicle: &Vehicle) -> &dyn VehicleModel {
         self.models.get(&vehicle.model).unwrap_or_else(|| panic!("there is no model `{}`", vehicle.model))
     }
 
-    /// Is there nothing to gain from altitude: every goal at its start's height, no obstacle that ends below or above?
+    /// Whether the problem is planar: every goal is at the altitude of its start, and no obstacle has a top or bottom.
     pub fn is_planar(&self) -> bool {
         let world = &self.world;
         let ends = world.boxes.iter().map(|it| it.z_m).chain(world.prisms.iter().map(|it| it.z_m));
@@ -56,15 +76,15 @@ impl Scenario {
         ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none()) && self.vehicles.iter().all(is_level)
     }
 
-    /// The limits that the verdict applies: those of the file, and for those that it leaves out the family's.
+    /// Limits of the verdict: those of the file, and the defaults of the family for those that it omits.
     pub fn limits(&self) -> AppliedLimits {
         self.verdict.applied_to(self.family())
     }
 }
 
-/// What a planner is told.
+/// What a planner sees.
 impl Scenario {
-    /// The scenario without the obstacles that nobody knows of beforehand, and without what disturbs the flight.
+    /// The scenario without obstacles that are unknown before the flight, and without disturbances.
     pub fn planner_view(&self) -> Self {
         let simulation = Simulation {
             wind: None,
@@ -76,19 +96,21 @@ impl Scenario {
     }
 }
 
-/// The form of a scenario file.
+/// Scenario files.
 impl Scenario {
-    /// The scenario as TOML: loaded again, it is the same.
+    /// The scenario as TOML, which loads as an equal scenario.
     ///
-    /// Panics on a scenario that has no such form; there is none that can be loaded.
+    /// # Panics
+    ///
+    /// Panics if the scenario cannot be written as TOML, which is impossible for a scenario that was loaded.
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("a scenario is made of tables, lists, numbers and text")
+        toml::to_string(self).expect("a scenario consists of tables, lists, numbers and text")
     }
 }
 
-/// JSON Schema (draft 2020-12) of a scenario file, generated from these very types.
+/// JSON Schema of scenario files.
 impl Scenario {
-    /// The schema as a JSON value, the same on every call.
+    /// JSON Schema (draft 2020-12) of a scenario file, generated from these types.
     pub fn json_schema() -> serde_json::Value {
         schemars::schema_for!(Self).into()
     }

@@ -5,28 +5,28 @@ use serde::{Deserialize, Serialize};
 
 pub use planning::{Planning, PlanningClock};
 
-/// How a plan is flown. Everything that disturbs a flight is off unless it is named.
+/// Settings and disturbances of the simulated flight. A disturbance that is not given is off.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Simulation {
-    /// Step of the simulator, s.
+    /// Time step of the simulator, s.
     pub step_s: f64,
-    /// Seed of everything random in planning and flight.
+    /// Seed of all random numbers in planning and flight.
     pub seed: u64,
-    /// A plan that takes longer than this is not flown to its end, s.
+    /// Maximum flight time, s; a longer plan is not flown to its end.
     pub max_duration_s: f64,
-    /// Straight flight beyond the end of the plan, so that a late arrival can be seen, s.
+    /// Duration of straight flight after the end of the plan, s, so that a late arrival is observed.
     pub coast_s: f64,
     /// Gains of the tracking controller.
     pub tracker: Tracker,
-    /// MovingCylinder air.
+    /// Wind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wind: Option<Wind>,
-    /// What the tracker's sensors add to the truth.
+    /// Sensor noise and delay.
     pub sensors: Sensors,
-    /// How the true vehicle differs from its model.
+    /// Differences between the true vehicle and its model.
     pub mismatch: Mismatch,
-    /// When planners in the loop are asked, and how long they take.
+    /// Schedule and planning times of in-loop planners.
     pub planning: Planning,
 }
 
@@ -46,7 +46,7 @@ impl Default for Simulation {
     }
 }
 
-/// Tracking controller: the plan's load factors plus feedback on position and velocity,
+/// Tracking controller: feedforward of the plan's load factors plus feedback on position and velocity,
 /// a = ω² (p_ref - p) + 2 ζ ω (v_ref - v).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -63,45 +63,44 @@ impl Default for Tracker {
     }
 }
 
-/// The motion of the air, the same for all vehicles, plus gusts that each vehicle meets on its own.
+/// Wind: the mean and the pulses are the same for all vehicles; each vehicle has continuous gusts of its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wind {
-    /// Constant part: velocity of the air in the world frame (towards east, north, up), m/s.
+    /// Mean velocity of the air in the world frame (towards east, north, up), m/s.
     pub mean_mps: [f64; 3],
     /// Continuous gusts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gusts: Option<Gusts>,
-    /// Single gusts at given times.
+    /// Discrete gusts at given times.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pulses: Vec<GustPulse>,
 }
 
-/// A single gust of the 1-cosine form (after MIL-F-8785C, 3.7.1.3), from rest to its peak and back to rest.
+/// A discrete gust of 1-cosine shape (after MIL-F-8785C, 3.7.1.3), from zero to its peak and back to zero.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GustPulse {
-    /// When it begins, s.
+    /// Start time, s.
     pub start_s: f64,
-    /// How long it lasts, s, > 0.
+    /// Duration, s, > 0.
     pub duration_s: f64,
-    /// Velocity of the air at its peak, on top of everything else, world frame, m/s.
+    /// Peak velocity, added to all other wind, world frame, m/s.
     pub peak_mps: [f64; 3],
 }
 
-/// Dryden gusts (MIL-F-8785C): the low-altitude form below 1000 ft, interpolated between 1000 ft and 2000 ft.
+/// Dryden gusts (MIL-F-8785C): the low-altitude model below 1000 ft, interpolated between 1000 ft and 2000 ft.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gusts {
-    /// Mean wind speed W20 at 20 ft (6.1 m) above ground, m/s; sets the intensity below 1000 ft. The standard calls
-    /// 15 kt (7.7 m/s) light, 30 kt moderate, 45 kt severe.
+    /// Mean wind speed W20 at 20 ft (6.1 m) above ground, m/s; sets the intensity below 1000 ft. In the standard, 15 kt
+    /// (7.7 m/s) is light, 30 kt moderate, 45 kt severe.
     pub wind_at_20ft_mps: f64,
     /// Intensity σ of all three components at 2000 ft and above, m/s.
     pub sigma_aloft_mps: f64,
 }
 
-/// What is wrong with what the tracker measures: standard deviations of its white noise, per axis, and its age. Zero: the
-/// truth, at once.
+/// Sensor errors: standard deviations of white noise per axis, and delay. Zero: exact and immediate measurements.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensors {
@@ -117,8 +116,8 @@ pub struct Sensors {
     pub load_position_noise_m: f64,
     /// Velocity of a slung load, m/s.
     pub load_velocity_noise_mps: f64,
-    /// Age of what a vehicle measures of itself and of its load when its tracker (or planner) gets it, s, rounded to steps of
-    /// the simulator. The tracker does not know of it, and takes it for now.
+    /// Delay of the measurements of a vehicle's own state and of its load, s, rounded to time steps of the simulator. Tracker
+    /// and planner are not told, and take the measurements as current.
     pub delay_s: f64,
     /// Position of moving obstacles and of other vehicles, m.
     pub sighting_position_noise_m: f64,
@@ -126,15 +125,15 @@ pub struct Sensors {
     pub sighting_velocity_noise_mps: f64,
 }
 
-/// Difference between the model that plans and the vehicle that flies.
+/// Differences between the planning model and the simulated vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mismatch {
-    /// True mass over nominal mass, -. Forces stay those of the nominal mass.
+    /// True mass over nominal mass, -. Forces are those of the nominal mass.
     pub mass_ratio: f64,
     /// True mass of a slung load over its nominal mass, -.
     pub load_mass_ratio: f64,
-    /// Radius of the horizontal disc about its nominal start in which every vehicle's true start is drawn, m.
+    /// Radius of the horizontal disc around the nominal start from which each vehicle's true start is drawn, m.
     pub start_radius_m: f64,
 }
 

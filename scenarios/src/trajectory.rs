@@ -2,15 +2,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Family, Trajectory};
 
-/// How controls run between two nodes.
+/// Interpolation of the controls between nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Interpolation {
-    /// Linear in time from node to node.
+    /// Linear in time (first-order hold).
     FirstOrderHold,
 }
 
-/// What the trajectories of all families have in common. A `node` counts from 0, and must be there.
+/// What the trajectories of all families have in common. Functions of a `node` (its index, from 0) panic if it does not
+/// exist.
 pub trait TrajectoryNodes {
     /// The family of the vehicle.
     fn family(&self) -> Family;
@@ -18,22 +19,20 @@ pub trait TrajectoryNodes {
     fn vehicle(&self) -> &str;
     /// Times of the nodes, s.
     fn times_s(&self) -> &[f64];
-    /// What there should be one of at every node, and how many there are.
+    /// The quantities given at every node (`states`, `controls`), with the number of their values.
     fn counts(&self) -> Vec<(&'static str, usize)>;
     /// Position of the vehicle at a node, world frame, m.
     fn position_m(&self, node: usize) -> [f64; 3];
     /// Velocity of the vehicle at a node, world frame, m/s.
     fn velocity_mps(&self, node: usize) -> [f64; 3];
-    /// Every number in it.
+    /// Every number of the trajectory.
     fn numbers(&self) -> Vec<f64>;
-    /// Columns of the family's CSV form, `vehicle` and `t_s` first.
-    fn csv_columns(&self) -> &'static [&'static str];
-    /// One row of the CSV form, without vehicle and time. Numbers read back as they were, to the last bit.
+    /// One row of a CSV file, without vehicle and time. Numbers are read back exactly.
     fn csv_cells(&self, node: usize) -> Vec<String>;
 }
 
 impl Trajectory {
-    /// The family of the vehicle that it is for.
+    /// The family of the vehicle.
     pub fn family(&self) -> Family {
         self.nodes().family()
     }
@@ -48,7 +47,7 @@ impl Trajectory {
         self.nodes().times_s()
     }
 
-    /// Number of nodes at which everything is there.
+    /// Number of nodes at which all quantities are given.
     pub fn node_count(&self) -> usize {
         let counts = self.nodes().counts().into_iter().map(|(_, count)| count);
         counts.fold(self.times_s().len(), usize::min)
@@ -59,8 +58,8 @@ impl Trajectory {
         self.times_s().last().copied()
     }
 
-    /// May two nodes share a time, before and after a jump? A cable that becomes taut makes one, and so does a planner in the
-    /// loop that changes its mind.
+    /// Whether two nodes may share a time, before and after a jump in velocity: a cable that becomes taut causes one, and so
+    /// does an in-loop planner that replaces its reference.
     pub fn allows_discontinuity(&self) -> bool {
         self.family().spec().columns.allows_discontinuity
     }

@@ -1,4 +1,4 @@
-//! Does a scenario hold together? Every rule is a pure function from a part of the scenario to issues.
+//! Validation of scenarios. Every rule is a pure function from a part of the scenario to issues.
 
 mod fleet;
 mod identifier;
@@ -15,10 +15,9 @@ pub(crate) use vehicle::{inside_obstacle, outside_map};
 
 use crate::{Issue, Scenario};
 
-/// Everything in the scenario that makes no sense; empty if it can be planned and flown.
+/// All issues of a scenario; empty if it is valid. Fields are named by their path in the file.
 ///
-/// Fields are named by their path in the file. Whether the planner exists, and whether it can handle the scenario, is
-/// not asked here.
+/// Whether the planner exists and supports the scenario is not checked here.
 pub fn validate(scenario: &Scenario) -> Vec<Issue> {
     let mut issues = Vec::new();
     issues.extend(identifier::scenario_name(&scenario.name));

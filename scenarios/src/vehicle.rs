@@ -11,13 +11,13 @@ pub struct Vehicle {
     pub name: String,
     /// Name of its model.
     pub model: String,
-    /// Where and how it begins, at time 0.
+    /// Position and velocity at time 0.
     pub start: Waypoint,
-    /// Where and how it must arrive.
+    /// Position and velocity on arrival.
     pub goal: Waypoint,
 }
 
-/// A position and a velocity, the velocity in polar form; of a vehicle with a load also where the load is.
+/// A position, a velocity in polar form, and the position of a slung load if there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Waypoint {
@@ -27,21 +27,21 @@ pub struct Waypoint {
     pub y_m: f64,
     /// Up, m.
     pub z_m: f64,
-    /// Speed, m/s. A fixed wing has one; a vehicle that can hover rests unless it is given.
+    /// Speed, m/s. Default: at rest, which only vehicles that can hover allow.
     #[serde(default)]
     pub speed_mps: f64,
     /// Direction of the horizontal velocity, counterclockwise from x (east), deg.
     #[serde(default)]
     pub heading_deg: f64,
-    /// Climb angle of the velocity above the horizontal, deg.
+    /// Flight-path angle of the velocity above the horizontal, deg.
     #[serde(default)]
     pub flight_path_deg: f64,
-    /// Where a slung load is, moving with the vehicle's velocity. Absent: it hangs straight down on a taut cable.
+    /// Position of a slung load, which has the velocity of the vehicle. Absent: it hangs straight down on a taut cable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<LoadPoint>,
 }
 
-/// Where a load is: its centre in the world frame.
+/// Position of the centre of a load in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadPoint {
@@ -54,7 +54,7 @@ pub struct LoadPoint {
 }
 
 impl Waypoint {
-    /// At rest at this position, m, a load hanging straight down if there is one.
+    /// At rest at a position, m, with a load, if any, hanging straight down.
     pub fn at_rest([x_m, y_m, z_m]: [f64; 3]) -> Self {
         Self { x_m, y_m, z_m, speed_mps: 0.0, heading_deg: 0.0, flight_path_deg: 0.0, load: None }
     }

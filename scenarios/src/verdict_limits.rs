@@ -3,62 +3,62 @@ use serde::{Deserialize, Serialize};
 
 use crate::Family;
 
-/// The limits that the judge applies beyond those of the vehicles and of the fleet. Those that are left out are the
-/// family's: the first figure is for fixed wings, the second for slung loads, the third for multirotors.
+/// Limits of the verdict, in addition to those of the vehicles and of the fleet. Each has a default per family: where
+/// several are given, they are for fixed wings, slung loads and multirotors.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerdictLimits {
-    /// Largest distance from the plan while it is flown, m. Default: 5 m, 0.05 m, 0.5 m.
+    /// Maximum tracking error: distance from the plan, m. Default: 5 m, 0.05 m, 0.5 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tracking_max_m: Option<f64>,
-    /// Largest root mean square of that distance, m. Default: 2 m, 0.03 m, 0.2 m.
+    /// Maximum root mean square of the tracking error, m. Default: 2 m, 0.03 m, 0.2 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tracking_rms_m: Option<f64>,
-    /// Largest difference between the arrival times of a fleet that must arrive together, s. Default: 0.5 s.
+    /// Maximum difference between the arrival times of a fleet that must arrive at the same time, s. Default: 0.5 s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arrival_spread_s: Option<f64>,
-    /// Largest distance from the goal at arrival, m. Default: 5 m, 0.05 m, 0.5 m.
+    /// Maximum distance from the goal on arrival, m. Default: 5 m, 0.05 m, 0.5 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal_m: Option<f64>,
-    /// Largest speed of quadrotor and load, relative to the goal's, at the end, m/s; fixed wings do not come to rest.
-    /// Default: 0.1 m/s, of multirotors 0.2 m/s.
+    /// Maximum speed of quadrotor and load at the end, relative to the goal, m/s; not applied to fixed wings. Default:
+    /// 0.1 m/s for slung loads, 0.2 m/s for multirotors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_mps: Option<f64>,
-    /// Largest distance between the end of an interval of the plan and where its controls lead through the nonlinear
-    /// equations from the interval's beginning, m. Default: 1 m, 0.01 m.
+    /// Maximum defect of an interval of the plan: distance between its end and the end that its controls lead to from its
+    /// beginning, by the nonlinear equations of motion, m. Default: 1 m, 0.01 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamics_m: Option<f64>,
-    /// Largest distance from the plan's end when its controls are flown open loop from the start, m. Default: 5 m; for
-    /// slung loads, which are unstable, it is not asked.
+    /// Maximum distance from the end of the plan when its controls are flown open loop from the start, m. Default: 5 m; not
+    /// applied to slung loads, which are unstable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rollout_m: Option<f64>,
-    /// Largest share of the flight during which the tracker's command is cut off at the vehicle's limits, in [0, 1].
+    /// Maximum fraction of the flight during which the tracker's command is saturated at the vehicle's limits, in [0, 1].
     /// Default: 0.05.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturation: Option<f64>,
-    /// Smallest distance of the plan's envelope circle from every obstacle, m: a quadrotor's body or its load's horizontal
-    /// reach, whichever is larger, as a vertical cylinder without ends. Absent: the envelope is not asked for, only the true
-    /// shapes are. In flight the envelope has to stay clear by 0 m.
+    /// Minimum distance of the planned envelope circle from every obstacle, m. The envelope is an unbounded vertical
+    /// cylinder around the quadrotor, with the radius of its body or the horizontal reach of its load, whichever is larger.
+    /// In flight the envelope must only not touch an obstacle. Absent: only the true shapes are checked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub envelope_m: Option<f64>,
-    /// Largest difference between the planned and the flown instant at which a cable becomes taut or slack, s; a switch
-    /// without its counterpart is worse than any. Default: 0.02 s.
+    /// Maximum difference between the planned and the flown time at which a cable becomes taut or slack, s. A switch without
+    /// a counterpart always exceeds it. Default: 0.02 s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub switch_s: Option<f64>,
-    /// Checks that are shown and counted but do not decide, by their full names (`flight.tracking_rms`).
+    /// Checks that are reported but do not affect the verdict, by full name (`flight.tracking_rms`).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub advisory: Vec<String>,
-    /// Checks that must have been made: a skip fails them. By their full names.
+    /// Checks that fail if they are skipped, by full name.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub required: Vec<String>,
 }
 
-/// [`VerdictLimits`] with a figure for each: what a judge compares with.
+/// [`VerdictLimits`] with all defaults filled in.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AppliedLimits {
-    /// Distance from the plan, m.
+    /// Tracking error, m.
     pub tracking_max_m: f64,
-    /// Root mean square of that distance, m.
+    /// Root mean square of the tracking error, m.
     pub tracking_rms_m: f64,
     /// Difference between arrival times, s.
     pub arrival_spread_s: f64,
@@ -70,14 +70,14 @@ pub struct AppliedLimits {
     pub dynamics_m: f64,
     /// Open-loop error at the plan's end, m.
     pub rollout_m: f64,
-    /// Share of the flight with a saturated command, -.
+    /// Fraction of the flight with a saturated command, -.
     pub saturation: f64,
     /// Difference between a planned and a flown switch of the cable, s.
     pub switch_s: f64,
 }
 
 impl VerdictLimits {
-    /// The limits for vehicles of this family.
+    /// The limits for a family, with its defaults for those that are absent.
     pub fn applied_to(&self, family: Family) -> AppliedLimits {
         let default = &family.spec().verdict_limits;
         AppliedLimits {

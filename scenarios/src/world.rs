@@ -4,14 +4,14 @@ use serde::{Deserialize, Serialize};
 use crate::Range;
 
 mod gate;
-mod moving;
+mod moving_cylinder;
 mod prism;
 
 pub use gate::{Gate, Window};
-pub use moving::MovingCylinder;
+pub use moving_cylinder::MovingCylinder;
 pub use prism::{BoxObstacle, Prism};
 
-/// In a list of hidden obstacles: all that do not move.
+/// Wildcard in [`World::hidden`]: all static obstacles.
 const EVERY_OBSTACLE: &str = "*";
 
 /// The map and the obstacles on it.
@@ -20,32 +20,32 @@ const EVERY_OBSTACLE: &str = "*";
 pub struct World {
     /// The volume that no vehicle may leave.
     pub map: Map,
-    /// Vertical cylinders without top or bottom: keep-out zones in the plane (threats, pillars).
+    /// Vertical cylinders without top and bottom: keep-out zones in the plane, such as threats and pillars.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cylinders: Vec<Cylinder>,
-    /// Upright boxes, turned about the vertical.
+    /// Boxes with vertical sides, at any heading.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub boxes: Vec<BoxObstacle>,
-    /// Upright prisms over convex polygons.
+    /// Vertical prisms over convex polygons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prisms: Vec<Prism>,
-    /// Height of the level ground on which a load may lie, m. Absent: there is none.
+    /// Altitude of the level ground on which a load may lie, m. Absent: no ground.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_m: Option<f64>,
-    /// Gates that a quadrotor with a slung load has to pass.
+    /// Gates that a quadrotor with a slung load must pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<Gate>,
-    /// Obstacles that move; multirotors sense them.
+    /// Moving obstacles, which multirotors must sense.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub moving: Vec<MovingCylinder>,
-    /// Names of the cylinders, boxes and prisms that nobody knows of until a part of them comes within sensor range; `"*"`
-    /// stands for all of them.
+    /// Names of the cylinders, boxes and prisms that are unknown until a part of them is within sensor range; `"*"` for all
+    /// of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hidden: Vec<String>,
 }
 
 impl World {
-    /// A map with nothing on it.
+    /// A map without obstacles.
     pub fn empty(map: Map) -> Self {
         Self {
             map,
@@ -59,18 +59,17 @@ impl World {
         }
     }
 
-    /// Does nobody know of the obstacle of this name until it is sensed? (Of those that do not move.)
+    /// Whether the static obstacle of this name is unknown until it is sensed.
     pub fn is_hidden(&self, name: &str) -> bool {
         self.hidden.iter().any(|hidden| hidden == name || hidden == EVERY_OBSTACLE)
     }
 
-    /// What is known of it before anything was sensed: without hidden and without moving obstacles.
+    /// What is known before the flight: no hidden and no moving obstacles.
     pub fn known_beforehand(&self) -> Self {
         self.only(|name| !self.is_hidden(name))
     }
 
-    /// The same map with those of the obstacles that do not move whose names are `wanted`, in the same order, and nothing
-    /// that is hidden.
+    /// The same map with the static obstacles whose names are `wanted`, in the same order. None of them is hidden.
     pub fn only(&self, wanted: impl Fn(&str) -> bool) -> Self {
         Self {
             cylinders: self.cylinders.iter().filter(|it| wanted(&it.name)).cloned().collect(),
@@ -82,13 +81,13 @@ impl World {
         }
     }
 
-    /// Everything with flat faces as prisms: the boxes, then the prisms, each with its corners counterclockwise.
+    /// The obstacles with flat faces as prisms: first the boxes, then the prisms, all with counterclockwise corners.
     pub fn flat_obstacles(&self) -> Vec<Prism> {
         let prisms = self.prisms.iter().map(Prism::counterclockwise);
         self.boxes.iter().map(BoxObstacle::as_prism).chain(prisms).collect()
     }
 
-    /// The names of all obstacles: cylinders, boxes, prisms, moving ones.
+    /// The names of all obstacles: cylinders, boxes, prisms, moving cylinders.
     pub fn obstacle_names(&self) -> impl Iterator<Item = &str> {
         let cylinders = self.cylinders.iter().map(|cylinder| cylinder.name.as_str());
         let boxes = self.boxes.iter().map(|block| block.name.as_str());
@@ -131,7 +130,7 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// Signed horizontal distance from a point to the surface, m: negative inside.
+    /// Signed horizontal distance from a point to the surface, m; negative inside.
     pub fn signed_distance_m(&self, x_m: f64, y_m: f64) -> f64 {
         (x_m - self.center_m[0]).hypot(y_m - self.center_m[1]) - self.radius_m
     }

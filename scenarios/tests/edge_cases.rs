@@ -19,7 +19,7 @@ fn a_name_may_be_long_and_not_longer() {
     assert!(parse(&format!("{fits}.toml"), &TEXT.replace("\"minimal\"", &format!("\"{fits}\""))).is_ok());
     for name in ["uav-1", "pillar", "glider"] {
         let lines = refused(&TEXT.replace(name, &too_long));
-        assert!(lines.iter().any(|line| line.contains("64 characters at most")), "{name}: {lines:?}");
+        assert!(lines.iter().any(|line| line.contains("at most 64 characters")), "{name}: {lines:?}");
     }
     let error = parse(&format!("{too_long}.toml"), &TEXT.replace("\"minimal\"", &format!("\"{too_long}\"")));
     assert!(error.unwrap_err().lines()[0].contains("a name of 65 characters"));

@@ -29,7 +29,7 @@ fn all_syntax_errors_are_reported_together() {
 fn an_unknown_key_is_refused_and_the_nearest_one_suggested() {
     assert_issue("margin_m = 1", "margins_m = 1", ("planner.margins_m", 50, 1), "an unknown key", "margin_m");
     let remedy = &issues("margin_m = 1", "margins_m = 1")[0].issue.remedy;
-    assert!(remedy.starts_with("did you mean `margin_m`: Distance that the planner keeps"), "{remedy}");
+    assert!(remedy.starts_with("did you mean `margin_m`: Distance that the planner adds"), "{remedy}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn bodies_need_room_at_their_ends() {
     assert_issue("x_m = 0, y_m = 0", "x_m = -3.8, y_m = 0", "vehicles[0].start.x_m", "-3.8", "0.35 m, the body");
     assert_issue("x_m = 0, y_m = 0", "x_m = 6, y_m = -2.5", "vehicles[0].start", "0.000 m from `cart`", "0.35 m");
     assert_issue("x_m = 10, y_m = 0", "x_m = 15, y_m = 0", "vehicles[0].goal.x_m", "15", "the map");
-    assert_issue("x_m = 10,", "speed_mps = 1, x_m = 10,", "vehicles[0].goal.speed_mps", "1", "0, or nothing");
+    assert_issue("x_m = 10,", "speed_mps = 1, x_m = 10,", "vehicles[0].goal.speed_mps", "1", "0");
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn what_is_hidden_and_what_moves_has_to_make_sense() {
     assert_issue("hidden = [\"box\"]", "hidden = [\"bux\"]", "world.hidden[0]", "bux", "the name of a cylinder");
     assert_issue("hidden = [\"box\"]", "hidden = [\"cart\"]", "world.hidden[0]", "cart", "the name of a cylinder");
     assert_issue("[[6, -3], [6, 3]]", "[[6, -3]]", "world.moving[0].path_m", "1 corners", "two corners");
-    assert_issue("name = \"cart\"", "name = \"box\"", "world.moving[0].name", "box", "a name of its own");
+    assert_issue("name = \"cart\"", "name = \"box\"", "world.moving[0].name", "box", "a unique name");
 }
 
 #[test]

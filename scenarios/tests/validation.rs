@@ -98,9 +98,9 @@ fn a_fleet_has_vehicles_with_names_of_their_own_and_known_models() {
     let error = scenarios::parse("minimal.toml", &format!("vehicles = []\n{head}{tail}")).unwrap_err();
     assert_eq!(
         error.lines(),
-        ["minimal.toml:1:12: vehicles: found none, expected one vehicle at least; add a `[[vehicles]]` table"]
+        ["minimal.toml:1:12: vehicles: found none, expected at least one vehicle; add a `[[vehicles]]` table"]
     );
-    assert_issue("\"uav-2\"", "\"uav-1\"", ("vehicles[1].name", 39, 8), "uav-1", "vehicles[0] has this one already");
+    assert_issue("\"uav-2\"", "\"uav-1\"", ("vehicles[1].name", 39, 8), "uav-1", "vehicles[0] has the same");
     assert_issue("\"uav-2\"", "\"\"", ("vehicles[1].name", 39, 8), "\"\"", "letters, digits");
     let unknown = "name = \"uav-2\"\nmodel = \"glidr\"";
     assert_issue("name = \"uav-2\"\nmodel = \"glider\"", unknown, ("vehicles[1].model", 40, 9), "glidr", "glider");
@@ -201,8 +201,14 @@ fn options_of_the_planner_are_in_range() {
         assert_issue("penalty = 1000", &release, ("planner.time_bound_release", 52, 22), share, "from 0 to below 1");
     }
     assert_issue("max_iterations = 30", "max_iterations = 0", ("planner.max_iterations", 52, 18), "0", "1 or more");
-    assert_issue("shrink = 0.5", "shrink = 0", ("planner.trust_region.shrink", 53, 112), "0", "greater than 0, and 1");
-    assert_issue("shrink = 0.5", "shrink = 1.01", ("planner.trust_region.shrink", 53, 112), "1.01", "1 at most");
+    assert_issue(
+        "shrink = 0.5",
+        "shrink = 0",
+        ("planner.trust_region.shrink", 53, 112),
+        "0",
+        "greater than 0 and at most 1",
+    );
+    assert_issue("shrink = 0.5", "shrink = 1.01", ("planner.trust_region.shrink", 53, 112), "1.01", "at most 1");
     assert_issue("1, shrink", "0, shrink", ("planner.trust_region.flight_path_deg", 53, 100), "0", "greater than 0");
     assert_issue(
         "convergence = { position_m = 1",
@@ -218,7 +224,7 @@ fn options_of_the_planner_are_in_range() {
 fn the_simulation_is_possible() {
     let positive = "greater than 0";
     assert_issue("step_s = 0.01", "step_s = 0", ("simulation.step_s", 57, 10), "0", positive);
-    assert_issue("step_s = 0.01", "step_s = 0.2", ("simulation.step_s", 57, 10), "0.2", "0.1 at most");
+    assert_issue("step_s = 0.01", "step_s = 0.2", ("simulation.step_s", 57, 10), "0.2", "at most 0.1");
     assert_issue("max_duration_s = 100", "max_duration_s = 0", ("simulation.max_duration_s", 58, 18), "0", positive);
     assert_issue("coast_s = 2", "coast_s = -1", ("simulation.coast_s", 59, 11), "-1", "0 or more");
     assert_issue("radps = 0.5", "radps = 0", ("simulation.tracker.natural_frequency_radps", 60, 39), "0", positive);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Control, State};
+use super::{CSV_COLUMNS, Control, State};
 use crate::Family;
 use crate::plan_input::columns::Columns;
 use crate::plan_input::{ColumnTable, ImportedTrajectory};
@@ -13,6 +13,7 @@ const DEGREE: f64 = PI / 180.0;
 /// factors along the velocity, to the left, and up.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::FixedWing,
+    written: &CSV_COLUMNS,
     required: &["x_m", "y_m", "z_m"],
     velocity: &[&["speed_mps", "heading_rad", "flight_path_rad"], &["vx_mps", "vy_mps", "vz_mps"]],
     controls: &["n_x", "n_y", "n_z"],

@@ -54,10 +54,6 @@ impl TrajectoryNodes for Trajectory {
         self.times_s.iter().copied().chain(states).chain(controls).collect()
     }
 
-    fn csv_columns(&self) -> &'static [&'static str] {
-        &CSV_COLUMNS
-    }
-
     fn csv_cells(&self, node: usize) -> Vec<String> {
         let numbers = self.states[node].to_array().into_iter().chain(self.controls[node].to_array());
         numbers.map(|number| format!("{number:?}")).collect()

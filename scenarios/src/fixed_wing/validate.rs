@@ -57,7 +57,7 @@ pub(super) fn waypoint(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<I
     ];
     let check = |(name, value, range, of)| inside(&format!("{field}.{name}"), value, range, of);
     let load = waypoint.load.map(|_| {
-        Issue::new(format!("{field}.load"), "a load", "nothing: a fixed wing carries none").remedy("remove it")
+        Issue::new(format!("{field}.load"), "a load", "nothing: a fixed wing carries no load").remedy("remove it")
     });
     quantities.into_iter().filter_map(check).chain(load).collect()
 }

@@ -7,25 +7,25 @@ use thiserror::Error;
 use super::position::line_and_column;
 use crate::Issue;
 
-/// Why a file gives no scenario.
+/// Why a scenario file cannot be loaded.
 #[derive(Debug, Error, Diagnostic)]
 pub enum LoadError {
-    /// The file can't be read.
+    /// The file cannot be read.
     #[error("{}: {reason}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         reason: std::io::Error,
     },
-    /// The file is read, but what it says is no scenario.
+    /// The content of the file is not a valid scenario.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Invalid(#[from] Box<InvalidScenario>),
 }
 
 impl LoadError {
-    /// Every issue on a line of its own, as `file:line:column: field: found ..., expected ...; remedy`.
+    /// One line per issue: `file:line:column: field: found ..., expected ...; remedy`.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::Read { .. } => vec![self.to_string()],
@@ -38,7 +38,7 @@ impl LoadError {
         }
     }
 
-    /// The issues of the file's content, in the order of the file; none if it could not be read.
+    /// The issues of the content, in the order of the file; empty if the file could not be read.
     pub fn issues(&self) -> &[LocatedIssue] {
         match self {
             Self::Read { .. } => &[],
@@ -47,21 +47,21 @@ impl LoadError {
     }
 }
 
-/// A file whose content is no scenario, and everything that is wrong with it.
+/// A file that is not a valid scenario, with all its issues.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{name} is not a valid scenario: {} {}", issues.len(), if issues.len() == 1 { "error" } else { "errors" })]
 pub struct InvalidScenario {
-    /// The file, as the user named it.
+    /// Name of the file, as the user gave it.
     pub name: String,
     #[source_code]
     text: NamedSource<String>,
-    /// What is wrong, in the order of the file.
+    /// The issues, in the order of the file.
     #[related]
     pub issues: Vec<LocatedIssue>,
 }
 
 impl InvalidScenario {
-    /// - `issues`: what is wrong, with the bytes of `text` where it stands
+    /// - `issues`: each with its byte range in `text`
     pub(super) fn new(name: &str, text: &str, issues: Vec<(Issue, Range<usize>)>) -> Self {
         let mut issues: Vec<LocatedIssue> =
             issues.into_iter().map(|(issue, span)| LocatedIssue::new(issue, span, text)).collect();
@@ -70,11 +70,11 @@ impl InvalidScenario {
     }
 }
 
-/// One thing that is wrong, and where.
+/// An issue with its place in the file.
 #[derive(Clone, Debug, Error, Diagnostic)]
 #[error("{issue}")]
 pub struct LocatedIssue {
-    /// What is wrong.
+    /// The issue.
     pub issue: Issue,
     /// Line, from 1.
     pub line: usize,
@@ -93,7 +93,7 @@ impl LocatedIssue {
         Self { issue, line, column, span: span.into(), help }
     }
 
-    /// What is wrong and how to mend it, on one line.
+    /// Issue and remedy on one line.
     fn summary(&self) -> String {
         match &self.help {
             Some(help) => format!("{}; {help}", self.issue),

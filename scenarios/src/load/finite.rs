@@ -1,5 +1,5 @@
-//! Are all numbers of the document quantities? TOML knows `nan` and `inf`; no quantity of a scenario may be either, nor so
-//! large or so small that arithmetic with it loses everything else.
+//! Range of the numbers in a document. TOML allows `nan` and `inf`; quantities of a scenario are finite, and not so large
+//! or small that arithmetic with them loses all precision.
 
 use std::ops::Range;
 
@@ -8,11 +8,11 @@ use toml::de::{DeTable, DeValue};
 
 use crate::Issue;
 
-/// No quantity is larger than this, or smaller without being zero, in the unit that it is given in.
-const LARGEST: f64 = 1e12;
-const SMALLEST: f64 = 1e-12;
+/// Magnitudes of non-zero quantities, in their own units.
+const MIN_MAGNITUDE: f64 = 1e-12;
+const MAX_MAGNITUDE: f64 = 1e12;
 
-/// Every number that is none or beyond all measure, with the bytes of the text where it stands.
+/// Every number that is not finite or out of range, with its byte range in the text.
 pub(super) fn issues(root: &DeTable<'_>) -> Vec<(Issue, Range<usize>)> {
     let mut issues = Vec::new();
     for (key, value) in root {
@@ -25,11 +25,10 @@ fn walk(field: &str, value: &Spanned<DeValue<'_>>, issues: &mut Vec<(Issue, Rang
     match value.get_ref() {
         DeValue::Float(float) if !float.as_str().replace('_', "").parse::<f64>().is_ok_and(f64::is_finite) => {
             let issue = Issue::new(field, float.as_str(), "a finite number");
-            issues
-                .push((issue.remedy("to say \"no limit\", leave the key out where it may be left out"), value.span()));
+            issues.push((issue.remedy("for \"no limit\", omit the key where it is optional"), value.span()));
         }
-        DeValue::Float(float) if float.as_str().replace('_', "").parse().is_ok_and(is_beyond_measure) => {
-            let expected = format!("0, or a number between {SMALLEST:e} and {LARGEST:e} in magnitude");
+        DeValue::Float(float) if float.as_str().replace('_', "").parse().is_ok_and(is_out_of_range) => {
+            let expected = format!("0, or a number between {MIN_MAGNITUDE:e} and {MAX_MAGNITUDE:e} in magnitude");
             issues.push((Issue::new(field, float.as_str(), expected), value.span()));
         }
         DeValue::Table(table) => {
@@ -42,6 +41,6 @@ fn walk(field: &str, value: &Spanned<DeValue<'_>>, issues: &mut Vec<(Issue, Rang
     }
 }
 
-fn is_beyond_measure(value: f64) -> bool {
-    value != 0.0 && !(SMALLEST..=LARGEST).contains(&value.abs())
+fn is_out_of_range(value: f64) -> bool {
+    value != 0.0 && !(MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&value.abs())
 }

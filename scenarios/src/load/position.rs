@@ -1,14 +1,14 @@
-//! Where a field stands in the text.
+//! Position of a field in the text.
 
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Bytes of the text that hold the value of `field`, a path as `vehicles[3].start.x_m`.
+/// Byte range of the value of `field`, a path such as `vehicles[3].start.x_m`.
 ///
-/// A table's span is its header. If the field is not in the file, or only a part of its path is, the span is that of
-/// the last part that is there; of the root, the beginning of the file.
+/// The range of a table is its header. If only a part of the path exists, the range is that of its last existing part, or
+/// the beginning of the file.
 pub(super) fn span_of_field(root: &DeTable<'_>, field: &str) -> Range<usize> {
     let mut steps = steps(field).into_iter();
     let Some(mut value) = steps.next().and_then(|key| root.get(key)) else { return 0..0 };
@@ -21,14 +21,14 @@ pub(super) fn span_of_field(root: &DeTable<'_>, field: &str) -> Range<usize> {
     value.span()
 }
 
-/// [`span_of_field`], or nothing if the field is not in the file.
+/// [`span_of_field`], or `None` if the field is not in the file.
 pub(super) fn exact_span(root: &DeTable<'_>, field: &str) -> Option<Range<usize>> {
     let mut steps = steps(field).into_iter();
     let first = root.get(steps.next()?)?;
     steps.try_fold(first, child).map(Spanned::span)
 }
 
-/// `vehicles[3].start.x_m` as `vehicles`, `3`, `start`, `x_m`.
+/// Splits `vehicles[3].start.x_m` into `vehicles`, `3`, `start`, `x_m`.
 fn steps(field: &str) -> Vec<&str> {
     field.split(['.', '[', ']']).filter(|step| !step.is_empty()).collect()
 }
@@ -41,7 +41,7 @@ fn child<'t, 'i>(value: &'t Spanned<DeValue<'i>>, step: &str) -> Option<&'t Span
     }
 }
 
-/// The document without the keys that `fields` lead to.
+/// The document without the keys at `fields`.
 pub(super) fn without<'i, 'f>(
     root: &Spanned<DeTable<'i>>,
     fields: impl Iterator<Item = &'f str>,
@@ -77,7 +77,7 @@ fn child_mut<'t, 'i>(value: &'t mut Spanned<DeValue<'i>>, step: &str) -> Option<
     }
 }
 
-/// Line and column of a byte of the text, both from 1; columns count characters.
+/// Line and column of a byte offset, both from 1; columns count characters.
 pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..text.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);

@@ -1,8 +1,8 @@
-//! Has the document the shape of a scenario: no unknown key, none missing, every value of the right kind?
+//! Shape of the document: unknown keys, missing keys, types of values.
 //!
-//! The document is held against the JSON Schema that is generated from the scenario's own types, so that everything
-//! that is wrong is found in one go, with its place in the text and the field's documentation. (Deserialisation would
-//! stop at the first issue, and take `[1, 2, 3]` for a pair.)
+//! The document is checked against the JSON Schema generated from the scenario's own types. All issues are found in one
+//! pass, each with its place in the text and the documentation of the field. Deserialisation alone would stop at the first
+//! issue, and accept `[1, 2, 3]` as a pair.
 
 use std::ops::Range;
 
@@ -12,10 +12,10 @@ use toml::de::{DeTable, DeValue};
 
 use crate::{Issue, closest_name};
 
-/// What is found where a key stands that means nothing.
+/// `found` of an issue about an unknown key.
 pub(super) const UNKNOWN_KEY: &str = "an unknown key";
 
-/// Everything in `root` that differs from `schema`, with the bytes of the text where it stands.
+/// Every deviation of `root` from `schema`, with its byte range in the text.
 pub(super) fn issues(schema: &Value, root: &Spanned<DeTable<'_>>) -> Vec<(Issue, Range<usize>)> {
     let mut check = Check { definitions: &schema["$defs"], issues: Vec::new() };
     check.table(schema, root.get_ref(), &root.span(), "");
@@ -28,7 +28,7 @@ struct Check<'s> {
 }
 
 impl<'s> Check<'s> {
-    /// The schema that `schema` points to, or that it allows beside `null` (TOML has no null).
+    /// The schema that `schema` refers to, without the alternative `null`, which TOML does not have.
     fn resolve(&self, schema: &'s Value) -> &'s Value {
         if let Some(reference) = schema["$ref"].as_str() {
             return self.resolve(&self.definitions[reference.trim_start_matches("#/$defs/")]);
@@ -74,9 +74,9 @@ impl<'s> Check<'s> {
     }
 
     fn array(&mut self, schema: &'s Value, array: &[Spanned<DeValue<'_>>], span: &Range<usize>, field: &str) {
-        let fewest = schema["minItems"].as_u64().unwrap_or(0);
-        let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
-        if !(fewest..=most).contains(&(array.len() as u64)) {
+        let min = schema["minItems"].as_u64().unwrap_or(0);
+        let max = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
+        if !(min..=max).contains(&(array.len() as u64)) {
             self.issue(field, format!("{} values", array.len()), expectation(schema), span, String::new());
         }
         for (index, value) in array.iter().enumerate() {
@@ -110,10 +110,10 @@ impl<'s> Check<'s> {
         let free: Vec<&str> = properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name)).collect();
         let remedy = match closest_name(key, free.iter().copied()) {
             Some(name) => format!("did you mean `{name}`: {}", documentation(&properties[name])),
-            None => "remove it; keys that mean nothing are refused, so that a misspelt one is never overlooked".into(),
+            None => "remove it; unknown keys are rejected so that misspelt ones are noticed".into(),
         };
         let expected = match free.as_slice() {
-            [] => "no further key here".into(),
+            [] => "no further key".into(),
             names => format!("one of the keys {}", names.join(", ")),
         };
         self.issue(field, UNKNOWN_KEY.into(), expected, span, remedy);
@@ -124,7 +124,7 @@ impl<'s> Check<'s> {
     }
 }
 
-/// Is `key` absent because a key of `table` that means nothing was meant to be it? Then one issue says it all.
+/// Whether an unknown key of `table` is probably a misspelt `key`, so that one issue covers both.
 fn is_misspelt(key: &str, table: &DeTable<'_>, properties: &Map<String, Value>) -> bool {
     let free = || properties.keys().map(String::as_str).filter(|name| !table.contains_key(*name));
     let unknown = table.keys().filter(|written| !properties.contains_key(written.get_ref().as_ref()));
@@ -149,7 +149,7 @@ fn choices(schema: &Value) -> Vec<&str> {
     documented.chain(plain).filter_map(Value::as_str).collect()
 }
 
-/// What the schema asks for, in words.
+/// The value that the schema requires, in words.
 fn expectation(schema: &Value) -> String {
     match kind(schema) {
         "object" => "a table".into(),
@@ -166,7 +166,7 @@ fn expectation(schema: &Value) -> String {
     }
 }
 
-/// The field's documentation on one line.
+/// The documentation of a field, on one line.
 fn documentation(schema: &Value) -> String {
     schema["description"].as_str().unwrap_or_default().replace('\n', " ")
 }

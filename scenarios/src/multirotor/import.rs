@@ -8,6 +8,7 @@ use crate::plan_input::{ColumnTable, ImportedTrajectory};
 /// Position and velocity, both required: nothing is reconstructed.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::Multirotor,
+    written: &CSV_COLUMNS,
     required: without_vehicle_and_time(&CSV_COLUMNS),
     velocity: &[],
     controls: &[],

@@ -84,10 +84,6 @@ impl TrajectoryNodes for Trajectory {
         self.times_s.iter().copied().chain(states).collect()
     }
 
-    fn csv_columns(&self) -> &'static [&'static str] {
-        &CSV_COLUMNS
-    }
-
     fn csv_cells(&self, node: usize) -> Vec<String> {
         let State { position_m, velocity_mps } = self.states[node];
         position_m.into_iter().chain(velocity_mps).map(|number| format!("{number:?}")).collect()

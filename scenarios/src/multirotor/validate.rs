@@ -23,20 +23,20 @@ pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
     issues.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
     issues.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
     issues.extend(planning_inside_physical(field, named(&model.planning_limits), named(&model.limits)));
-    issues.extend(no_airframe(field, model));
-    issues.extend(model.airframe.iter().flat_map(|airframe| of_airframe(&format!("{field}.airframe"), airframe)));
-    issues.extend(model.airframe.as_ref().and_then(|airframe| room_to_hover(field, model, airframe)));
+    issues.extend(missing_airframe(field, model));
+    issues.extend(model.airframe.iter().flat_map(|airframe| airframe_issues(&format!("{field}.airframe"), airframe)));
+    issues.extend(model.airframe.as_ref().and_then(|airframe| thrust_range(field, model, airframe)));
     issues
 }
 
-fn no_airframe(field: &str, model: &Model) -> Option<Issue> {
+fn missing_airframe(field: &str, model: &Model) -> Option<Issue> {
     (model.plant == Plant::Quadrotor && model.airframe.is_none()).then(|| {
-        let expected = "a table with inertia, lever arm and thrusts: the plant is a quadrotor";
-        Issue::new(format!("{field}.airframe"), "nothing", expected).remedy("add it, or fly a `point-mass`")
+        let expected = "a table with inertia, lever arm and thrusts, since the plant is a quadrotor";
+        Issue::new(format!("{field}.airframe"), "nothing", expected).remedy("add it, or use the plant `point-mass`")
     })
 }
 
-fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Issue> {
+fn airframe_issues(field: &str, airframe: &Airframe) -> Vec<Issue> {
     let [ix, iy, iz] = airframe.inertia_kgm2;
     let positive_ones = [
         ("inertia_kgm2[0]", ix),
@@ -56,15 +56,17 @@ fn of_airframe(field: &str, airframe: &Airframe) -> Vec<Issue> {
     positive_ones.chain(others.into_iter().flatten()).collect()
 }
 
-/// Four rotors have to carry the weight, tilted as far as the planned acceleration asks for.
-fn room_to_hover(field: &str, model: &Model, airframe: &Airframe) -> Option<Issue> {
+/// The four rotors must carry the weight while tilted for the planned acceleration.
+fn thrust_range(field: &str, model: &Model, airframe: &Airframe) -> Option<Issue> {
     let hover_n = model.mass_kg * GRAVITY_MPS2 / 4.0;
     let needed_n = model.mass_kg * GRAVITY_MPS2.hypot(model.planning_limits.acceleration_mps2) / 4.0;
     let Range { min, max } = airframe.thrust_n;
     (min < max && !(min < hover_n && needed_n < max)).then(|| {
-        let expected = format!("less than {hover_n:.3} N, which holds it still, to more than {needed_n:.3} N, planned");
+        let expected = format!(
+            "a range from below {hover_n:.3} N, in hover, to above {needed_n:.3} N, at the planned acceleration"
+        );
         Issue::new(format!("{field}.airframe.thrust_n"), airframe.thrust_n.to_string(), expected)
-            .remedy("give the rotors more thrust, or plan with less acceleration")
+            .remedy("increase the thrust, or reduce the planned acceleration")
     })
 }
 
@@ -72,30 +74,30 @@ fn named(limits: &Limits) -> [(&'static str, Range); 2] {
     [("speed_mps", Range::new(0.0, limits.speed_mps)), ("acceleration_mps2", Range::new(0.0, limits.acceleration_mps2))]
 }
 
-/// One issue for every model in use whose sensors see too little.
+/// Models in use whose sensor range is too short to stop before an obstacle.
 pub(super) fn sensing(scenario: &Scenario) -> Vec<Issue> {
     let models = &scenario.models.multirotor;
     let is_used = |name: &&String| scenario.vehicles.iter().any(|vehicle| vehicle.model == **name);
     models.keys().filter(is_used).filter_map(|name| too_short(scenario, name, &models[name])).collect()
 }
 
-/// The vehicle goes on for a period and a deadline before it knows, and then brakes; what moves comes towards it meanwhile.
+/// The vehicle reacts after a period and a deadline, and then brakes, while moving obstacles approach.
 fn too_short(scenario: &Scenario, name: &str, model: &Model) -> Option<Issue> {
     let (limits, planning) = (&model.planning_limits, &scenario.simulation.planning);
     let delay_s = planning.period_s + planning.deadline_s.max(planning.median_s);
-    let fastest_mps = scenario.world.moving.iter().map(|moving| moving.speed_mps).fold(0.0, f64::max);
+    let max_obstacle_mps = scenario.world.moving.iter().map(|moving| moving.speed_mps).fold(0.0, f64::max);
     let braking_s = limits.speed_mps / limits.acceleration_mps2;
     let own_m = limits.stopping_distance_m() + limits.speed_mps * delay_s;
-    let needed_m = own_m + fastest_mps * (delay_s + braking_s) + model.body_radius_m;
+    let needed_m = own_m + max_obstacle_mps * (delay_s + braking_s) + model.body_radius_m;
     (model.sensor_range_m < needed_m).then(|| {
         let expected = format!(
-            "{needed_m:.3} m or more: {:.3} m to stop from {} m/s, {:.3} m during a period and a delay of {delay_s} s, the \
-             way of what moves meanwhile, and the body's radius",
+            "{needed_m:.3} m or more: {:.3} m to brake from {} m/s, {:.3} m during the reaction time of {delay_s} s, the \
+             distance that moving obstacles cover meanwhile, and the body radius",
             limits.stopping_distance_m(),
             limits.speed_mps,
             limits.speed_mps * delay_s,
         );
         Issue::new(format!("models.multirotor.{name}.sensor_range_m"), model.sensor_range_m.to_string(), expected)
-            .remedy("look farther, plan slower (planning_limits), or plan more often (simulation.planning)")
+            .remedy("increase the sensor range, reduce planning_limits.speed_mps, or replan more often (simulation.planning)")
     })
 }

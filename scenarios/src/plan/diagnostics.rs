@@ -2,45 +2,45 @@ use serde::{Deserialize, Serialize};
 
 use super::PlanStatus;
 
-/// What a planner tells beyond its trajectories.
+/// What a planner reports beyond its trajectories.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlanDiagnostics {
-    /// What the plan foresees, in time.
+    /// Planned events, in the order of time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<PlannedEvent>,
-    /// Ways that were tried and not taken.
+    /// Alternatives that were evaluated and not chosen.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<Alternative>,
 }
 
 impl PlanDiagnostics {
-    /// Is there nothing to tell?
+    /// Whether there are no events and no alternatives.
     pub fn is_empty(&self) -> bool {
         self.events.is_empty() && self.alternatives.is_empty()
     }
 }
 
-/// An instant that a plan foresees.
+/// A planned event, such as the release of a load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedEvent {
-    /// When, s.
+    /// Time, s.
     pub at_s: f64,
-    /// What, for a person to read.
+    /// Description.
     pub what: String,
 }
 
-/// A way that was tried and not taken.
+/// An alternative that was evaluated and not chosen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alternative {
-    /// Which way, for a person to read.
+    /// Description.
     pub name: String,
-    /// What the planner says of it.
+    /// Status reported by the planner.
     pub status: PlanStatus,
     /// Value of the planner's objective.
     pub objective: Option<f64>,
-    /// The vehicle's path, m.
+    /// Path of the vehicle, m.
     pub path_m: Vec<[f64; 3]>,
 }

@@ -7,19 +7,21 @@ use crate::Family;
 pub struct Columns {
     /// The family of these vehicles.
     pub family: Family,
-    /// Columns that must be there.
+    /// Columns of a written file, vehicle and time first.
+    pub written: &'static [&'static str],
+    /// Required columns.
     pub required: &'static [&'static str],
-    /// Forms in which the velocity may be given: all columns of one of them, or none at all.
+    /// Alternative forms of the velocity. A file has all columns of one form, or none of any.
     pub velocity: &'static [&'static [&'static str]],
-    /// Controls: all of them or none.
+    /// Controls. A file has all of them or none.
     pub controls: &'static [&'static str],
-    /// Columns that stand for another one in another unit: name, which one, factor.
+    /// Columns in another unit: name, the column that it is converted to, and the factor.
     pub converted: &'static [(&'static str, &'static str, f64)],
-    /// Columns of words: name, and the words for 0, 1, ...
+    /// Columns of words: name, and the words for the numbers 0, 1, ...
     pub words: &'static [(&'static str, &'static [&'static str])],
-    /// Keys of a JSON node that hold several columns as an array.
+    /// Keys of a JSON node that hold several columns as one array.
     pub arrays: &'static [(&'static str, &'static [&'static str])],
-    /// May two rows share a time, before and after a jump of the velocity?
+    /// Whether two successive rows may share a time, before and after a jump in velocity.
     pub allows_discontinuity: bool,
 }
 
@@ -34,14 +36,14 @@ pub(crate) const fn without_vehicle_and_time(written: &'static [&'static str]) -
 }
 
 impl Columns {
-    /// Every column that may be there beside vehicle and time.
+    /// Every known column except vehicle and time.
     pub fn names(&self) -> Vec<&'static str> {
         let velocity = self.velocity.iter().flat_map(|form| form.iter());
         let plain = self.required.iter().chain(velocity).chain(self.controls).copied();
         plain.chain(self.converted.iter().map(|(name, ..)| *name)).collect()
     }
 
-    /// The column that `name` stands for, and the factor between the two; itself if it is not converted.
+    /// The column that `name` is converted to, and the factor; `name` itself and 1 if it is not converted.
     pub fn meaning<'n>(&self, name: &'n str) -> (&'n str, f64) {
         match self.converted.iter().find(|(other, ..)| *other == name) {
             Some((_, meant, factor)) => (meant, *factor),
@@ -49,17 +51,17 @@ impl Columns {
         }
     }
 
-    /// The number for a word in the column `name`; `None` if the column holds no words, or not this one.
+    /// The number for a word in the column `name`; `None` if the column does not hold this word.
     pub fn word(&self, name: &str, word: &str) -> Option<f64> {
         let (_, words) = self.words.iter().find(|(column, _)| *column == name)?;
         words.iter().position(|known| *known == word).map(|index| index as f64)
     }
 
-    /// What stands in a cell of the column `name`, for messages.
+    /// What a cell of the column `name` holds, for messages.
     pub fn expectation(&self, name: &str) -> String {
         match self.words.iter().find(|(column, _)| *column == name) {
             Some((_, words)) => words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" or "),
-            None => "a number, with a point and without a unit".to_owned(),
+            None => "a number with a decimal point and without a unit".to_owned(),
         }
     }
 }
@@ -67,17 +69,12 @@ impl Columns {
 #[cfg(test)]
 mod tests {
     use super::{TIME, VEHICLE};
-    use crate::{Family, fixed_wing, multirotor, slung_load};
+    use crate::Family;
 
     #[test]
     fn every_written_column_can_be_read() {
-        let families = [
-            (Family::FixedWing, &fixed_wing::CSV_COLUMNS[..]),
-            (Family::SlungLoad, &slung_load::CSV_COLUMNS[..]),
-            (Family::Multirotor, &multirotor::CSV_COLUMNS[..]),
-        ];
-        for (family, written) in families {
-            let known = family.spec().columns.names();
+        for family in Family::ALL {
+            let (written, known) = (family.spec().columns.written, family.spec().columns.names());
             assert_eq!(written[..2], [VEHICLE, TIME]);
             assert!(written[2..].iter().all(|name| known.contains(name)), "{family}: {known:?}");
         }

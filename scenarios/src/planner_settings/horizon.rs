@@ -1,35 +1,35 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Options of planners by receding horizon.
+/// Options of receding-horizon planners.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Horizon {
     /// Sampling time T, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_s: Option<f64>,
-    /// Steps of the horizon H_p, from 1 to 100.
+    /// Number of steps of the horizon H_p, from 1 to 100.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
-    /// Particles, from 4 to 10000; rounded up to a multiple of four.
+    /// Number of particles, from 4 to 10000, rounded up to a multiple of four.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub particles: Option<usize>,
-    /// Iterations of one search at most, from 1 to 10000.
+    /// Maximum number of iterations of one search, from 1 to 10000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iterations: Option<usize>,
-    /// A search ends when its best cost has not improved for so many iterations. Absent: it does not.
+    /// Number of iterations without improvement of the best cost after which a search ends. Absent: no such criterion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stall_iterations: Option<usize>,
-    /// What is left to the goal from the end of a horizon.
+    /// Cost-to-go from the end of the horizon.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cost_map: Option<CostMap>,
-    /// How the planner `rhc` searches; the others are named after their search.
+    /// Search method of the planner `rhc`; the other planners are named after theirs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sampler: Option<Sampler>,
-    /// The cost of infeasible particles is computed too, though nobody looks at it: to measure what skipping it saves.
+    /// Whether the unused cost of infeasible particles is computed too, to measure the time saved by skipping it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub costs_infeasible: Option<bool>,
-    /// Positions of the swarm move by w v, as the paper prints its eq. 13, instead of by v.
+    /// Whether positions of the swarm are updated by w v, as printed in eq. 13 of the paper, instead of by v.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moves_as_printed: Option<bool>,
     /// Potential field of the planner `rhc-apf`.
@@ -41,9 +41,9 @@ pub struct Horizon {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CostMap {
-    /// Ways along the corners of the obstacles: short.
+    /// Visibility graph along the corners of the obstacles: short paths.
     Visibility,
-    /// Ways in the middle between the obstacles: safer.
+    /// Voronoi diagram between the obstacles: safer paths.
     Voronoi,
 }
 
@@ -53,7 +53,7 @@ pub enum CostMap {
 pub enum Sampler {
     /// Particle swarm.
     Pso,
-    /// Particle swarm in which infeasible particles listen more to the others (eq. 15).
+    /// Particle swarm with a smaller inertia weight for infeasible particles (eq. 15).
     Fpso,
     /// Cross-entropy method.
     Cem,
@@ -67,30 +67,30 @@ pub enum Sampler {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PotentialField {
-    /// Beside a cost map (eq. 16), or instead of it (eq. 17).
+    /// With a cost map (eq. 16), or instead of it (eq. 17).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<PotentialFieldForm>,
-    /// Repulsion with the bracket squared (Khatib), or as the paper prints it (eq. 3).
+    /// Repulsion with the bracket squared (Khatib), or as printed in the paper (eq. 3).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repulsion: Option<RepulsionForm>,
     /// Gain k_att of the attraction, 1/m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub attraction: Option<f64>,
-    /// Gain k_rep of the repulsion: m³ where the bracket is squared, else m².
+    /// Gain k_rep of the repulsion: m³ if the bracket is squared, otherwise m².
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gain: Option<f64>,
-    /// Distance d_n within which obstacles repel, from where the planner's clearance ends, m.
+    /// Range d_n of the repulsion beyond the planner's clearance, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach_m: Option<f64>,
 }
 
-/// What a potential field stands beside.
+/// Combination of a potential field with a cost map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PotentialFieldForm {
-    /// Repulsion beside a cost map (eq. 16).
+    /// Repulsion and a cost map (eq. 16).
     WithCostMap,
-    /// Attraction and repulsion, no cost map (eq. 17).
+    /// Attraction and repulsion without a cost map (eq. 17).
     Alone,
 }
 

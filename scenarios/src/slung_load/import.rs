@@ -8,6 +8,7 @@ use crate::{Family, Interpolation};
 /// State, control and cable, all required: nothing is reconstructed.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::SlungLoad,
+    written: &CSV_COLUMNS,
     required: without_vehicle_and_time(&CSV_COLUMNS),
     velocity: &[],
     controls: &[],

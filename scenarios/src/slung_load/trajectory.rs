@@ -99,10 +99,6 @@ impl TrajectoryNodes for Trajectory {
         self.times_s.iter().copied().chain(states).chain(controls).collect()
     }
 
-    fn csv_columns(&self) -> &'static [&'static str] {
-        &CSV_COLUMNS
-    }
-
     fn csv_cells(&self, node: usize) -> Vec<String> {
         let numbers = self.states[node].to_array().into_iter().chain(self.controls[node].thrust_n);
         let cable = match self.cable[node] {

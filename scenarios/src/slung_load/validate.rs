@@ -13,7 +13,7 @@ pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
     issues.extend(limits(&format!("{field}.limits"), &model.limits));
     issues.extend(limits(&format!("{field}.planning_limits"), &model.planning_limits));
     issues.extend(planning_inside_physical(field, named(&model.planning_limits), named(&model.limits)));
-    issues.extend(room_to_hover(field, model));
+    issues.extend(hover_thrust(field, model));
     issues
 }
 
@@ -43,7 +43,7 @@ fn limits(field: &str, limits: &Limits) -> Vec<Issue> {
         named(limits).into_iter().filter_map(|(name, range)| ordered(&format!("{field}.{name}"), range)).collect();
     issues.extend(positive(&format!("{field}.tension_n"), limits.tension_n));
     issues.extend(not_negative(&format!("{field}.thrust_n"), limits.thrust_n.min).map(|issue| {
-        Issue::new(issue.field, limits.thrust_n.to_string(), "a least thrust of 0 or more: rotors do not pull down")
+        Issue::new(issue.field, limits.thrust_n.to_string(), "a minimum thrust of 0 or more: rotors cannot pull down")
     }));
     if limits.attitude_deg.min <= -90.0 || limits.attitude_deg.max >= 90.0 {
         let expected = "both ends strictly between -90 and 90 deg";
@@ -52,12 +52,12 @@ fn limits(field: &str, limits: &Limits) -> Vec<Issue> {
     issues
 }
 
-fn room_to_hover(field: &str, model: &Model) -> Option<Issue> {
+fn hover_thrust(field: &str, model: &Model) -> Option<Issue> {
     let (hover_n, thrust_n) = (model.hover_thrust_n(), model.planning_limits.thrust_n);
     (thrust_n.min < thrust_n.max && !(thrust_n.min < hover_n && hover_n < thrust_n.max)).then(|| {
-        let expected = format!("a range around {hover_n:.3} N, with which each rotor holds quadrotor and load still");
+        let expected = format!("a range that contains {hover_n:.3} N, the thrust of each rotor in hover");
         Issue::new(format!("{field}.planning_limits.thrust_n"), thrust_n.to_string(), expected)
-            .remedy("give the rotors more thrust, or the vehicle less mass")
+            .remedy("increase the thrust, or reduce the mass")
     })
 }
 
@@ -73,13 +73,13 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
     issues.extend(inside_obstacle(world, &load, state.load_position_m));
     if state.cable_length_m() > model.cable_length_m + LENGTH_TOLERANCE_M {
         let found = format!("a load {:.4} m from the quadrotor", state.cable_length_m());
-        let expected = format!("{} m at most, the length of the cable", model.cable_length_m);
+        let expected = format!("at most {} m, the length of the cable", model.cable_length_m);
         issues.push(Issue::new(load.clone(), found, expected).remedy("move the load or the quadrotor"));
     }
-    let lowest_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
-    if let Some(lowest_m) = lowest_m.filter(|lowest_m| state.load_position_m[2] < lowest_m - LENGTH_TOLERANCE_M) {
+    let min_z_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
+    if let Some(min_z_m) = min_z_m.filter(|min_z_m| state.load_position_m[2] < min_z_m - LENGTH_TOLERANCE_M) {
         let found = format!("a load whose centre is at {} m", state.load_position_m[2]);
-        let expected = format!("{lowest_m} m or more: its radius above the ground");
+        let expected = format!("at least {min_z_m} m, its radius above the ground");
         issues.push(Issue::new(load, found, expected).remedy("raise the load, or lower world.ground_m"));
     }
     issues

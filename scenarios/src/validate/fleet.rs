@@ -1,4 +1,4 @@
-//! The vehicles against each other, at their starts and at their goals.
+//! Distances between the vehicles at their starts and goals.
 
 use super::quantity::positive_if_given;
 use crate::{Issue, Scenario, Vehicle, Waypoint};
@@ -15,7 +15,7 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     issues
 }
 
-/// Do two bodies overlap, or is their separation violated already, at the ends that `end` picks?
+/// An overlap of two bodies, or a violation of the separation, at the waypoints that `end` selects.
 fn too_close(
     scenario: &Scenario,
     field: String,
@@ -35,11 +35,11 @@ fn too_close(
     (horizontal_m < separation_m).then(|| {
         let found = format!("a point {horizontal_m:.3} m (horizontally) from that of `{}`", other.name);
         Issue::new(field, found, format!("{separation_m} m or more, the separation of the fleet"))
-            .remedy("move one of the two, or lower fleet.separation_m")
+            .remedy("move one of them, or lower fleet.separation_m")
     })
 }
 
-/// Zero if the model is unknown, which is reported with the vehicle.
+/// Zero if the model is unknown, which is reported separately.
 fn body_radius_m(scenario: &Scenario, vehicle: &Vehicle) -> f64 {
     scenario.models.get(&vehicle.model).map_or(0.0, |model| model.body_radius_m())
 }

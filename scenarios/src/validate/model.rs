@@ -10,23 +10,23 @@ pub(super) fn issues(models: &Models) -> Vec<Issue> {
         issues.extend(entity_name(&field, name));
         issues.extend(model.issues(&field));
     }
-    issues.extend(names_of_two_families(models));
+    issues.extend(duplicate_names(models));
     issues
 }
 
-fn names_of_two_families(models: &Models) -> Vec<Issue> {
+fn duplicate_names(models: &Models) -> Vec<Issue> {
     let issue = |(name, model): (&str, &dyn VehicleModel)| {
         let (family, other) = (model.family(), models.get(name)?.family());
         (family != other).then(|| {
-            let expected = format!("a name of its own; a {} model has this one already", other.key());
+            let expected = format!("a unique name; a {} model has the same", other.key());
             let field = format!("models.{}.{name}", family.key());
-            Issue::new(field, format!("\"{name}\""), expected).remedy("rename one of the two")
+            Issue::new(field, format!("\"{name}\""), expected).remedy("rename one of them")
         })
     };
     models.iter().filter_map(issue).collect()
 }
 
-/// Ranges of planning limits that reach beyond the physical ones of the same name. What is not in order says nothing.
+/// Planning limits that exceed the physical limits of the same name. Reversed ranges are reported elsewhere.
 pub(crate) fn planning_inside_physical(
     field: &str,
     planning: impl IntoIterator<Item = (&'static str, Range)>,
@@ -38,7 +38,7 @@ pub(crate) fn planning_inside_physical(
     let issue = |((name, planning), (_, physical)): ((&str, Range), (&str, Range))| {
         let expected = format!("a range inside {physical}, the physical limits ({field}.limits.{name})");
         Issue::new(format!("{field}.planning_limits.{name}"), planning.to_string(), expected)
-            .remedy("narrow the planning limits, or widen the physical ones if the vehicle can do more")
+            .remedy("narrow the planning limits, or widen the physical ones if the vehicle allows it")
     };
     outside.map(issue).collect()
 }

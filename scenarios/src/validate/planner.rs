@@ -1,34 +1,34 @@
-//! The options of a planner, as far as they can be judged without knowing it.
+//! Options of a planner, as far as they can be checked without knowing the planner.
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
 use crate::{Collocation, Convergence, Formulation, Horizon, Issue, Objective, PlannerSettings, Scenario, TrustRegion};
 
-/// Fewest and most intervals between the nodes.
+/// Allowed number of intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
 
-/// Fewest and most segments of a mesh, points of a segment, and phases of the cable.
+/// Allowed number of segments of a mesh, collocation points of a segment, and phases of the cable.
 const SEGMENTS: std::ops::RangeInclusive<usize> = 1..=1000;
 const POINTS: std::ops::RangeInclusive<usize> = 2..=20;
 const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
 
-/// Fewest and most steps of a horizon, particles, and iterations of a search.
+/// Allowed number of steps of a horizon, particles, and iterations of a search.
 const STEPS: std::ops::RangeInclusive<usize> = 1..=100;
 const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
-const SEARCH: std::ops::RangeInclusive<usize> = 1..=10_000;
+const ITERATIONS: std::ops::RangeInclusive<usize> = 1..=10_000;
 
-/// A flight that the planner is to plan for, and that may not be flown.
+/// A prescribed flight time that the simulation does not allow.
 pub(super) fn flight_time(scenario: &Scenario) -> Option<Issue> {
     let flight_time_s = scenario.planner.collocation.as_ref()?.flight_time_s.filter(|time_s| *time_s > 0.0)?;
-    let (step_s, most_s) = (scenario.simulation.step_s, scenario.simulation.max_duration_s);
-    (!(step_s..=most_s).contains(&flight_time_s)).then(|| {
-        let expected = format!("from {step_s} s, a step, to {most_s} s: simulation.max_duration_s");
+    let (step_s, max_s) = (scenario.simulation.step_s, scenario.simulation.max_duration_s);
+    (!(step_s..=max_s).contains(&flight_time_s)).then(|| {
+        let expected = format!("from {step_s} s, the time step, to {max_s} s, simulation.max_duration_s");
         Issue::new("planner.collocation.flight_time_s", format!("{flight_time_s} s"), expected)
     })
 }
 
 pub(super) fn issues(settings: &PlannerSettings) -> Vec<Issue> {
-    let mut issues = outside_issues(settings);
+    let mut issues = command_issues(settings);
     if let Some(intervals) = settings.intervals.filter(|intervals| !INTERVALS.contains(intervals)) {
         let expected = format!("a whole number from {} to {}", INTERVALS.start(), INTERVALS.end());
         issues.push(Issue::new("planner.intervals", intervals.to_string(), expected));
@@ -46,37 +46,37 @@ pub(super) fn issues(settings: &PlannerSettings) -> Vec<Issue> {
     issues
 }
 
-/// What only a planner with a command needs, or must have.
-fn outside_issues(settings: &PlannerSettings) -> Vec<Issue> {
+/// Options that require a command, and options that a command requires.
+fn command_issues(settings: &PlannerSettings) -> Vec<Issue> {
     let Some(command) = &settings.command else {
-        let lost = [
+        let options = [
             ("time_limit_s", settings.time_limit_s.is_some()),
             ("in_loop", settings.in_loop),
             ("options", !settings.options.is_empty()),
         ];
         let without = |(key, _): (&str, bool)| {
-            let found = "an option of planners outside the harness";
-            let issue = Issue::new(format!("planner.{key}"), found, "`planner.command` beside it, or not this key");
-            issue.remedy("the planners of the harness have options of their own: see `harness schema scenario`")
+            let found = "an option of external planners";
+            let issue = Issue::new(format!("planner.{key}"), found, "this key only together with `planner.command`");
+            issue.remedy("`harness schema scenario` shows the options of the built-in planners")
         };
-        return lost.into_iter().filter(|(_, is_given)| *is_given).map(without).collect();
+        return options.into_iter().filter(|(_, is_given)| *is_given).map(without).collect();
     };
     let mut issues: Vec<Issue> = entity_name("planner.name", &settings.name).into_iter().collect();
     if command.first().is_none_or(String::is_empty) {
         issues.push(Issue::new(
             "planner.command",
             "no program",
-            "a program and its arguments, as [\"python3\", \"planner.py\"]",
+            "a program and its arguments, such as [\"python3\", \"planner.py\"]",
         ));
     }
     issues.extend(positive_if_given("planner.time_limit_s", settings.time_limit_s));
     issues
 }
 
-fn time_bound_release(share: f64) -> Option<Issue> {
-    let expected = "a share from 0 to below 1";
-    (!(0.0..1.0).contains(&share) && share.is_finite())
-        .then(|| Issue::new("planner.time_bound_release", share.to_string(), expected))
+fn time_bound_release(fraction: f64) -> Option<Issue> {
+    let expected = "a fraction from 0 to below 1";
+    (!(0.0..1.0).contains(&fraction) && fraction.is_finite())
+        .then(|| Issue::new("planner.time_bound_release", fraction.to_string(), expected))
 }
 
 fn trust_region(region: &TrustRegion) -> Vec<Issue> {
@@ -115,13 +115,17 @@ fn collocation(options: &Collocation) -> Vec<Issue> {
         positive_if_given("planner.collocation.impact_ns", options.impact_ns),
     ];
     let no_time = (options.objective == Some(Objective::Effort) && options.flight_time_s.is_none()).then(|| {
-        Issue::new("planner.collocation.flight_time_s", "nothing", "a duration: the objective `effort` leaves it open")
-            .remedy("add `flight_time_s`, or minimise `time`")
+        Issue::new(
+            "planner.collocation.flight_time_s",
+            "nothing",
+            "a duration: the objective `effort` does not determine it",
+        )
+        .remedy("add `flight_time_s`, or minimise `time`")
     });
     let is_complementary = options.formulation == Some(Formulation::Complementarity);
     let idle_phases = (is_complementary && options.cable.is_some()).then(|| {
-        Issue::new("planner.collocation.cable", "phases", "none: the formulation `complementarity` has none")
-            .remedy("leave `cable` out, or set `formulation = \"phases\"`")
+        Issue::new("planner.collocation.cable", "phases", "none: the formulation `complementarity` has no phases")
+            .remedy("omit `cable`, or set `formulation = \"phases\"`")
     });
     let quantities = quantities.into_iter().flatten();
     out_of_range.into_iter().chain(quantities).chain(no_time).chain(idle_phases).collect()
@@ -131,8 +135,8 @@ fn horizon(options: &Horizon) -> Vec<Issue> {
     let counts = [
         ("steps", options.steps, STEPS),
         ("particles", options.particles, PARTICLES),
-        ("iterations", options.iterations, SEARCH),
-        ("stall_iterations", options.stall_iterations, SEARCH),
+        ("iterations", options.iterations, ITERATIONS),
+        ("stall_iterations", options.stall_iterations, ITERATIONS),
     ];
     let field = options.field.clone().unwrap_or_default();
     let quantities = [

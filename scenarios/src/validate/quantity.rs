@@ -1,4 +1,4 @@
-//! Rules for a single number or a range. A number that is not finite passes: it is reported elsewhere.
+//! Rules for a single number or range. Numbers that are not finite pass, and are reported elsewhere.
 
 use crate::{Issue, Range};
 
@@ -7,7 +7,7 @@ pub(crate) fn positive(field: &str, value: f64) -> Option<Issue> {
     (value <= 0.0).then(|| Issue::new(field, value.to_string(), "a number greater than 0"))
 }
 
-/// `value` > 0, where it is given.
+/// `value` > 0, if it is given.
 pub(crate) fn positive_if_given(field: &str, value: Option<f64>) -> Option<Issue> {
     value.and_then(|value| positive(field, value))
 }
@@ -17,10 +17,10 @@ pub(crate) fn not_negative(field: &str, value: f64) -> Option<Issue> {
     (value < 0.0).then(|| Issue::new(field, value.to_string(), "0 or more"))
 }
 
-/// `above` < `value` <= `most`.
-pub(crate) fn above_up_to(field: &str, value: f64, above: f64, most: f64) -> Option<Issue> {
-    (value <= above || value > most)
-        .then(|| Issue::new(field, value.to_string(), format!("a number greater than {above}, and {most} at most")))
+/// `above` < `value` <= `max`.
+pub(crate) fn above_up_to(field: &str, value: f64, above: f64, max: f64) -> Option<Issue> {
+    (value <= above || value > max)
+        .then(|| Issue::new(field, value.to_string(), format!("a number greater than {above} and at most {max}")))
 }
 
 /// `min` < `max`.
@@ -30,7 +30,7 @@ pub(crate) fn ordered(field: &str, range: Range) -> Option<Issue> {
     })
 }
 
-/// `value` inside `range`, ends included; `of` says whose range it is. A range that is not in order says nothing.
+/// `value` inside `range`, ends included. `of` says what has this range. A reversed range is reported elsewhere.
 pub(crate) fn inside(field: &str, value: f64, range: Range, of: &str) -> Option<Issue> {
     let is_outside = value < range.min || value > range.max;
     (is_outside && range.min < range.max)

@@ -1,17 +1,17 @@
-//! The simulation: step, duration, tracker, and disturbances.
+//! The simulation: time step, duration, tracker and disturbances.
 
 use super::quantity::{above_up_to, not_negative, positive};
 use crate::{GustPulse, Gusts, Issue, Planning, PlanningClock, Simulation};
 
-/// Longest step that the simulator takes, s.
-const LONGEST_STEP_S: f64 = 0.1;
-/// Most steps of a flight: more than a day at the default step, and as many as a log can hold.
-const MOST_STEPS: f64 = 1e7;
+/// Maximum time step, s.
+const MAX_STEP_S: f64 = 0.1;
+/// Maximum number of steps of a flight: more than a day at the default step, and as many as a log can hold.
+const MAX_STEPS: f64 = 1e7;
 
 pub(super) fn issues(simulation: &Simulation) -> Vec<Issue> {
     let tracker = &simulation.tracker;
     let rules = [
-        above_up_to("simulation.step_s", simulation.step_s, 0.0, LONGEST_STEP_S),
+        above_up_to("simulation.step_s", simulation.step_s, 0.0, MAX_STEP_S),
         positive("simulation.max_duration_s", simulation.max_duration_s),
         not_negative("simulation.coast_s", simulation.coast_s),
         positive("simulation.tracker.natural_frequency_radps", tracker.natural_frequency_radps),
@@ -38,10 +38,10 @@ pub(super) fn issues(simulation: &Simulation) -> Vec<Issue> {
 fn too_many_steps(simulation: &Simulation) -> Option<Issue> {
     let Simulation { step_s, max_duration_s, .. } = simulation;
     let steps = max_duration_s / step_s;
-    (*step_s > 0.0 && *max_duration_s > 0.0 && steps > MOST_STEPS).then(|| {
+    (*step_s > 0.0 && *max_duration_s > 0.0 && steps > MAX_STEPS).then(|| {
         let found = format!("{max_duration_s} s, {steps:.1e} steps of {step_s} s");
-        Issue::new("simulation.max_duration_s", found, format!("{MOST_STEPS:.0} steps at most"))
-            .remedy("take longer steps, or a shorter flight")
+        Issue::new("simulation.max_duration_s", found, format!("at most {MAX_STEPS:.0} steps"))
+            .remedy("increase the step, or shorten the flight")
     })
 }
 
@@ -59,11 +59,11 @@ fn planning(simulation: &Simulation) -> Vec<Issue> {
         not_negative("simulation.planning.median_s", *median_s),
         not_negative("simulation.planning.spread", *spread),
         (*period_s > 0.0 && *period_s < simulation.step_s).then(|| {
-            let expected = format!("{} s, the simulator's step, or more", simulation.step_s);
+            let expected = format!("at least {} s, the time step", simulation.step_s);
             Issue::new("simulation.planning.period_s", period_s.to_string(), expected)
         }),
         (*time == PlanningClock::Recorded && recorded_s.is_empty()).then(|| {
-            let expected = "planning times, s: `time` is `recorded`";
+            let expected = "planning times in s, since `time` is `recorded`";
             Issue::new("simulation.planning.recorded_s", "none", expected).remedy("add them, or use `modelled` times")
         }),
     ];

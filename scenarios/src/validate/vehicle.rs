@@ -1,4 +1,4 @@
-//! Each vehicle by itself: its name, its model, and its start and goal against map, obstacles and limits.
+//! Single vehicles: name, model, and start and goal against map, obstacles and limits.
 
 use super::identifier::entity_names;
 use super::quantity::inside;
@@ -6,7 +6,7 @@ use crate::{Issue, Scenario, Vehicle, World, closest_name};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     if scenario.vehicles.is_empty() {
-        return vec![Issue::new("vehicles", "none", "one vehicle at least").remedy("add a `[[vehicles]]` table")];
+        return vec![Issue::new("vehicles", "none", "at least one vehicle").remedy("add a `[[vehicles]]` table")];
     }
     let mut issues = entity_names("vehicles", scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()));
     issues.extend(of_another_family(scenario));
@@ -29,7 +29,7 @@ pub(super) fn unsupported(scenario: &Scenario) -> Vec<Issue> {
     first.map_or_else(Vec::new, |model| (model.family().spec().unsupported)(scenario))
 }
 
-/// Simulation and verdict are for one family at a time.
+/// Simulation and verdict support one family at a time.
 fn of_another_family(scenario: &Scenario) -> Option<Issue> {
     let mut families = scenario
         .vehicles
@@ -40,7 +40,7 @@ fn of_another_family(scenario: &Scenario) -> Option<Issue> {
     let (index, other, other_family) = families.find(|(_, _, other)| *other != family)?;
     let found = format!("\"{}\", a {other_family}", other.model);
     let expected = format!("a {family} like `{}`: all vehicles of a scenario are of one family", first.name);
-    Some(Issue::new(format!("vehicles[{index}].model"), found, expected).remedy("make it a scenario of its own"))
+    Some(Issue::new(format!("vehicles[{index}].model"), found, expected).remedy("move it to a scenario of its own"))
 }
 
 fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option<Issue> {

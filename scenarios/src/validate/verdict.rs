@@ -1,4 +1,4 @@
-//! The limits of the verdict, and the checks that it names.
+//! Limits of the verdict, and names of checks.
 
 use super::quantity::{not_negative, positive_if_given};
 use crate::{CHECKS, Issue, VerdictLimits, check_spec, closest_name};
@@ -17,14 +17,14 @@ pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
     let rules = positive_ones.into_iter().map(|(name, value)| positive_if_given(&format!("verdict.{name}"), value));
     let others = [
         limits.envelope_m.and_then(|value| not_negative("verdict.envelope_m", value)),
-        limits.saturation.and_then(|value| share("verdict.saturation", value)),
+        limits.saturation.and_then(|value| fraction("verdict.saturation", value)),
     ];
     let names = unknown_checks("verdict.advisory", &limits.advisory);
     rules.chain(others).flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
 }
 
-fn share(field: &str, value: f64) -> Option<Issue> {
-    (!(0.0..=1.0).contains(&value)).then(|| Issue::new(field, value.to_string(), "a share from 0 to 1"))
+fn fraction(field: &str, value: f64) -> Option<Issue> {
+    (!(0.0..=1.0).contains(&value)).then(|| Issue::new(field, value.to_string(), "a fraction from 0 to 1"))
 }
 
 fn unknown_checks(field: &str, names: &[String]) -> Vec<Issue> {
@@ -37,6 +37,6 @@ fn unknown_check(field: &str, index: usize, name: &str) -> Issue {
         Some(known) => format!("did you mean \"{known}\"?"),
         None => format!("the checks are {}", CHECKS.iter().map(|check| check.name).collect::<Vec<_>>().join(", ")),
     };
-    let expected = "the full name of a check, as \"flight.separation\"";
+    let expected = "the full name of a check, such as \"flight.separation\"";
     Issue::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)
 }

@@ -1,4 +1,4 @@
-//! The map and its obstacles.
+//! Map, obstacles and gates.
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
@@ -21,16 +21,16 @@ pub(super) fn issues(world: &World) -> Vec<Issue> {
     issues.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
     issues.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
     issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| of_gate(index, gate)));
-    issues.extend(names_of_two_kinds(world));
+    issues.extend(names_in_two_lists(world));
     issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
     issues
 }
 
 fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
     let field = format!("world.moving[{index}]");
-    let path = (!moving.has_a_path()).then(|| {
-        let found = format!("{} corners, or two in a row that are the same", moving.path_m.len());
-        Issue::new(format!("{field}.path_m"), found, "two corners at least, each at some distance from the one before")
+    let path = (!moving.has_path()).then(|| {
+        let found = format!("{} corners, or two successive corners at the same point", moving.path_m.len());
+        Issue::new(format!("{field}.path_m"), found, "at least two corners, each different from the one before")
     });
     let rules = [
         positive(&format!("{field}.radius_m"), moving.radius_m),
@@ -41,16 +41,16 @@ fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
     rules.into_iter().flatten().chain(path).collect()
 }
 
-/// A name that is hidden must be there to be hidden.
+/// The name of a hidden obstacle must exist.
 fn hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
-    let still = World { moving: Vec::new(), ..world.clone() };
-    let names: Vec<&str> = still.obstacle_names().collect();
+    let static_world = World { moving: Vec::new(), ..world.clone() };
+    let names: Vec<&str> = static_world.obstacle_names().collect();
     let expected = "the name of a cylinder, a box or a prism, or \"*\" for all of them";
     let issue = Issue::new(format!("world.hidden[{index}]"), format!("\"{name}\""), expected);
     let is_known = name == "*" || names.contains(&name);
     (!is_known).then(|| match closest_name(name, names) {
         Some(known) => issue.remedy(format!("did you mean \"{known}\"?")),
-        None => issue.remedy("what moves has to be sensed in any case"),
+        None => issue.remedy("moving obstacles are always sensed"),
     })
 }
 
@@ -74,16 +74,16 @@ fn of_gate(index: usize, gate: &Gate) -> Vec<Issue> {
 fn of_prism(index: usize, prism: &Prism) -> Vec<Issue> {
     let field = format!("world.prisms[{index}]");
     let shape = (!prism.is_convex()).then(|| {
-        let found = format!("{} corners that make no convex polygon", prism.corners_m.len());
-        Issue::new(format!("{field}.corners_m"), found, "the corners of a convex polygon in order, three at least")
-            .remedy("list the corners in the order in which the edge passes them; split what is not convex")
+        let found = format!("{} corners that do not form a convex polygon", prism.corners_m.len());
+        Issue::new(format!("{field}.corners_m"), found, "at least three corners of a convex polygon, in order")
+            .remedy("list the corners in order along the boundary; split a polygon that is not convex")
     });
     let z_m = prism.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range));
     shape.into_iter().chain(z_m).collect()
 }
 
-/// A name that obstacles of two kinds share. (Within one kind it is reported with the kind.)
-fn names_of_two_kinds(world: &World) -> Vec<Issue> {
+/// Names shared by obstacles of two kinds. Duplicates within one kind are reported with that kind.
+fn names_in_two_lists(world: &World) -> Vec<Issue> {
     let kinds: [(&str, Vec<&str>); 4] = [
         ("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str()).collect()),
         ("world.boxes", world.boxes.iter().map(|block| block.name.as_str()).collect()),
@@ -94,10 +94,10 @@ fn names_of_two_kinds(world: &World) -> Vec<Issue> {
     for (later, (kind, names)) in kinds.iter().enumerate() {
         for (index, name) in names.iter().enumerate() {
             if let Some((earlier, _)) = kinds[..later].iter().find(|(_, others)| others.contains(name)) {
-                let expected = format!("a name of its own; an obstacle in {earlier} has this one already");
+                let expected = format!("a unique name; an obstacle in {earlier} has the same");
                 issues.push(
                     Issue::new(format!("{kind}[{index}].name"), format!("\"{name}\""), expected)
-                        .remedy("rename one of the two"),
+                        .remedy("rename one of them"),
                 );
             }
         }

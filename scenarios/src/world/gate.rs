@@ -3,20 +3,19 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
-/// A gate for a quadrotor with a slung load: at one and the same instant the quadrotor is in its window and the load is in
-/// the load's.
+/// A gate for a quadrotor with a slung load: at one instant, the quadrotor must be in its window and the load in its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gate {
     /// Name, unique among the gates.
     pub name: String,
-    /// Where the quadrotor's centre has to be.
+    /// Window of the centre of the quadrotor.
     pub quadrotor: Window,
-    /// Where the load's centre has to be.
+    /// Window of the centre of the load.
     pub load: Window,
 }
 
-/// A part of space with faces along the axes. An axis that is left out is not restricted.
+/// An axis-aligned region. An axis that is left out is unbounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Window {
@@ -32,10 +31,11 @@ pub struct Window {
 }
 
 impl Gate {
-    /// How far inside its window that of the two is which is less so, m: negative while one of them is outside.
+    /// Depth inside the window, of quadrotor or load, whichever is less, m; negative if one of them is outside. NaN if a
+    /// position is NaN.
     pub fn margin_m(&self, quadrotor_m: [f64; 3], load_m: [f64; 3]) -> f64 {
         let (quadrotor_m, load_m) = (self.quadrotor.margin_m(quadrotor_m), self.load.margin_m(load_m));
-        // of two numbers of which one is none, none is the smaller
+        // f64::min would ignore NaN.
         if quadrotor_m.is_nan() {
             quadrotor_m
         } else if load_m < quadrotor_m || load_m.is_nan() {
@@ -52,11 +52,11 @@ impl Window {
         [self.x_m, self.y_m, self.z_m]
     }
 
-    /// Distance from a point to the nearest face, m: negative outside, infinite where there are no faces.
+    /// Distance from a point to the nearest face, m; negative outside, infinite without faces.
     fn margin_m(&self, point_m: [f64; 3]) -> f64 {
         let faces = self.axes().into_iter().zip(point_m);
         let margins = faces.filter_map(|(range, at_m)| Some(range?.margin(at_m)));
-        margins.fold(f64::INFINITY, |least, margin| if margin.is_nan() || margin < least { margin } else { least })
+        margins.fold(f64::INFINITY, |min, margin| if margin.is_nan() || margin < min { margin } else { min })
     }
 }
 
@@ -65,7 +65,7 @@ mod tests {
     use super::{Gate, Range, Window};
 
     #[test]
-    fn both_must_be_in_their_windows() {
+    fn quadrotor_and_load_must_be_in_their_windows() {
         let quadrotor = Window { x_m: Some(Range::new(-1.0, 1.0)), z_m: Some(Range::new(0.0, 1.0)), y_m: None };
         let load = Window { z_m: Some(Range::new(2.0, 4.0)), ..Window::default() };
         let gate = Gate { name: "g".into(), quadrotor, load };

@@ -3,20 +3,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::Range;
 
-/// An upright prism over a convex polygon.
+/// A vertical prism over a convex polygon.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Prism {
     /// Name, unique among all obstacles.
     pub name: String,
-    /// Corners (x, y) of the polygon in order, either way round, m. Convex, three at least.
+    /// Corners (x, y) of the polygon, m, in order, clockwise or counterclockwise. Convex, at least three.
     pub corners_m: Vec<[f64; 2]>,
-    /// Lowest and highest altitude, m. Absent: without bottom or top.
+    /// Lowest and highest altitude, m. Absent: unbounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_m: Option<Range>,
 }
 
-/// An upright box, turned about the vertical.
+/// A box with vertical sides, at any heading.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxObstacle {
@@ -29,13 +29,13 @@ pub struct BoxObstacle {
     /// Direction of its own x axis, counterclockwise from x (east), deg.
     #[serde(default)]
     pub heading_deg: f64,
-    /// Lowest and highest altitude, m. Absent: without bottom or top.
+    /// Lowest and highest altitude, m. Absent: unbounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_m: Option<Range>,
 }
 
 impl BoxObstacle {
-    /// The same as a prism, corners counterclockwise from the one at its own (+, +).
+    /// The box as a prism, its corners counterclockwise from the one at (+, +) in its own axes.
     pub fn as_prism(&self) -> Prism {
         let (sin, cos) = self.heading_deg.to_radians().sin_cos();
         let [length, width] = self.size_m.map(|size| size / 2.0);
@@ -46,7 +46,7 @@ impl BoxObstacle {
 }
 
 impl Prism {
-    /// The same with its corners counterclockwise.
+    /// The prism with its corners counterclockwise.
     pub fn counterclockwise(&self) -> Self {
         let mut prism = self.clone();
         if self.doubled_area_m2() < 0.0 {
@@ -55,24 +55,24 @@ impl Prism {
         prism
     }
 
-    /// Do the corners make a convex polygon, each a true corner, whichever way round?
+    /// Whether the corners form a strictly convex polygon, clockwise or counterclockwise.
     pub fn is_convex(&self) -> bool {
         let n = self.corners_m.len();
         if n < 3 {
             return false;
         }
-        let way_round = self.doubled_area_m2().signum();
+        let orientation = self.doubled_area_m2().signum();
         let turns_left = |i: usize| {
             let [a, b, c] = [i, i + 1, i + 2].map(|k| self.corners_m[k % n]);
-            way_round * cross(a, b, c) > 0.0
+            orientation * cross(a, b, c) > 0.0
         };
-        // Left turns alone would let a star pass, which goes round more than once.
+        // A star polygon also has only left turns, but winds around more than once.
         let total: f64 = (0..n).map(|i| self.exterior_angle(i)).sum();
         (0..n).all(turns_left) && (total.abs() - std::f64::consts::TAU).abs() < 1e-6
     }
 
-    /// Signed distance from a point to the polygon's edge in the plane, m: negative inside. The corners are convex and
-    /// counterclockwise.
+    /// Signed distance in the plane from a point to the boundary of the polygon, m; negative inside. The corners must be
+    /// convex and counterclockwise.
     pub fn signed_distance_m(&self, point_m: [f64; 2]) -> f64 {
         let n = self.corners_m.len();
         let mut inside = f64::NEG_INFINITY;
@@ -83,16 +83,16 @@ impl Prism {
             let from_a = [point_m[0] - a[0], point_m[1] - a[1]];
             let length_m = along[0].hypot(along[1]);
             inside = inside.max((from_a[0] * along[1] - from_a[1] * along[0]) / length_m);
-            let share = ((from_a[0] * along[0] + from_a[1] * along[1]) / (length_m * length_m)).clamp(0.0, 1.0);
-            outside = outside.min((from_a[0] - share * along[0]).hypot(from_a[1] - share * along[1]));
+            let fraction = ((from_a[0] * along[0] + from_a[1] * along[1]) / (length_m * length_m)).clamp(0.0, 1.0);
+            outside = outside.min((from_a[0] - fraction * along[0]).hypot(from_a[1] - fraction * along[1]));
         }
         if inside > 0.0 { outside } else { inside }
     }
 
-    /// Signed distance from a point in space to the surface, m: negative inside. The corners are convex and
+    /// Signed distance in space from a point to the surface, m; negative inside. The corners must be convex and
     /// counterclockwise.
     pub fn signed_distance_in_space_m(&self, [x_m, y_m, z_m]: [f64; 3]) -> f64 {
-        upright(self.signed_distance_m([x_m, y_m]), self.z_m, z_m)
+        extruded(self.signed_distance_m([x_m, y_m]), self.z_m, z_m)
     }
 
     fn doubled_area_m2(&self) -> f64 {
@@ -100,7 +100,7 @@ impl Prism {
         (0..n).map(|i| cross([0.0, 0.0], self.corners_m[i], self.corners_m[(i + 1) % n])).sum()
     }
 
-    /// Turn from the edge that begins at corner `i` to the next, rad, counterclockwise.
+    /// Angle from the edge that begins at corner `i` to the next edge, rad, positive counterclockwise.
     fn exterior_angle(&self, i: usize) -> f64 {
         let n = self.corners_m.len();
         let [a, b, c] = [i, i + 1, i + 2].map(|k| self.corners_m[k % n]);
@@ -109,9 +109,9 @@ impl Prism {
     }
 }
 
-/// Signed distance to something upright, m, from the one to its outline in the plane and its height range: outside both
-/// the way goes to the edge between side and top (or bottom); inside to the nearer of the two.
-pub(crate) fn upright(in_plane_m: f64, range: Option<Range>, z_m: f64) -> f64 {
+/// Signed distance to a vertical extrusion, m, from the signed distance to its outline in the plane and its range of
+/// altitudes: outside both, to the edge between side and top or bottom; inside, to the nearer of the two.
+pub(crate) fn extruded(in_plane_m: f64, range: Option<Range>, z_m: f64) -> f64 {
     let Some(range) = range else { return in_plane_m };
     let above_m = -range.margin(z_m);
     if in_plane_m > 0.0 && above_m > 0.0 { in_plane_m.hypot(above_m) } else { in_plane_m.max(above_m) }
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn only_convex_polygons_are_convex() {
+    fn convexity_of_polygons() {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         assert!(prism(&square).is_convex());
         assert!(prism(&[square[3], square[2], square[1], square[0]]).is_convex());
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn distances_to_a_turned_box() {
+    fn distances_to_a_rotated_box() {
         let turned =
             BoxObstacle { name: "b".into(), center_m: [1.0, 2.0], size_m: [4.0, 2.0], heading_deg: 90.0, z_m: None };
         let prism = turned.as_prism();
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn clockwise_corners_are_turned_round() {
+    fn clockwise_corners_are_reversed() {
         let clockwise = prism(&[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]]).counterclockwise();
         assert!(clockwise.signed_distance_m([0.4, 0.6]) < 0.0);
     }

@@ -1,4 +1,4 @@
-//! Start and goal of a multirotor: body and all in the open, on the map, at rest.
+//! Starts and goals of multirotors: on the map and clear of obstacles with the whole body, and at rest.
 
 use super::super::Model;
 use crate::{Issue, Waypoint, World};
@@ -7,14 +7,14 @@ pub(in crate::multirotor) fn issues(model: &Model, world: &World, field: &str, w
     let mut issues = too_near_edges(model, world, field, waypoint);
     issues.extend(too_near_obstacles(model, world, field, waypoint));
     if field.ends_with(".start") {
-        issues.extend(under_moving(model, world, field, waypoint));
+        issues.extend(too_near_moving(model, world, field, waypoint));
     }
     if waypoint.speed_mps != 0.0 && waypoint.speed_mps.is_finite() {
-        let issue = Issue::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0, or nothing");
-        issues.push(issue.remedy("remove it: multirotors begin and end at rest"));
+        let issue = Issue::new(format!("{field}.speed_mps"), waypoint.speed_mps.to_string(), "0");
+        issues.push(issue.remedy("remove it: multirotors start and end at rest"));
     }
     issues.extend(waypoint.load.map(|_| {
-        Issue::new(format!("{field}.load"), "a load", "nothing: this vehicle carries none").remedy("remove it")
+        Issue::new(format!("{field}.load"), "a load", "nothing: this vehicle carries no load").remedy("remove it")
     }));
     issues
 }
@@ -24,33 +24,39 @@ fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint
     let is_near = |margin_m: f64| (0.0..model.body_radius_m).contains(&margin_m);
     axes.filter(|((_, value), range)| is_near(range.margin(*value)))
         .map(|((axis, value), range)| {
-            let expected = format!("{} m, the body's radius, or more from the ends of {range}", model.body_radius_m);
-            Issue::new(format!("{field}.{axis}"), value.to_string(), expected).remedy("move the point, or the frame")
+            let expected = format!("at least {} m, the body radius, from both ends of {range}", model.body_radius_m);
+            Issue::new(format!("{field}.{axis}"), value.to_string(), expected)
+                .remedy("move the point, or enlarge the map")
         })
         .collect()
 }
 
-/// A point inside an obstacle is reported for every family; here it is the body that has no room.
+/// A point inside an obstacle is reported for every family; here the body is too close.
 fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let [x_m, y_m, z_m] = waypoint.position_m();
     let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
     let flat = world.flat_obstacles();
     let prisms = flat.iter().map(|it| (it.name.clone(), it.signed_distance_in_space_m([x_m, y_m, z_m])));
     let is_near = |(_, distance_m): &(String, f64)| (0.0..model.body_radius_m).contains(distance_m);
-    cylinders.chain(prisms).filter(is_near).map(|(name, distance_m)| no_room(model, field, &name, distance_m)).collect()
+    cylinders
+        .chain(prisms)
+        .filter(is_near)
+        .map(|(name, distance_m)| too_near(model, field, &name, distance_m))
+        .collect()
 }
 
-fn under_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
-    let good = world.moving.iter().filter(|moving| moving.has_a_path());
-    good.filter_map(|moving| {
-        let distance_m = moving.signed_distance_m(0.0, waypoint.position_m());
-        (distance_m < model.body_radius_m).then(|| no_room(model, field, &moving.name, distance_m))
-    })
-    .collect()
+fn too_near_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+    let with_path = world.moving.iter().filter(|moving| moving.has_path());
+    with_path
+        .filter_map(|moving| {
+            let distance_m = moving.signed_distance_m(0.0, waypoint.position_m());
+            (distance_m < model.body_radius_m).then(|| too_near(model, field, &moving.name, distance_m))
+        })
+        .collect()
 }
 
-fn no_room(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Issue {
+fn too_near(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Issue {
     let found = format!("a point {distance_m:.3} m from `{obstacle}`");
-    let expected = format!("{} m, the body's radius, or more", model.body_radius_m);
+    let expected = format!("at least {} m, the body radius", model.body_radius_m);
     Issue::new(field, found, expected).remedy("move the point or the obstacle")
 }
