@@ -92,7 +92,7 @@ impl Scenario {
             mismatch: Mismatch::default(),
             ..self.simulation.clone()
         };
-        Self { world: self.world.known_beforehand(), simulation, ..self.clone() }
+        Self { world: self.world.known_before_flight(), simulation, ..self.clone() }
     }
 }
 

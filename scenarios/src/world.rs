@@ -65,12 +65,12 @@ impl World {
     }
 
     /// What is known before the flight: no hidden and no moving obstacles.
-    pub fn known_beforehand(&self) -> Self {
-        self.only(|name| !self.is_hidden(name))
+    pub fn known_before_flight(&self) -> Self {
+        self.with_static_obstacles(|name| !self.is_hidden(name))
     }
 
     /// The same map with the static obstacles whose names are `wanted`, in the same order. None of them is hidden.
-    pub fn only(&self, wanted: impl Fn(&str) -> bool) -> Self {
+    pub fn with_static_obstacles(&self, wanted: impl Fn(&str) -> bool) -> Self {
         Self {
             cylinders: self.cylinders.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
@@ -82,7 +82,7 @@ impl World {
     }
 
     /// The obstacles with flat faces as prisms: first the boxes, then the prisms, all with counterclockwise corners.
-    pub fn flat_obstacles(&self) -> Vec<Prism> {
+    pub fn prism_obstacles(&self) -> Vec<Prism> {
         let prisms = self.prisms.iter().map(Prism::counterclockwise);
         self.boxes.iter().map(BoxObstacle::as_prism).chain(prisms).collect()
     }

@@ -66,7 +66,7 @@ fn the_scenario_is_valid_and_has_its_familys_limits() {
     let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
     assert_eq!(scenario.family(), scenarios::Family::SlungLoad);
     assert_eq!((scenario.limits().tracking_max_m, scenario.limits().switch_s), (0.05, 0.02));
-    assert_eq!(scenario.world.flat_obstacles().len(), 2);
+    assert_eq!(scenario.world.prism_obstacles().len(), 2);
     let text = toml::to_string(&scenario).unwrap();
     assert_eq!(scenarios::parse("slung.toml", &text).unwrap(), scenario);
 }

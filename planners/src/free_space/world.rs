@@ -27,7 +27,7 @@ pub fn static_obstacles(world: &World) -> impl Iterator<Item = (String, Obstacle
         let obstacle = Obstacle::prism(&prism.corners_m, altitude_range_m(prism.z_m));
         (prism.name, obstacle)
     };
-    cylinders.chain(world.flat_obstacles().into_iter().map(prism))
+    cylinders.chain(world.prism_obstacles().into_iter().map(prism))
 }
 
 /// Lowest and highest altitude, m; infinite where absent.

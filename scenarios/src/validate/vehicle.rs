@@ -68,7 +68,7 @@ pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64;
     let cylinders =
         world.cylinders.iter().map(|cylinder| (cylinder.name.clone(), cylinder.signed_distance_m(x_m, y_m)));
     let at_height =
-        world.flat_obstacles().into_iter().filter(|prism| prism.z_m.is_none_or(|range| range.contains(z_m)));
+        world.prism_obstacles().into_iter().filter(|prism| prism.z_m.is_none_or(|range| range.contains(z_m)));
     let prisms = at_height.map(|prism| (prism.name.clone(), prism.signed_distance_m([x_m, y_m])));
     let issue = |(name, distance_m): (String, f64)| {
         let found = format!("({x_m}, {y_m}) m, {:.3} m inside `{name}`", -distance_m);

@@ -36,8 +36,8 @@ impl SensedWorld {
         Self {
             range_m,
             unknown: unknown.map(str::to_owned).collect(),
-            known: world.known_beforehand(),
-            flat: world.flat_obstacles(),
+            known: world.known_before_flight(),
+            flat: world.prism_obstacles(),
             truth: world.clone(),
             news: Vec::new(),
             sensors,
@@ -50,7 +50,7 @@ impl SensedWorld {
             self.unknown.iter().filter(|name| self.distance_m(name, position_m) <= self.range_m).cloned().collect();
         if !found.is_empty() {
             self.unknown.retain(|name| !found.contains(name));
-            self.known = self.truth.only(|name| !self.unknown.iter().any(|unknown| unknown == name));
+            self.known = self.truth.with_static_obstacles(|name| !self.unknown.iter().any(|unknown| unknown == name));
             self.news.extend(found.iter().cloned());
         }
         found

@@ -15,7 +15,7 @@ pub struct Obstacles {
 impl Obstacles {
     /// Of a world.
     pub fn of(world: &World) -> Self {
-        Self { cylinders: world.cylinders.clone(), flat: world.flat_obstacles(), moving: world.moving.clone() }
+        Self { cylinders: world.cylinders.clone(), flat: world.prism_obstacles(), moving: world.moving.clone() }
     }
 
     /// Number of obstacles; they count from 0 in the order cylinders, boxes, prisms, moving ones.

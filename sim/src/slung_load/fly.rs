@@ -98,7 +98,7 @@ impl SlungLoadSim {
             sensors: Sensors::new(&settings.sensors, stream("sensors")),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
-            obstacles: scenario.world.flat_obstacles(),
+            obstacles: scenario.world.prism_obstacles(),
             parts: Parts::of(&model),
             ground_m: scenario.world.ground_m,
             step_s: settings.step_s,

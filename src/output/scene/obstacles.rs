@@ -25,7 +25,7 @@ pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>) {
 
 /// Cylinders are unbounded; they are drawn from the floor to the ceiling of the map.
 fn add_known(scene: &mut Scene<'_>, scenario: &Scenario) {
-    let known = scenario.world.known_beforehand();
+    let known = scenario.world.known_before_flight();
     let z = known.map.z_m;
     let cylinder = |cylinder: &scenarios::Cylinder| Cylinder {
         centre_m: [cylinder.center_m[0], cylinder.center_m[1], middle(z)],
@@ -38,7 +38,7 @@ fn add_known(scene: &mut Scene<'_>, scenario: &Scenario) {
         &["obstacles"],
         Cylinders { cylinders, paint: Paint::translucent(colours::OBSTACLE, 0.8), radius: 0.8 },
     );
-    for prism in known.flat_obstacles() {
+    for prism in known.prism_obstacles() {
         let [edges, faces] = prism_lines(&prism, z, colours::OBSTACLE, true);
         scene.add_item(&["obstacles", &prism.name, "edges"], edges.labelled(prism.name.as_str(), false));
         scene.add_item(&["obstacles", &prism.name, "faces"], faces);
@@ -49,7 +49,7 @@ fn add_known(scene: &mut Scene<'_>, scenario: &Scenario) {
 fn add_hidden(scene: &mut Scene<'_>, scenario: &Scenario, flight: Option<&Flight>) {
     let world = &scenario.world;
     let cylinders = world.cylinders.iter().map(|cylinder| (as_prism(cylinder), false));
-    let flat = world.flat_obstacles().into_iter().map(|prism| (prism, true));
+    let flat = world.prism_obstacles().into_iter().map(|prism| (prism, true));
     for (prism, has_corners) in cylinders.chain(flat).filter(|(prism, _)| world.is_hidden(&prism.name)) {
         let sensed_s = flight.and_then(|flight| sensed_s(flight, &prism.name));
         let looks = [(0.0, colours::UNKNOWN)].into_iter().chain(sensed_s.map(|t_s| (t_s, colours::OBSTACLE)));

@@ -31,7 +31,7 @@ pub(super) fn world(world: &World) -> Value {
     json!({
         "map": world.map,
         "cylinders": world.cylinders,
-        "prisms": world.flat_obstacles(),
+        "prisms": world.prism_obstacles(),
         "ground_m": world.ground_m,
     })
 }

@@ -30,7 +30,7 @@ impl<'a> ShapePairs<'a> {
         Self {
             vehicle: &vehicle.name,
             parts: Parts::of(scenario.slung_load_model(vehicle)),
-            obstacles: scenario.world.flat_obstacles(),
+            obstacles: scenario.world.prism_obstacles(),
             ground_m: scenario.world.ground_m,
         }
     }

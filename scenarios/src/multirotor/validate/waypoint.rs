@@ -35,7 +35,7 @@ fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint
 fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let [x_m, y_m, z_m] = waypoint.position_m();
     let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
-    let flat = world.flat_obstacles();
+    let flat = world.prism_obstacles();
     let prisms = flat.iter().map(|it| (it.name.clone(), it.signed_distance_in_space_m([x_m, y_m, z_m])));
     let is_near = |(_, distance_m): &(String, f64)| (0.0..model.body_radius_m).contains(distance_m);
     cylinders
