@@ -5,11 +5,12 @@
 //! goal, contributes one bit, the parity of its crossings.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
 use super::polygon::Polygon;
+use crate::open_list::OpenList;
 
 /// Offset of the visibility graph's vertices beyond the required distance from the obstacles, as a fraction of it.
 const VERTEX_MARGIN: f64 = 0.25;
@@ -157,14 +158,15 @@ impl<'a> Graph<'a> {
         (0..count).map(|i| (0..count).filter_map(|j| edge(i, j)).collect()).collect()
     }
 
-    /// Dijkstra's algorithm over (vertex, signature).
+    /// Dijkstra's algorithm over (vertex, signature); of equal lengths the larger key comes first.
     fn search(&self, max_routes: usize) -> Vec<Route> {
         let edges = self.edges();
         let start: Key = (START, 0);
-        let mut queue = BinaryHeap::from([(Reverse(Length(0.0)), start, start)]);
+        let mut queue = OpenList::new();
+        queue.push(0.0, Reverse((start, start)));
         let mut predecessors: BTreeMap<Key, Key> = BTreeMap::new();
         let mut found = Vec::new();
-        while let Some((Reverse(Length(length_m)), key, predecessor)) = queue.pop() {
+        while let Some((length_m, Reverse((key, predecessor)))) = queue.pop() {
             if predecessors.contains_key(&key) {
                 continue;
             }
@@ -178,7 +180,8 @@ impl<'a> Graph<'a> {
                 continue;
             }
             for edge in &edges[vertex] {
-                queue.push((Reverse(Length(length_m + edge.length_m)), (edge.to, signature ^ edge.signature), key));
+                let next: Key = (edge.to, signature ^ edge.signature);
+                queue.push(length_m + edge.length_m, Reverse((next, key)));
             }
         }
         found
@@ -194,21 +197,6 @@ impl<'a> Graph<'a> {
         points_m.reverse();
         let obstacles = self.rays.iter().map(|ray| ray.obstacle).collect();
         Route { points_m, obstacles, on_right: (0..self.rays.len()).map(|bit| signature >> bit & 1 == 1).collect() }
-    }
-}
-
-/// A length, m, with a total order.
-#[derive(Clone, Copy, PartialEq)]
-struct Length(f64);
-impl Eq for Length {}
-impl PartialOrd for Length {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Length {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
     }
 }
 
