@@ -1,6 +1,6 @@
 //! Rollout of four particles at once over the horizon, with their violations.
 
-use super::particle_batch::ParticleBatch;
+use super::particle_batch::{ParticleBatch, PerParticle};
 use super::problem::{EvaluationContext, HorizonProblem, Repulsion, VIOLATION_WEIGHTS};
 use crate::free_space::Point;
 use crate::free_space::simd_distance::distance_lower_bound_m;
@@ -25,7 +25,7 @@ pub fn roll_out<S: Vector>(
     batch: &mut ParticleBatch,
 ) {
     let splat = |value: f64| Lanes::splat(simd, value);
-    let (zero, step_s) = (splat(0.0), splat(problem.step_s));
+    let zero = splat(0.0);
     let half_step_s = splat(0.5 * problem.step_s);
     let initial = [problem.start.position, problem.start.velocity, problem.applied_acceleration];
     let [mut position, mut velocity, mut previous] = initial.map(|vector| <[f64; 3]>::from(vector).map(splat));
@@ -33,27 +33,8 @@ pub fn roll_out<S: Vector>(
     store(&mut batch.path[0], &position);
     let (steps, axes) = (problem.grid.steps, problem.grid.axes);
     for step in 0..steps {
-        let mut acceleration = [zero; 3];
-        for axis in 0..axes {
-            acceleration[axis] = Lanes::new(simd, batch.controls[step * axes + axis]);
-        }
-        let mut next_velocity = velocity;
-        if problem.options.projects_controls {
-            clamp_norm(&mut acceleration, problem.limits.acceleration_mps2);
-            advance(&mut next_velocity, &acceleration, step_s);
-            // v is in the ball, and projection onto a ball brings points nearer to those in it: |a| does not grow
-            clamp_norm(&mut next_velocity, problem.limits.speed_mps);
-            let rate = splat(1.0 / problem.step_s);
-            for axis in 0..axes {
-                acceleration[axis] = (next_velocity[axis] - velocity[axis]) * rate;
-                batch.controls[step * axes + axis] = acceleration[axis].to_array();
-            }
-        } else {
-            advance(&mut next_velocity, &acceleration, step_s);
-            let [_, speed_weight, acceleration_weight] = VIOLATION_WEIGHTS.map(splat);
-            violation += speed_weight * norm_excess(&next_velocity, problem.limits.speed_mps);
-            violation += acceleration_weight * norm_excess(&acceleration, problem.limits.acceleration_mps2);
-        }
+        let controls = &mut batch.controls[step * axes..(step + 1) * axes];
+        let (acceleration, next_velocity) = accelerate(simd, problem, controls, &velocity, &mut violation);
         let mut next = position;
         for axis in 0..3 {
             next[axis] = (velocity[axis] + next_velocity[axis]).mul_add(half_step_s, position[axis]);
@@ -82,6 +63,42 @@ pub fn roll_out<S: Vector>(
     batch.violation = violation.to_array();
     batch.roughness = roughness.to_array();
     batch.repulsion = repulsion.to_array();
+}
+
+/// Acceleration and next velocity of one step. Projects `controls` if the options say so, else adds the violations of the
+/// norm bounds to `violation`.
+#[inline(always)]
+fn accelerate<S: Vector>(
+    simd: S,
+    problem: &HorizonProblem<'_>,
+    controls: &mut [PerParticle],
+    velocity: &Point4<S>,
+    violation: &mut Lanes<S>,
+) -> (Point4<S>, Point4<S>) {
+    let zero = violation.like(0.0);
+    let step_s = zero.like(problem.step_s);
+    let mut acceleration = [zero; 3];
+    for axis in 0..controls.len() {
+        acceleration[axis] = Lanes::new(simd, controls[axis]);
+    }
+    let mut next_velocity = *velocity;
+    if problem.options.projects_controls {
+        clamp_norm(&mut acceleration, problem.limits.acceleration_mps2);
+        advance(&mut next_velocity, &acceleration, step_s);
+        // v is in the ball, and projection onto a ball brings points nearer to those in it: |a| does not grow
+        clamp_norm(&mut next_velocity, problem.limits.speed_mps);
+        let rate = zero.like(1.0 / problem.step_s);
+        for axis in 0..controls.len() {
+            acceleration[axis] = (next_velocity[axis] - velocity[axis]) * rate;
+            controls[axis] = acceleration[axis].to_array();
+        }
+    } else {
+        advance(&mut next_velocity, &acceleration, step_s);
+        let [_, speed_weight, acceleration_weight] = VIOLATION_WEIGHTS.map(|weight| zero.like(weight));
+        *violation += speed_weight * norm_excess(&next_velocity, problem.limits.speed_mps);
+        *violation += acceleration_weight * norm_excess(&acceleration, problem.limits.acceleration_mps2);
+    }
+    (acceleration, next_velocity)
 }
 
 /// Violation along the stopping path from the end of a step, and the position where it ends.
@@ -217,7 +234,7 @@ fn relative<S: Vector>(point: &Point4<S>, displacement: Point) -> Point4<S> {
 }
 
 #[inline(always)]
-fn store<S: Vector>(components: &mut [[f64; 4]; 3], point: &Point4<S>) {
+fn store<S: Vector>(components: &mut [PerParticle; 3], point: &Point4<S>) {
     for axis in 0..3 {
         components[axis] = point[axis].to_array();
     }

@@ -14,43 +14,47 @@ use crate::multirotor::reference::{motion_from_nodes, nodes_from_motion};
 use crate::multirotor::{self, PointMassMotion, PointMassState};
 use crate::planner::{Planner, PlanningMode};
 
-const HANDLES: &str = "multirotors among obstacles known, sensed or moving";
-
 /// Receding horizon with the additions to the paper.
-pub const RHC: Planner = Planner {
-    name: "rhc",
-    summary: "receding horizon that always ends in a stop in free space: warm start, projection, swarm or other samplers",
-    handles: HANDLES,
-    refuses: multirotor::refuses,
-    mode: PlanningMode::InLoop(|scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Default)),
-};
+pub const RHC: Planner = planner(
+    "rhc",
+    "receding horizon that always ends in a stop in free space: warm start, projection, swarm or other samplers",
+    |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Default),
+);
 
 /// RHC-PSO.
-pub const RHC_PSO: Planner = Planner {
-    name: "rhc-pso",
-    summary: "receding horizon by particle swarm with cost map, as in the paper",
-    handles: HANDLES,
-    refuses: multirotor::refuses,
-    mode: PlanningMode::InLoop(|scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Pso)),
-};
+pub const RHC_PSO: Planner = planner(
+    "rhc-pso",
+    "receding horizon by particle swarm with cost map, as in the paper",
+    |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Pso),
+);
 
 /// RHC-FPSO.
-pub const RHC_FPSO: Planner = Planner {
-    name: "rhc-fpso",
-    summary: "the same with the feasibility-driven swarm of the paper (eq. 15)",
-    handles: HANDLES,
-    refuses: multirotor::refuses,
-    mode: PlanningMode::InLoop(|scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Fpso)),
-};
+pub const RHC_FPSO: Planner = planner(
+    "rhc-fpso",
+    "the same with the feasibility-driven swarm of the paper (eq. 15)",
+    |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Fpso),
+);
 
 /// RHC-APF.
-pub const RHC_APF: Planner = Planner {
-    name: "rhc-apf",
-    summary: "the same with an artificial potential field beside the cost map (eq. 16) or instead of it (eq. 17)",
-    handles: HANDLES,
-    refuses: multirotor::refuses,
-    mode: PlanningMode::InLoop(|scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Apf)),
-};
+pub const RHC_APF: Planner = planner(
+    "rhc-apf",
+    "the same with an artificial potential field beside the cost map (eq. 16) or instead of it (eq. 17)",
+    |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Apf),
+);
+
+const fn planner(
+    name: &'static str,
+    summary: &'static str,
+    create: fn(&Scenario, usize, u64) -> Box<dyn InLoopPlanner>,
+) -> Planner {
+    Planner {
+        name,
+        summary,
+        handles: "multirotors among obstacles known, sensed or moving",
+        refuses: multirotor::refuses,
+        mode: PlanningMode::InLoop(create),
+    }
+}
 
 fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> Box<dyn InLoopPlanner> {
     let own = &scenario.vehicles[vehicle];

@@ -11,40 +11,37 @@ use super::{PathProblem, timing};
 use crate::free_space::{FreeSpace, Point, path_length_m};
 use crate::multirotor::reference::nodes_from_motion;
 use crate::multirotor::{self, PlanningLimits};
-use crate::planner::{Planner, PlanningMode};
-
-const HANDLES: &str = "one multirotor among known obstacles that stand still";
+use crate::planner::{Planner, PlanningMode, Progress};
 
 /// Sparse A*.
-pub const SPARSE_ASTAR: Planner = Planner {
-    name: "sparse-astar",
-    summary: "A* on a grid with limits on turns and lengths (Szczerba et al. 2000), timed within the vehicle's limits",
-    handles: HANDLES,
-    refuses,
-    mode: PlanningMode::BeforeFlight(|scenario, seed, _| plan(scenario, seed, "sparse-astar", sparse_astar_path)),
-};
+pub const SPARSE_ASTAR: Planner = planner(
+    "sparse-astar",
+    "A* on a grid with limits on turns and lengths (Szczerba et al. 2000), timed within the vehicle's limits",
+    |scenario, seed, _| plan(scenario, seed, "sparse-astar", sparse_astar_path),
+);
 
 /// RRT.
-pub const RRT: Planner = Planner {
-    name: "rrt",
-    summary: "rapidly exploring random tree (LaValle 1998), timed within the vehicle's limits",
-    handles: HANDLES,
-    refuses,
-    mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
-        plan(scenario, seed, "rrt", |problem| rrt_path(problem, seed, 20_000, None))
-    }),
-};
+pub const RRT: Planner = planner(
+    "rrt",
+    "rapidly exploring random tree (LaValle 1998), timed within the vehicle's limits",
+    |scenario, seed, _| plan(scenario, seed, "rrt", |problem| rrt_path(problem, seed, 20_000, None)),
+);
 
 /// RRT*.
-pub const RRT_STAR: Planner = Planner {
-    name: "rrt-star",
-    summary: "the same with rewiring (Karaman, Frazzoli 2011)",
-    handles: HANDLES,
-    refuses,
-    mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
+pub const RRT_STAR: Planner =
+    planner("rrt-star", "the same with rewiring (Karaman, Frazzoli 2011)", |scenario, seed, _| {
         plan(scenario, seed, "rrt-star", |problem| rrt_path(problem, seed, 4_000, Some(4.0)))
-    }),
-};
+    });
+
+const fn planner(name: &'static str, summary: &'static str, plan: fn(&Scenario, u64, Progress<'_>) -> Plan) -> Planner {
+    Planner {
+        name,
+        summary,
+        handles: "one multirotor among known obstacles that stand still",
+        refuses,
+        mode: PlanningMode::BeforeFlight(plan),
+    }
+}
 
 /// Fraction of the margin by which the timed motion may cut the path's corners. The path itself keeps the whole margin.
 const CORNER_MARGIN_FRACTION: f64 = 0.5;
