@@ -18,6 +18,7 @@ pub struct MarginBudget {
     /// Unit of the margins.
     pub unit: String,
     /// From the nodes to the flight.
+    #[serde(rename = "rungs")]
     pub steps: Vec<MarginStep>,
 }
 

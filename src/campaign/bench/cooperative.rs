@@ -51,6 +51,7 @@ pub struct Row {
     /// Solver of the subproblems.
     pub solver: &'static str,
     /// How it ended.
+    #[serde(rename = "ending")]
     pub outcome: Outcome,
     /// Iterations of the planner.
     pub iterations: Option<usize>,

@@ -52,6 +52,7 @@ pub struct Row {
     /// The planner.
     pub planner: &'static str,
     /// How it ended.
+    #[serde(rename = "ending")]
     pub outcome: Outcome,
     /// What was measured; nothing if the time limit came first.
     #[serde(flatten)]

@@ -88,20 +88,20 @@ pub struct InLoop {
 /// All cases fly once, then all once more, and so on: a machine that becomes slower does so for all of them.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
     let cases = cases::all(plan);
-    let mut flown: Vec<Vec<FlownMotions>> = cases.iter().map(|_| Vec::new()).collect();
+    let mut flown: Vec<Vec<CaseFlight>> = cases.iter().map(|_| Vec::new()).collect();
     for seed in 0..plan.seeds {
         for (case, flown) in cases.iter().zip(&mut flown) {
             progress(&format!("{}: {} on {}, seed {seed}", case.experiment.name(), case.name, case.scenario.name));
-            flown.push(FlownMotions::by(case, seed));
+            flown.push(CaseFlight::by(case, seed));
         }
     }
     let rows = cases.iter().zip(&flown).map(|(case, flown)| row(case, flown)).collect();
     Results { schema: 1, seeds: plan.seeds, threads: rayon::current_num_threads(), rows }
 }
 
-fn row(case: &Case, flown: &[FlownMotions]) -> Row {
+fn row(case: &Case, flown: &[CaseFlight]) -> Row {
     let passed = || flown.iter().filter(|flown| flown.has_passed);
-    let count = |is_such: fn(&FlownMotions) -> bool| flown.iter().filter(|flown| is_such(flown)).count() as u64;
+    let count = |is_such: fn(&CaseFlight) -> bool| flown.iter().filter(|flown| is_such(flown)).count() as u64;
     Row {
         experiment: case.experiment,
         scenario: case.scenario.name.clone(),
@@ -117,7 +117,7 @@ fn row(case: &Case, flown: &[FlownMotions]) -> Row {
 }
 
 /// One flight.
-struct FlownMotions {
+struct CaseFlight {
     has_passed: bool,
     is_within_limits: bool,
     flight_time_s: Option<f64>,
@@ -127,7 +127,7 @@ struct FlownMotions {
     replans: Vec<Replan>,
 }
 
-impl FlownMotions {
+impl CaseFlight {
     fn by(case: &Case, seed: u64) -> Self {
         let (scenario, planner) = (&case.scenario, case.planner);
         let planner_view = scenario.planner_view();
@@ -174,7 +174,7 @@ fn mean_clearance_m(scenario: &Scenario, flight: &Flight) -> Option<f64> {
     mean(distances)
 }
 
-fn in_loop_figures(flown: &[FlownMotions]) -> Option<InLoop> {
+fn in_loop_figures(flown: &[CaseFlight]) -> Option<InLoop> {
     let replans = || flown.iter().flat_map(|flown| &flown.replans);
     let of_flights = || flown.iter().filter_map(|flown| mean(flown.replans.iter().map(|replan| replan.wall_s)));
     let is_empty = |replan: &Replan| f64::from(u8::from(replan.diagnostics.cost.is_none()));

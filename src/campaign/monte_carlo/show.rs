@@ -11,7 +11,7 @@ pub fn text(sweep: &Sweep, statistics: &Statistics) -> String {
         &[1, 2, 3, 4, 6],
     );
     // Nothing was ever counted that should not be: no line for each.
-    let is_idle = |check: &&CheckStatistics| check.failed_checks == 0 && check.margins == Some([0.0; 3]);
+    let is_idle = |check: &&CheckStatistics| check.failures == 0 && check.margins == Some([0.0; 3]);
     for check in statistics.checks.iter().filter(|check| !is_idle(check)) {
         table.add_row(row(check));
     }
@@ -34,15 +34,7 @@ fn row(check: &CheckStatistics) -> [String; 7] {
         None => [const { String::new() }; 3],
     };
     let worst = check.worst.map(|sample| sample.to_string()).unwrap_or_default();
-    [
-        check.name.clone(),
-        number(check.failed_checks as f64, "vehicles"),
-        smallest,
-        low,
-        median,
-        check.unit.clone(),
-        worst,
-    ]
+    [check.name.clone(), number(check.failures as f64, "vehicles"), smallest, low, median, check.unit.clone(), worst]
 }
 
 fn drawn(dispersions: &Dispersions) -> String {

@@ -26,7 +26,8 @@ pub struct CheckStatistics {
     /// Unit of the margins.
     pub unit: String,
     /// How often it decided against a flight.
-    pub failed_checks: usize,
+    #[serde(rename = "red")]
+    pub failures: usize,
     /// Smallest margin, 5 % quantile, and median of the samples that have one; absent if none has.
     pub margins: Option<[f64; 3]>,
     /// Number of the sample with the smallest margin.
@@ -49,7 +50,7 @@ impl Statistics {
             CheckStatistics {
                 name: name.clone(),
                 unit: unit.clone(),
-                failed_checks: samples.iter().filter(|sample| sample.failed_checks.contains(name)).count(),
+                failures: samples.iter().filter(|sample| sample.failed_checks.contains(name)).count(),
                 margins: (!margins.is_empty()).then(|| [0.0, 0.05, 0.5].map(quantile)),
                 worst: margins.first().map(|(_, number)| *number),
             }
@@ -58,7 +59,7 @@ impl Statistics {
             samples: samples.len(),
             passed,
             pass_share_95: wilson(passed, samples.len()),
-            checks: checks.filter(|check| check.failed_checks > 0 || check.margins.is_some()).collect(),
+            checks: checks.filter(|check| check.failures > 0 || check.margins.is_some()).collect(),
         }
     }
 }

@@ -28,7 +28,7 @@ const COLUMNS: [&str; 10] = [
     "int64 sample",
     "int64 seed",
     "binary verdict (utf8)",
-    "binary failed_checks (utf8)",
+    "binary red (utf8)",
     "double wind_east_mps",
     "double wind_north_mps",
     "double mass_ratio",
