@@ -109,7 +109,7 @@ fn pair(
         return vec![named_by_scenario(file, source, scenario).map(job)];
     }
     let fitting = |plan_source: &PlanSource| match plan_source {
-        PlanSource::Registered(planner) => match (planner.refuses)(scenario) {
+        PlanSource::Registered(planner) => match (planner.unsupported_reason)(scenario) {
             Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
             None => Ok(job(plan_source.clone())),
         },
@@ -150,7 +150,7 @@ fn refuse_unfit(
     scenario: &Scenario,
     problem: impl Fn(String, String) -> scenarios::LoadError,
 ) -> Result<(), Error> {
-    match (planner.refuses)(scenario) {
+    match (planner.unsupported_reason)(scenario) {
         None => Ok(()),
         Some(reason) => {
             let expected = format!("a planner that can handle this scenario: {reason}");

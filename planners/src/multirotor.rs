@@ -38,7 +38,7 @@ impl PlanningLimits {
 }
 
 /// Why a planner for multirotors cannot handle a scenario; `None` if it can.
-pub fn refuses(scenario: &Scenario) -> Option<String> {
+pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     (scenario.family() != Family::Multirotor)
         .then(|| format!("vehicle `{}` is not a multirotor", scenario.vehicles[0].name))
 }

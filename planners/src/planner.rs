@@ -14,7 +14,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(&Iteration);
 /// let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/multirotor");
 /// let scenario = scenarios::load(format!("{folder}/paper-map.toml").as_ref()).unwrap();
 /// let rrt = planners::find("rrt").unwrap();
-/// assert_eq!((rrt.refuses)(&scenario), None);
+/// assert_eq!((rrt.unsupported_reason)(&scenario), None);
 /// let plan = rrt.plan(&scenario.planner_view(), 1, &mut |_| {});
 /// assert_eq!(plan.status, scenarios::PlanStatus::Solved);
 /// ```
@@ -29,7 +29,7 @@ pub type Progress<'a> = &'a mut dyn FnMut(&Iteration);
 ///     name: "gives-up",
 ///     summary: "finds no plan",
 ///     handles: "everything",
-///     refuses: |_: &Scenario| None,
+///     unsupported_reason: |_: &Scenario| None,
 ///     mode: PlanningMode::BeforeFlight(|scenario, seed, _| {
 ///         Plan::no_plan(&scenario.name, "gives-up", seed, "it did not try")
 ///     }),
@@ -45,7 +45,7 @@ pub struct Planner {
     /// The problems that it claims to handle, in a few words.
     pub handles: &'static str,
     /// Why it cannot handle a scenario; `None` if it can.
-    pub refuses: fn(&Scenario) -> Option<String>,
+    pub unsupported_reason: fn(&Scenario) -> Option<String>,
     /// When it plans, and the function that does.
     pub mode: PlanningMode,
 }
@@ -68,8 +68,8 @@ impl Planner {
     /// Plans before the flight. The same seed gives the same plan, wall times aside, on any number of threads. That no plan
     /// was found is not an error, but a status of the plan.
     ///
-    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; not one that the planner
-    ///   [refuses](Self::refuses)
+    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; it must be supported
+    ///   ([`unsupported_reason`](Self::unsupported_reason) is `None`)
     /// - `seed`: seed of all random numbers
     /// - `progress`: receives each iteration
     ///
@@ -86,8 +86,8 @@ impl Planner {
     /// Creates the in-loop planner of one vehicle. The same seed and the same observations give the same results on any
     /// number of threads.
     ///
-    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; not one that the planner
-    ///   [refuses](Self::refuses)
+    /// - `scenario`: what is known before the flight, see [`Scenario::planner_view`]; it must be supported
+    ///   ([`unsupported_reason`](Self::unsupported_reason) is `None`)
     /// - `vehicle`: index of the vehicle
     /// - `seed`: seed of all random numbers
     ///

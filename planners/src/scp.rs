@@ -33,7 +33,7 @@ pub(crate) const PLANNERS: &[Planner] =
     &[fleet::PLANNER, coupled::PLANNER, serial::PLANNER, parallel::PLANNER, dynamic_priority::PLANNER];
 
 /// Why these planners cannot handle a scenario, if they cannot.
-pub fn refuses(scenario: &Scenario) -> Option<String> {
+pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let other = scenario.vehicles.iter().find(|vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model))?;
     Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name))
 }

@@ -97,7 +97,7 @@ fn planned(name: &str) -> (Scenario, Trajectory) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/slung/{name}.toml"));
     let scenario = scenarios::load(&path).expect("a shipped scenario");
     let planner = planners::find("slung-lgr").expect("registered");
-    assert_eq!((planner.refuses)(&scenario), None);
+    assert_eq!((planner.unsupported_reason)(&scenario), None);
     let plan = planner.plan(&scenario, 1, &mut |_| {});
     assert_eq!(plan.status, scenarios::PlanStatus::Solved, "{:?}", plan.reason);
     let trajectory = plan.trajectories[0].slung_load().clone();
@@ -199,7 +199,7 @@ fn complementarity_is_refused_with_gates_and_on_the_ground() {
         let mut settings = scenario.planner.collocation.take().unwrap_or_default();
         (settings.formulation, settings.cable) = (Some(scenarios::Formulation::Complementarity), None);
         scenario.planner.collocation = Some(settings);
-        (planner.refuses)(&scenario)
+        (planner.unsupported_reason)(&scenario)
     };
     assert!(refusal("gate").is_some_and(|reason| reason.contains("gate")));
     assert!(refusal("lift-off").is_some_and(|reason| reason.contains("ground")));

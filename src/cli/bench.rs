@@ -173,7 +173,7 @@ impl Bench {
 
 fn load(file: &Path, planner: &Planner) -> Result<Scenario, Error> {
     let scenario = scenarios::load(file)?;
-    match (planner.refuses)(&scenario) {
+    match (planner.unsupported_reason)(&scenario) {
         None => Ok(scenario),
         Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
     }

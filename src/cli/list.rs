@@ -74,7 +74,7 @@ fn planner_table() -> Table {
 /// Everything that the tables show, the files, and which planners handle which scenario.
 fn as_json(scenarios: &[(String, Scenario)]) -> Value {
     let handled_by = |scenario: &Scenario| -> Vec<&str> {
-        let fitting = planners::registry().iter().filter(|planner| (planner.refuses)(scenario).is_none());
+        let fitting = planners::registry().iter().filter(|planner| (planner.unsupported_reason)(scenario).is_none());
         fitting.map(|planner| planner.name).collect()
     };
     let scenario = |(file, scenario): &(String, Scenario)| {

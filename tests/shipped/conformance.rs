@@ -26,7 +26,7 @@ fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
     let scenarios: Vec<Scenario> = [super::named("rendezvous-7")].into_iter().chain(others).collect();
     // Who plans in the loop is tried in `multirotor`.
     for entry in planners::registry().iter().filter(|entry| !entry.plans_in_the_loop()) {
-        let claimed = scenarios.iter().find(|scenario| (entry.refuses)(scenario).is_none());
+        let claimed = scenarios.iter().find(|scenario| (entry.unsupported_reason)(scenario).is_none());
         let mut scenario = claimed.unwrap_or_else(|| panic!("{} handles none of them", entry.name)).clone();
         scenario.vehicles.truncate(largest_fleet(entry.name));
         let plan_on = |threads: usize| {
@@ -45,7 +45,7 @@ fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
 /// are planned by the planner that they name, and judged, in `verdicts`.
 fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
     for (_, scenario) in super::shipped().into_iter().chain(super::shipped_in("scenarios/slung")) {
-        let willing = planners::registry().iter().filter(|entry| (entry.refuses)(&scenario).is_none());
+        let willing = planners::registry().iter().filter(|entry| (entry.unsupported_reason)(&scenario).is_none());
         for entry in willing.filter(|entry| scenario.vehicles.len() <= largest_fleet(entry.name)) {
             check(&scenario, &entry.plan(&scenario, 0, &mut |_| {}));
         }

@@ -49,7 +49,7 @@ fn the_same_seed_gives_the_same_flight_on_any_number_of_threads() {
     let shipped = super::shipped_in("scenarios/multirotor");
     let (_, scenario) = shipped.into_iter().find(|(_, it)| it.name == "forest-noise").expect("a shipped scenario");
     let in_loop = planners::registry().iter().filter(|entry| entry.plans_in_the_loop());
-    for entry in in_loop.filter(|entry| (entry.refuses)(&scenario).is_none()) {
+    for entry in in_loop.filter(|entry| (entry.unsupported_reason)(&scenario).is_none()) {
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
             pool.install(|| flown(&scenario, entry.name)).vehicles

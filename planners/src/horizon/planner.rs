@@ -51,7 +51,7 @@ const fn planner(
         name,
         summary,
         handles: "multirotors among obstacles known, sensed or moving",
-        refuses: multirotor::refuses,
+        unsupported_reason: multirotor::unsupported_reason,
         mode: PlanningMode::InLoop(create),
     }
 }

@@ -20,7 +20,7 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Sequential convex programming, one programme over all vehicles (cSCP of Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders, up to some fifteen vehicles",
-    refuses: super::refuses,
+    unsupported_reason: super::unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
 

@@ -20,7 +20,7 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Decoupled sequential convex programming with dynamic priorities (Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders",
-    refuses: super::refuses,
+    unsupported_reason: super::unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
 

@@ -42,7 +42,7 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Sequential convex programming that holds between the nodes: shooting, rows at closest approach",
     handles: "fixed-wing fleets among cylinders",
-    refuses,
+    unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
 
@@ -85,9 +85,9 @@ fn complaint(sequence: &Sequence, iterations: usize) -> String {
     format!("after {iterations} iterations {what}")
 }
 
-fn refuses(scenario: &Scenario) -> Option<String> {
+fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     if scenario.planner.transcription == Some(Transcription::Trapezoid) && scenario.planner.name == NAME {
         return Some("its dynamics are `shooting`, not `trapezoid`".to_string());
     }
-    super::refuses(scenario)
+    super::unsupported_reason(scenario)
 }

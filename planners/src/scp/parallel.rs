@@ -19,7 +19,7 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Decoupled sequential convex programming, everybody avoids everybody (Wang, Xu, Long 2020)",
     handles: "fixed-wing fleets among cylinders",
-    refuses: super::refuses,
+    unsupported_reason: super::unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
 

@@ -38,7 +38,7 @@ const fn planner(name: &'static str, summary: &'static str, plan: fn(&Scenario, 
         name,
         summary,
         handles: "one multirotor among known obstacles that stand still",
-        refuses,
+        unsupported_reason,
         mode: PlanningMode::BeforeFlight(plan),
     }
 }
@@ -46,8 +46,8 @@ const fn planner(name: &'static str, summary: &'static str, plan: fn(&Scenario, 
 /// Fraction of the margin by which the timed motion may cut the path's corners. The path itself keeps the whole margin.
 const CORNER_MARGIN_FRACTION: f64 = 0.5;
 
-fn refuses(scenario: &Scenario) -> Option<String> {
-    multirotor::refuses(scenario)
+fn unsupported_reason(scenario: &Scenario) -> Option<String> {
+    multirotor::unsupported_reason(scenario)
         .or_else(|| (scenario.vehicles.len() > 1).then(|| "it plans for one vehicle".to_owned()))
 }
 

@@ -18,7 +18,7 @@ pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Legendre-Gauss-Radau collocation with the switchable envelope circle (Kang, Huang, Wen 2020)",
     handles: "a quadrotor with a slung load among convex prisms",
-    refuses: problem_builder::refuses,
+    unsupported_reason: problem_builder::unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
 

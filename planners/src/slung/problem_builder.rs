@@ -35,7 +35,7 @@ const MIN_FALL_S: f64 = 0.1;
 const MAX_TIME_RATIO: f64 = 4.0;
 
 /// Why this planner cannot handle a scenario; none if it can.
-pub fn refuses(scenario: &Scenario) -> Option<String> {
+pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let [vehicle] = scenario.vehicles.as_slice() else {
         return Some("it plans for one vehicle".into());
     };

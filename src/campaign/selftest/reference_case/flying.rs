@@ -112,7 +112,7 @@ fn ahead(scenario: &Scenario, plan_source: &PlanSource) -> Plan {
     let seed = scenario.simulation.seed;
     let plan = |scenario: &Scenario| plan_source.plan(scenario, seed, &mut |_| {}).answer.plan;
     let PlanSource::Registered(planner) = plan_source else { return plan(scenario) };
-    if (planner.refuses)(scenario).is_none() {
+    if (planner.unsupported_reason)(scenario).is_none() {
         return plan(scenario);
     }
     let alone = |vehicle: &scenarios::Vehicle| {
