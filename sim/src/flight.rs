@@ -192,12 +192,12 @@ pub enum EventKind {
         obstacle: String,
     },
     /// A planner's answer came too late, and was joined in its middle.
-    AnswerLate {
+    ReplanLate {
         /// By how much, s.
         by_s: f64,
     },
     /// A planner's answer could not be flown.
-    AnswerRejected {
+    ReplanRejected {
         /// Why.
         reason: String,
     },

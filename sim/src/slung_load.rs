@@ -15,12 +15,12 @@ mod shapes;
 mod state;
 mod tracker;
 
-pub use cable_detector::SHORTEST_PHASE_S;
+pub use cable_detector::MIN_PHASE_S;
 pub use dynamics::{Plant, impact};
 pub use propagate::{Knot, propagate};
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{AppliedControls, Replay};
-pub use shapes::{GROUND, OVERHANG_M, Part, Parts, Plane};
+pub use shapes::{GROUND, OVERHANG_M, Part, Parts, SeparatingPlane};
 pub use state::SlungLoadState;
 
 pub(crate) use fly::fly;

@@ -69,7 +69,7 @@ fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Slun
 }
 
 fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoadMetrics) {
-    let parts = Parts::of(scenario.slung_load_model(&scenario.vehicles[0]));
+    let parts = Parts::new(scenario.slung_load_model(&scenario.vehicles[0]));
     let reach_m = |body: &SlungLoadState| body.cable_m().xy().norm() - parts.body_radius_m();
     for pair in planned.knots.windows(2) {
         let (before, after) = (reach_m(&pair[0].body), reach_m(&pair[1].body));

@@ -36,7 +36,7 @@ pub fn deepest(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
 /// The first sample of a multirotor inside an obstacle, one that moves included. What lies between two samples is a matter
 /// for the clearance.
 fn sampled(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
-    let surroundings = Obstacles::of(&scenario.world);
+    let surroundings = Obstacles::new(&scenario.world);
     scenario.vehicles.iter().zip(motions).find_map(|(vehicle, motion)| {
         let radius_m = scenario.multirotor_model(vehicle).body_radius_m;
         motion.knots().iter().find_map(|knot| {

@@ -82,13 +82,13 @@ pub fn check_crash(
 fn amount(kind: &EventKind) -> Option<f64> {
     match kind {
         EventKind::CableTaut { impulse_ns } => Some(*impulse_ns),
-        EventKind::AnswerLate { by_s } => Some(*by_s),
+        EventKind::ReplanLate { by_s } => Some(*by_s),
         EventKind::Crash { .. }
         | EventKind::SaturationBegan
         | EventKind::SaturationEnded
         | EventKind::CableSlack
         | EventKind::Discovered { .. }
-        | EventKind::AnswerRejected { .. }
+        | EventKind::ReplanRejected { .. }
         | EventKind::Arrived => None,
     }
 }
@@ -102,8 +102,8 @@ fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
         | EventKind::CableTaut { .. }
         | EventKind::CableSlack
         | EventKind::Discovered { .. }
-        | EventKind::AnswerLate { .. }
-        | EventKind::AnswerRejected { .. }
+        | EventKind::ReplanLate { .. }
+        | EventKind::ReplanRejected { .. }
         | EventKind::Arrived => None,
     }
 }

@@ -29,7 +29,7 @@ impl AirPath {
     ///
     /// Where the physics leaves a direction open (no airspeed, vertical flight) it is x for `forward` and y for `left`:
     /// a vehicle that got there has broken its limits long before, and its log stays finite.
-    pub fn of(air_velocity_mps: &Vector3<f64>) -> Self {
+    pub fn new(air_velocity_mps: &Vector3<f64>) -> Self {
         let speed_mps = air_velocity_mps.norm();
         let forward = if speed_mps > DEGENERATE { air_velocity_mps * (1.0 / speed_mps) } else { Vector3::x() };
         let horizontal = (forward.x * forward.x + forward.y * forward.y).sqrt();
@@ -71,7 +71,7 @@ impl AirPath {
 
 /// Acceleration of the nominal vehicle in air at rest, world frame, m/s²: load factors and gravity.
 pub fn acceleration_mps2(velocity_mps: &Vector3<f64>, control: Control) -> Vector3<f64> {
-    AirPath::of(velocity_mps).specific_force_mps2(control) + gravity_mps2()
+    AirPath::new(velocity_mps).specific_force_mps2(control) + gravity_mps2()
 }
 
 #[cfg(test)]
@@ -82,7 +82,7 @@ mod tests {
     fn axes_are_right_handed_and_orthonormal() {
         for velocity in [Vector3::new(30.0, -20.0, 7.0), Vector3::new(-3.0, 0.1, -40.0), Vector3::z(), Vector3::zeros()]
         {
-            let AirPath { forward, left, up } = AirPath::of(&velocity);
+            let AirPath { forward, left, up } = AirPath::new(&velocity);
             for (axis, other) in [(forward, left), (left, up), (up, forward)] {
                 assert!((axis.norm() - 1.0).abs() < 1e-15 && axis.dot(&other).abs() < 1e-15);
             }
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn level_flight_has_left_to_the_left_and_up_upwards() {
-        let path = AirPath::of(&Vector3::new(0.0, 35.0, 0.0));
+        let path = AirPath::new(&Vector3::new(0.0, 35.0, 0.0));
         assert_eq!((path.left, path.up), (-Vector3::x(), Vector3::z()));
     }
 
@@ -107,7 +107,7 @@ mod tests {
                 heading_rad: heading,
                 flight_path_rad: flight_path,
             };
-            let path = AirPath::of(&Vector3::from(state.velocity_mps()));
+            let path = AirPath::new(&Vector3::from(state.velocity_mps()));
             assert!((path.heading_rad() - heading).abs() < 1e-14);
             assert!((path.flight_path_rad() - flight_path).abs() < 1e-14);
         }
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn load_factors_invert_the_specific_force() {
-        let path = AirPath::of(&Vector3::new(21.0, -30.0, 3.0));
+        let path = AirPath::new(&Vector3::new(21.0, -30.0, 3.0));
         let control = Control { n_x: 0.17, n_y: -0.4, n_z: 1.3 };
         let back = path.load_factors(&path.specific_force_mps2(control));
         for (a, b) in back.to_array().into_iter().zip(control.to_array()) {

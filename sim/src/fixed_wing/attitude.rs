@@ -10,7 +10,7 @@ use super::AirPath;
 ///
 /// Returns a unit quaternion (x, y, z, w).
 pub fn world_from_body(air_velocity_mps: &Vector3<f64>, control: Control) -> [f64; 4] {
-    let path = AirPath::of(air_velocity_mps);
+    let path = AirPath::new(air_velocity_mps);
     let lift = path.left * control.n_y + path.up * control.n_z;
     let up = lift.try_normalize(1e-9).unwrap_or(path.up);
     let axes = Matrix3::from_columns(&[path.forward, up.cross(&path.forward), up]);

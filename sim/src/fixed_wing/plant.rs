@@ -30,7 +30,7 @@ pub(crate) fn mid_step_force_n(
     step_s: f64,
 ) -> Vector3<f64> {
     let force_at =
-        |velocity: &Vector3<f64>| AirPath::of(&(velocity - wind_mps)).specific_force_mps2(control) * nominal_mass_kg;
+        |velocity: &Vector3<f64>| AirPath::new(&(velocity - wind_mps)).specific_force_mps2(control) * nominal_mass_kg;
     let mut force_n = force_at(velocity_mps);
     let mut middle_mps = *velocity_mps;
     for _ in 0..MAX_ITERATIONS {

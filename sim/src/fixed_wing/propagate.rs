@@ -19,7 +19,7 @@ pub struct Knot {
 
 impl Knot {
     /// A planned state at its time.
-    pub fn of(state: &State, t_s: f64) -> Self {
+    pub fn new(state: &State, t_s: f64) -> Self {
         Self { t_s, position_m: state.position_m().into(), velocity_mps: state.velocity_mps().into() }
     }
 }
@@ -36,7 +36,7 @@ impl Knot {
 ///
 /// Returns the knots from `t0_s` to `t0_s + duration_s`, both ends included.
 pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f64, max_step_s: f64) -> Vec<Knot> {
-    let mut knots = vec![Knot::of(start, t0_s)];
+    let mut knots = vec![Knot::new(start, t0_s)];
     extend(&mut knots, controls, t0_s + duration_s, max_step_s);
     knots
 }
@@ -48,7 +48,7 @@ pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f
 /// Returns the knots from the first node's time to the last one's. Panics if the trajectory has no node.
 pub fn rollout(trajectory: &Trajectory, max_step_s: f64) -> Vec<Knot> {
     let Interpolation::FirstOrderHold = trajectory.interpolation;
-    let mut knots = vec![Knot::of(&trajectory.states[0], trajectory.times_s[0])];
+    let mut knots = vec![Knot::new(&trajectory.states[0], trajectory.times_s[0])];
     for (end_s, controls) in trajectory.times_s[1..].iter().zip(trajectory.controls.windows(2)) {
         extend(&mut knots, [controls[0], controls[1]], *end_s, max_step_s);
     }

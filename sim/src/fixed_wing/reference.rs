@@ -52,7 +52,7 @@ impl Reference {
         let last = trajectory.times_s.len() - 1;
         let pieces: Vec<Piece> = (0..last).flat_map(|interval| interval_pieces(trajectory, interval)).collect();
         let starts_s = pieces.iter().map(|piece| piece.start_s).collect();
-        Self { pieces, starts_s, end: Knot::of(&trajectory.states[last], trajectory.times_s[last]) }
+        Self { pieces, starts_s, end: Knot::new(&trajectory.states[last], trajectory.times_s[last]) }
     }
 
     /// Time of the last node, s.
@@ -77,7 +77,7 @@ impl Reference {
             position_m: self.end.position_m + velocity_mps * (t_s - self.end.t_s),
             velocity_mps,
             acceleration_mps2: Vector3::zeros(),
-            control: AirPath::of(&velocity_mps).load_factors(&-gravity_mps2()),
+            control: AirPath::new(&velocity_mps).load_factors(&-gravity_mps2()),
         }
     }
 }
@@ -88,7 +88,7 @@ fn interval_pieces(trajectory: &Trajectory, interval: usize) -> Vec<Piece> {
     let controls = [trajectory.controls[interval], trajectory.controls[interval + 1]];
     let duration_s = end_s - start_s;
     let knots = propagate(&trajectory.states[interval], controls, start_s, duration_s, PIECE_S);
-    let next = Knot::of(&trajectory.states[interval + 1], end_s);
+    let next = Knot::new(&trajectory.states[interval + 1], end_s);
     let correction = defect_correction(&knots[knots.len() - 1], &next, duration_s);
     let control_at = |t_s: f64| first_order_hold(controls, (t_s - start_s) / duration_s);
     let jet = |knot: &Knot| {

@@ -35,7 +35,7 @@ pub fn replayed(start: &Knot, acting: &AppliedControls, end_s: f64) -> Knot {
         let velocity_mps = motion.fixed_rows::<3>(3).into_owned();
         let [from, to] = acting.wind_mps;
         let air_velocity_mps = velocity_mps - (from + (to - from) * share);
-        let force = AirPath::of(&air_velocity_mps).specific_force_mps2(acting.control) / acting.mass_ratio;
+        let force = AirPath::new(&air_velocity_mps).specific_force_mps2(acting.control) / acting.mass_ratio;
         let acceleration = force + gravity_mps2();
         let mut rate = Vector6::zeros();
         rate.fixed_rows_mut::<3>(0).copy_from(&velocity_mps);

@@ -41,7 +41,7 @@ impl Tracker {
             + (reference.position_m - measured.position_m) * self.position_gain
             + (reference.velocity_mps - measured.velocity_mps) * self.velocity_gain;
         let velocity_mps = measured.velocity_mps + acceleration_mps2 * (self.step_s / 2.0);
-        AirPath::of(&velocity_mps).load_factors(&(acceleration_mps2 - gravity_mps2()))
+        AirPath::new(&velocity_mps).load_factors(&(acceleration_mps2 - gravity_mps2()))
     }
 }
 
@@ -61,7 +61,7 @@ mod tests {
 
     /// A reference whose load factors give it the acceleration `wanted_mps2`, whatever its own second derivative is.
     fn point(position_m: Vector3<f64>, velocity_mps: Vector3<f64>, wanted_mps2: Vector3<f64>) -> ReferencePoint {
-        let control = AirPath::of(&velocity_mps).load_factors(&(wanted_mps2 - gravity_mps2()));
+        let control = AirPath::new(&velocity_mps).load_factors(&(wanted_mps2 - gravity_mps2()));
         ReferencePoint { position_m, velocity_mps, acceleration_mps2: Vector3::repeat(9.0), control }
     }
 

@@ -123,7 +123,7 @@ impl Fleet {
             .collect();
         Self {
             world,
-            surroundings: Obstacles::of(&scenario.world),
+            surroundings: Obstacles::new(&scenario.world),
             is_flying: vec![true; crafts.len()],
             crafts,
             events: Vec::new(),
@@ -318,8 +318,8 @@ impl Crew {
 /// What an answer is worth a line for, if it is.
 fn about(replan: &Replan) -> Option<EventKind> {
     match &replan.outcome {
-        ReplanStatus::Late { by_s } => Some(EventKind::AnswerLate { by_s: *by_s }),
-        ReplanStatus::Rejected { reason } => Some(EventKind::AnswerRejected { reason: reason.clone() }),
+        ReplanStatus::Late { by_s } => Some(EventKind::ReplanLate { by_s: *by_s }),
+        ReplanStatus::Rejected { reason } => Some(EventKind::ReplanRejected { reason: reason.clone() }),
         ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Kept { .. } => None,
     }
 }

@@ -14,7 +14,7 @@ pub struct Obstacles {
 
 impl Obstacles {
     /// Of a world.
-    pub fn of(world: &World) -> Self {
+    pub fn new(world: &World) -> Self {
         Self { cylinders: world.cylinders.clone(), flat: world.prism_obstacles(), moving: world.moving.clone() }
     }
 
@@ -118,7 +118,7 @@ mod tests {
             speed_mps: 10.0,
             offset_m: 0.0,
         });
-        Obstacles::of(&world)
+        Obstacles::new(&world)
     }
 
     fn touch(from_m: [f64; 3], to_m: [f64; 3]) -> Option<(f64, usize)> {

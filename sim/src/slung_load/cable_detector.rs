@@ -3,7 +3,7 @@ use scenarios::slung_load::Cable;
 use crate::EventKind;
 
 /// A cable that is taut or slack for less than this, s, has not switched: rounding and ripple would fill the log.
-pub const SHORTEST_PHASE_S: f64 = 0.01;
+pub const MIN_PHASE_S: f64 = 0.01;
 /// The impulse of this long after the switch, s, is that of the impact.
 const IMPACT_S: f64 = 0.0015;
 
@@ -36,7 +36,7 @@ impl CableDetector {
             *impact_ns += impulse_ns;
         }
         let (since_s, impact_ns) = (*since_s, *impact_ns);
-        if t_s + step_s - since_s < SHORTEST_PHASE_S {
+        if t_s + step_s - since_s < MIN_PHASE_S {
             return None;
         }
         self.cable = cable;

@@ -99,7 +99,7 @@ impl SlungLoadSim {
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(settings.wind.as_ref(), stream("gusts")),
             obstacles: scenario.world.prism_obstacles(),
-            parts: Parts::of(&model),
+            parts: Parts::new(&model),
             ground_m: scenario.world.ground_m,
             step_s: settings.step_s,
             plant_steps,
@@ -196,7 +196,7 @@ impl SlungLoadSim {
         let touches = |obstacle: &&Prism| {
             // What is not a number touches.
             let is_clear = |part: &Part| {
-                self.parts.at_least_m(*part, &body, obstacle) > 0.0
+                self.parts.distance_lower_bound_m(*part, &body, obstacle) > 0.0
                     || self.parts.distance_m(*part, &body, obstacle) > 0.0
             };
             !Part::ALL.iter().all(is_clear)

@@ -6,7 +6,7 @@ use scenarios::Prism;
 use scenarios::slung_load::Model;
 
 use self::distance::{ConvexPart, point_to_prism_m, to_prism, to_prism_m};
-pub use self::distance::{OVERHANG_M, Plane};
+pub use self::distance::{OVERHANG_M, SeparatingPlane};
 use super::state::SlungLoadState;
 
 /// What the ground is called where an obstacle has a name.
@@ -46,7 +46,7 @@ pub struct Parts {
 
 impl Parts {
     /// The parts of a vehicle of this model.
-    pub fn of(model: &Model) -> Self {
+    pub fn new(model: &Model) -> Self {
         Self { body_radius_m: model.body_radius_m(), load_radius_m: model.load_radius_m }
     }
 
@@ -67,7 +67,12 @@ impl Parts {
     }
 
     /// That distance, and a plane between part (the load's centre) and obstacle if they do not overlap.
-    pub fn distance_and_plane(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> (f64, Option<Plane>) {
+    pub fn distance_and_plane(
+        &self,
+        part: Part,
+        body: &SlungLoadState,
+        obstacle: &Prism,
+    ) -> (f64, Option<SeparatingPlane>) {
         match part {
             Part::Body => {
                 let (center_m, axis) = (body.position_m, body.thrust_axis());
@@ -82,7 +87,7 @@ impl Parts {
     }
 
     /// A bound of that distance from below that costs little, m: by the ball about the part.
-    pub fn at_least_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
+    pub fn distance_lower_bound_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => point_to_prism_m(&body.position_m, obstacle) - self.body_radius_m,
             Part::Cable => {

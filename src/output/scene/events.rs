@@ -67,10 +67,10 @@ fn flight_event(event: &sim::Event) -> Event {
         }
         EventKind::CableSlack => (Level::Info, format!("{vehicles}: cable slack")),
         EventKind::Discovered { obstacle } => (Level::Info, format!("{vehicles} discovers {obstacle}")),
-        EventKind::AnswerLate { by_s } => {
+        EventKind::ReplanLate { by_s } => {
             (Level::Warning, format!("{vehicles}: new plan is late by {}", quantity(*by_s, "s")))
         }
-        EventKind::AnswerRejected { reason } => {
+        EventKind::ReplanRejected { reason } => {
             (Level::Warning, format!("{vehicles}: new plan cannot be flown: {reason}"))
         }
         EventKind::Arrived => (Level::Info, format!("{vehicles}: at rest at the goal")),

@@ -86,7 +86,7 @@ fn flat_guess(times_s: &[f64], states: &[State]) -> Vec<Control> {
         }
     }
     let load_factors = |(state, (sum, count)): (&State, (Vector3<f64>, f64))| {
-        AirPath::of(&Vector3::from(state.velocity_mps())).load_factors(&(sum / count - gravity_mps2()))
+        AirPath::new(&Vector3::from(state.velocity_mps())).load_factors(&(sum / count - gravity_mps2()))
     };
     states.iter().zip(accelerations).map(load_factors).collect()
 }
@@ -143,7 +143,7 @@ fn linearised(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2
 fn missed(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> Missed {
     let h = times_s[k + 1] - times_s[k];
     let flown = propagate(&states[k], controls, times_s[k], h, STEP_S);
-    let (end, next) = (flown[flown.len() - 1], Knot::of(&states[k + 1], times_s[k + 1]));
+    let (end, next) = (flown[flown.len() - 1], Knot::new(&states[k + 1], times_s[k + 1]));
     let (dp, dv) = ((next.position_m - end.position_m) / h, next.velocity_mps - end.velocity_mps);
     Missed::new(dp.x, dp.y, dp.z, dv.x, dv.y, dv.z)
 }

@@ -69,7 +69,7 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, 
 
 /// The closest that any vehicle comes to anything. `None` without vehicles.
 pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ObstacleApproach> {
-    let surroundings = Obstacles::of(&scenario.world);
+    let surroundings = Obstacles::new(&scenario.world);
     let mut best = None;
     let (mut spans, mut unsure_m) = (0, f64::INFINITY);
     for (vehicle, motion) in motions.iter().enumerate() {
@@ -122,7 +122,7 @@ pub struct Clearances<'a> {
 impl<'a> Clearances<'a> {
     /// In the world of a scenario.
     pub fn new(scenario: &'a Scenario) -> Self {
-        Self { scenario, surroundings: Obstacles::of(&scenario.world) }
+        Self { scenario, surroundings: Obstacles::new(&scenario.world) }
     }
 
     /// Distance of the surface of a vehicle at a place from what is nearest, m, and the name of that.

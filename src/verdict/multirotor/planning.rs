@@ -185,7 +185,7 @@ fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
 /// Late and rejected answers of which there is no event.
 fn untold(flight: &Flight, log: &PlanningLog) -> Option<String> {
     let is_event =
-        |event: &&sim::Event| matches!(event.kind, EventKind::AnswerLate { .. } | EventKind::AnswerRejected { .. });
+        |event: &&sim::Event| matches!(event.kind, EventKind::ReplanLate { .. } | EventKind::ReplanRejected { .. });
     let is_odd = |replan: &&Replan| matches!(replan.outcome, ReplanStatus::Late { .. } | ReplanStatus::Rejected { .. });
     let (told, odd) = (flight.events.iter().filter(is_event).count(), log.replans.iter().filter(is_odd).count());
     (told != odd).then(|| format!("{odd} answers were late or rejected, and the log tells of {told}"))

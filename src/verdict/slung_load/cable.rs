@@ -1,7 +1,7 @@
 //! What does the cable do, and does the flight's cable do what the plan's does?
 
 use scenarios::slung_load::{Cable, Model, Trajectory};
-use sim::slung_load::SHORTEST_PHASE_S;
+use sim::slung_load::MIN_PHASE_S;
 use sim::{EventKind, Flight, VehicleLog};
 
 use super::planned::PlannedMotion;
@@ -155,7 +155,7 @@ fn contradiction(log: &VehicleLog) -> Option<String> {
             continue;
         }
         let began_s = *since_s.get_or_insert(pair[0].t_s);
-        if pair[1].t_s - began_s > 2.0 * SHORTEST_PHASE_S + (pair[1].t_s - pair[0].t_s) {
+        if pair[1].t_s - began_s > 2.0 * MIN_PHASE_S + (pair[1].t_s - pair[0].t_s) {
             let (called, does) = if is_pulling { ("slack", "pulls") } else { ("taut", "does not pull") };
             return Some(format!("from {began_s:.3} s on the log calls the cable {called}, but it {does}"));
         }
@@ -180,7 +180,7 @@ fn planned_switches(trajectory: &Trajectory) -> Vec<(f64, Cable)> {
         }
         let t_s = trajectory.times_s[node + 1];
         match switches.last() {
-            Some((began_s, _)) if t_s - began_s < SHORTEST_PHASE_S => {
+            Some((began_s, _)) if t_s - began_s < MIN_PHASE_S => {
                 switches.pop();
             }
             _ => switches.push((t_s, pair[1])),

@@ -153,7 +153,7 @@ mod tests {
     }
 
     fn shape_pairs(obstacles: Vec<Prism>) -> ShapePairs<'static> {
-        ShapePairs { vehicle: "carrier", parts: Parts::of(&model()), obstacles, ground_m: None }
+        ShapePairs { vehicle: "carrier", parts: Parts::new(&model()), obstacles, ground_m: None }
     }
 
     fn wall(z_m: Option<scenarios::Range>) -> Prism {

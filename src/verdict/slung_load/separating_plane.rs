@@ -3,13 +3,13 @@
 //! The plane is the one between the two in the middle of a span of time. Since that one is the best there, another instant
 //! misses the distance only by a square of the time: a bound of second order, where a largest speed gives one of first.
 
-use sim::slung_load::{Part, Parts, Plane};
+use sim::slung_load::{Part, Parts, SeparatingPlane};
 
 use super::motion::SlungLoadMotion;
 
 /// Smallest distance in front of the plane, m, negative behind it, of every point of a part over a share of a segment.
 pub fn in_front_m(
-    plane: &Plane,
+    plane: &SeparatingPlane,
     parts: &Parts,
     part: Part,
     motion: &SlungLoadMotion,
@@ -34,7 +34,7 @@ pub fn in_front_m(
 /// f <= f_0 + |ω s|                                         for a disc that nearly lies in the plane
 /// ```
 fn nearest_of_disc_m(
-    plane: &Plane,
+    plane: &SeparatingPlane,
     parts: &Parts,
     motion: &SlungLoadMotion,
     segment: usize,

@@ -1,7 +1,7 @@
 //! What is kept clear of what, and how far apart the two are at one instant.
 
 use scenarios::{Prism, Scenario, Vehicle};
-use sim::slung_load::{Part, Parts, Plane, SlungLoadState};
+use sim::slung_load::{Part, Parts, SeparatingPlane, SlungLoadState};
 
 use super::motion::{Deviation, Speeds};
 
@@ -29,7 +29,7 @@ impl<'a> ShapePairs<'a> {
     pub fn of(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
         Self {
             vehicle: &vehicle.name,
-            parts: Parts::of(scenario.slung_load_model(vehicle)),
+            parts: Parts::new(scenario.slung_load_model(vehicle)),
             obstacles: scenario.world.prism_obstacles(),
             ground_m: scenario.world.ground_m,
         }
@@ -49,13 +49,13 @@ impl<'a> ShapePairs<'a> {
     /// Less than the distance, and quick to tell, m.
     pub(super) fn at_least_m(&self, shape: Shape, body: &SlungLoadState) -> f64 {
         match shape {
-            Shape::Part(part, obstacle) => self.parts.at_least_m(part, body, &self.obstacles[obstacle]),
+            Shape::Part(part, obstacle) => self.parts.distance_lower_bound_m(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(_) | Shape::AboveGround => self.distance_m(shape, body),
         }
     }
 
     /// Signed distance, m, and a plane between the two, if one is known.
-    pub(super) fn distance_and_plane(&self, shape: Shape, body: &SlungLoadState) -> (f64, Option<Plane>) {
+    pub(super) fn distance_and_plane(&self, shape: Shape, body: &SlungLoadState) -> (f64, Option<SeparatingPlane>) {
         match shape {
             Shape::Part(part, obstacle) => self.parts.distance_and_plane(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(_) | Shape::AboveGround => (self.distance_m(shape, body), None),

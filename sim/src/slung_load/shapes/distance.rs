@@ -57,7 +57,7 @@ impl ConvexPart {
 
 /// A plane with a prism behind it: what is in front by d is farther away from the prism than d.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
+pub struct SeparatingPlane {
     /// Away from the prism, of unit length, world frame.
     pub normal: Vector3<f64>,
     /// What the normal gives, as a product, for the foremost point of the prism, m.
@@ -71,7 +71,7 @@ pub(super) fn to_prism_m(shape: &ConvexPart, prism: &Prism) -> f64 {
 
 /// The same with a plane between the two that is as far from the shape, if they do not overlap. Of a prism without bottom or
 /// top it is one for shapes within [`OVERHANG_M`] of this one.
-pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<Plane>) {
+pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<SeparatingPlane>) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
         Range::new(low - OVERHANG_M, high + OVERHANG_M)
@@ -81,7 +81,7 @@ pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<Plane>
         None => (-depth_m(&difference, &normals(shape, prism)), None),
         Some((distance_m, normal)) => {
             let offset_m = prism_support_m(prism, z_m, &normal).dot(&normal);
-            (distance_m, Some(Plane { normal, offset_m }))
+            (distance_m, Some(SeparatingPlane { normal, offset_m }))
         }
     }
 }

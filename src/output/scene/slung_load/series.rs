@@ -106,7 +106,7 @@ fn add_tension(scene: &mut Scene<'_>, run: &Run<'_>, log: &VehicleLog) {
 /// Distance of every part and of the envelope to the nearest obstacle; of the body to the ground too.
 fn add_distances(scene: &mut Scene<'_>, run: &Run<'_>, model: &Model, flight: &Flight) {
     let Ok(flown) = FlownMotion::new(flight) else { return };
-    let (obstacles, parts) = (run.scenario.world.prism_obstacles(), Parts::of(model));
+    let (obstacles, parts) = (run.scenario.world.prism_obstacles(), Parts::new(model));
     let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
     let stride = (DISTANCE_STEP_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
     // Infinite distances are left out: without an obstacle there is no curve.

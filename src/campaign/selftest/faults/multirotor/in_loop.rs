@@ -44,7 +44,7 @@ fn times() -> Vec<Fault> {
             slow.simulation.planning.median_s = slow.simulation.planning.deadline_s + 0.05;
             it.fly_in(&slow);
             it.scenario = slow;
-            it.flight().events.retain(|event| !matches!(event.kind, EventKind::AnswerLate { .. }));
+            it.flight().events.retain(|event| !matches!(event.kind, EventKind::ReplanLate { .. }));
         }),
     ]
 }

@@ -54,7 +54,7 @@ fn delay(it: &mut ReferenceCase, cart: usize) {
         let late = &mut it.scenario.world.moving[cart];
         late.offset_m -= late.speed_mps * DELAY_S;
         let world = scenarios::World { moving: vec![late.clone()], boxes: Vec::new(), ..it.scenario.world.clone() };
-        let alone = Obstacles::of(&world);
+        let alone = Obstacles::new(&world);
         if samples.iter().any(|sample| alone.distance_m(0, sample.t_s, sample.position_m) < 0.5 * reach_m) {
             return;
         }
