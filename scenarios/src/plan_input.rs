@@ -1,9 +1,23 @@
-//! Plans that were written elsewhere: by a planner of any language, as CSV, JSON or Parquet.
+//! Import of plans from CSV, JSON or Parquet files.
 //!
-//! All three are tables to us: per vehicle a [`ColumnTable`] of named columns over time. [`columns`] says what the columns of a
-//! vehicle family mean; `check` holds a table against the scenario and finds every issue that is one of the file and
-//! not of the motion it describes: wrong names, gaps, times that do not increase, numbers that are none, units that
-//! cannot be meant.
+//! Every format is read into one [`ColumnTable`] per vehicle: named columns over time. [`columns`] defines the columns of
+//! the vehicle families. `check` compares the tables with the scenario and rejects faulty files: wrong names, gaps, times
+//! that do not increase, numbers that are not finite, implausible units. Whether the motion can be flown is left to the
+//! judge.
+//!
+//! # Examples
+//!
+//! ```
+//! use std::path::Path;
+//! use scenarios::plan_input::parse_csv;
+//!
+//! let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("multirotor/trap.toml");
+//! let scenario = scenarios::load(&file)?;
+//! let text = "t_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n0,0,0,oops,0,0,0\n";
+//! let error = parse_csv("plan.csv", text, &scenario).unwrap_err();
+//! assert!(error.lines()[0].starts_with("plan.csv:2: z_m: found \"oops\", expected a number"));
+//! # Ok::<(), scenarios::LoadError>(())
+//! ```
 
 mod check;
 pub mod columns;
@@ -23,33 +37,33 @@ pub use self::error::{PlanError, PlanIssue};
 pub use self::imported::ImportedTrajectory;
 use crate::{Iteration, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
-/// A plan as it was written, before anything is made of it.
+/// The content of a plan file, not yet checked against a scenario.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanDocument {
-    /// What the document says of itself; CSV and Parquet say nothing.
+    /// Everything except the trajectories; empty for CSV and Parquet.
     pub header: PlanHeader,
-    /// One per vehicle, in the order in which they appear.
-    pub tracks: Vec<ColumnTable>,
+    /// One table per vehicle, in the order of their appearance.
+    pub tables: Vec<ColumnTable>,
 }
 
-/// What a plan says of itself beside its trajectories.
+/// The content of a plan file except the trajectories.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanHeader {
-    /// Scenario that it answers.
+    /// Name of the scenario.
     pub scenario: Option<String>,
-    /// Who made it.
+    /// Name of the planner.
     pub planner: Option<String>,
-    /// What its maker says of it.
+    /// Status reported by the planner.
     pub status: Option<PlanStatus>,
     /// Why the status is not `solved`.
     pub reason: Option<String>,
-    /// Value of the planner's objective.
+    /// Value of the objective.
     pub objective: Option<f64>,
     /// One entry per iteration.
     pub history: Vec<Iteration>,
-    /// What the planner tells beyond its trajectories.
+    /// Events and alternatives.
     pub diagnostics: PlanDiagnostics,
-    /// Time that planning took, by the planner's own clock.
+    /// Planning time, measured by the planner.
     pub timings: Option<PlanTimings>,
 }
 
@@ -58,14 +72,36 @@ pub struct PlanHeader {
 pub struct ColumnTable {
     /// Name of the vehicle.
     pub vehicle: String,
-    /// Where each row stands, for messages.
-    pub places: RowLocations,
+    /// Location of each row, for messages.
+    pub locations: RowLocations,
     /// Times, s.
     pub times_s: Vec<f64>,
-    /// Values by the names of their columns, each as long as `times_s`; words by their numbers.
+    /// Values by column name, each as long as `times_s`; words as their numbers.
     pub columns: BTreeMap<String, Vec<f64>>,
-    /// The rows at which the planner's own constraints stood, by index; empty: all of them.
+    /// Indices of the rows at which the planner imposed its constraints; empty: all rows.
     pub planner_nodes: Vec<usize>,
+}
+
+impl PlanDocument {
+    /// The table of `vehicle`; created with empty `columns` if there is none.
+    fn table_of(
+        &mut self,
+        vehicle: &str,
+        locations: RowLocations,
+        columns: impl Iterator<Item = String>,
+    ) -> &mut ColumnTable {
+        let index = self.tables.iter().rposition(|table| table.vehicle == vehicle).unwrap_or_else(|| {
+            self.tables.push(ColumnTable {
+                vehicle: vehicle.to_owned(),
+                locations,
+                times_s: Vec::new(),
+                columns: columns.map(|name| (name, Vec::new())).collect(),
+                planner_nodes: Vec::new(),
+            });
+            self.tables.len() - 1
+        });
+        &mut self.tables[index]
+    }
 }
 
 impl ColumnTable {
@@ -77,19 +113,19 @@ impl ColumnTable {
     }
 }
 
-/// Where the rows of a track stand.
+/// Locations of the rows of a table in their file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RowLocations {
     /// Line of a text file, from 1, per row.
     Lines(Vec<usize>),
     /// Row of a binary table, from 1, per row.
     Rows(Vec<usize>),
-    /// Index of the trajectory in a document; the row's index is its node.
+    /// Index of the trajectory in a JSON document; rows are nodes.
     Trajectory(usize),
 }
 
 impl RowLocations {
-    /// Where row `row` stands, in words that follow the name of the file: `:17`, ` row 16`, ` trajectories[0] node 3`.
+    /// Location of a row, to append to the name of the file: `:17`, `, row 16`, `, trajectories[0] node 3`.
     fn of(&self, row: usize) -> String {
         match self {
             Self::Lines(lines) => lines.get(row).map_or_else(String::new, |line| format!(":{line}")),
@@ -101,11 +137,16 @@ impl RowLocations {
 
 /// Reads a plan file for `scenario`: `.csv`, `.json` or (with the feature `parquet`) `.parquet`.
 ///
-/// Returns the header and one track per vehicle, in the order of the scenario, or every issue of the file.
+/// Returns the header, and one trajectory per vehicle in the order of the scenario.
+///
+/// # Errors
+///
+/// The file cannot be read, its format is not supported, or its content is not a plan for `scenario`. All issues are
+/// reported together.
 pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let name = path.display().to_string();
     let unreadable = |reason| PlanError::Read { path: path.to_owned(), reason };
-    let table = match path.extension().and_then(|extension| extension.to_str()) {
+    let document = match path.extension().and_then(|extension| extension.to_str()) {
         Some("csv") => csv::read(&text_of(&std::fs::read(path).map_err(unreadable)?), scenario),
         Some("json") => json::read(&text_of(&std::fs::read(path).map_err(unreadable)?), columns_of(scenario)),
         #[cfg(feature = "parquet")]
@@ -114,10 +155,14 @@ pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<Importe
         Some("parquet") => return Err(PlanError::ParquetNotBuilt { path: path.to_owned() }),
         _ => return Err(PlanError::Kind { path: path.to_owned() }),
     };
-    finish(&name, table, scenario)
+    finish(&name, document, scenario)
 }
 
-/// Reads a plan from the text of a JSON document, as [`read`] does from a file. `name` stands for it in messages.
+/// Like [`read`], from the text of a JSON document. `name` is its name in messages.
+///
+/// # Errors
+///
+/// The text is not a plan for `scenario`.
 pub fn parse_json(
     name: &str,
     text: &str,
@@ -126,7 +171,11 @@ pub fn parse_json(
     finish(name, json::read(text, columns_of(scenario)), scenario)
 }
 
-/// Reads a plan from the text of a CSV file, as [`read`] does from a file. `name` stands for it in messages.
+/// Like [`read`], from the text of a CSV file. `name` is its name in messages.
+///
+/// # Errors
+///
+/// The text is not a plan for `scenario`.
 pub fn parse_csv(
     name: &str,
     text: &str,
@@ -137,22 +186,21 @@ pub fn parse_csv(
 
 fn finish(
     name: &str,
-    table: Result<PlanDocument, Vec<PlanIssue>>,
+    document: Result<PlanDocument, Vec<PlanIssue>>,
     scenario: &Scenario,
 ) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
-    let checked = table.and_then(|table| {
-        let tracks = check::tracks(&table, scenario)?;
-        Ok((table.header, tracks))
+    let checked = document.and_then(|document| {
+        let trajectories = check::trajectories(&document, scenario)?;
+        Ok((document.header, trajectories))
     });
     checked.map_err(|issues| PlanError::invalid(name, &scenario.name, issues))
 }
 
-/// The columns of the scenario's vehicles, which are all of one family.
 fn columns_of(scenario: &Scenario) -> &'static Columns {
     scenario.family().spec().columns
 }
 
-/// The text of a file; what is no UTF-8 becomes a sign that no number and no name contains.
+/// The text of a file without byte order mark. Invalid UTF-8 becomes U+FFFD, which no number and no name contains.
 fn text_of(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned()

@@ -112,7 +112,7 @@ fn settings_that_make_no_sense_are_pointed_to() {
         ("name = \"parallel-scp\"\ncommand = [\"true\"]", "a name of its own"),
         ("name = \"a/b\"\ncommand = [\"true\"]", "planner.name: found \"a/b\""),
         ("name = \"theirs\"\ncommand = [\"true\"]\ntime_limit_s = 0", "planner.time_limit_s: found 0"),
-        ("name = \"parallel-scp\"\noptions = { speed = 3 }", "planner.options: found an option of planners outside"),
+        ("name = \"parallel-scp\"\noptions = { speed = 3 }", "planner.options: found an option of external planners"),
     ] {
         let workplace = Workplace::new(&[("pair.toml", &with(planner))]);
         let output = workplace.harness(&["run", "pair.toml"]);

@@ -1,35 +1,35 @@
-//! A table as text: a line with the names of the columns, then one line per vehicle and time, separated by commas.
+//! CSV files: a header with the names of the columns, then one line per vehicle and time.
 
 use csv::{Reader, ReaderBuilder, StringRecord};
 
 use super::columns::{Columns, TIME, VEHICLE};
-use super::{ColumnTable, PlanDocument, PlanIssue, RowLocations};
+use super::{PlanDocument, PlanIssue, RowLocations};
 use crate::{Issue, Scenario};
 
-/// Separators that other programs write.
+/// Separators that are recognised in order to suggest commas.
 const OTHER_SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), (' ', "spaces")];
 
-/// Reads the whole text. In a scenario with a single vehicle the column `vehicle` may be missing.
+/// Reads the text. The column `vehicle` is optional if the scenario has a single vehicle.
 pub(super) fn read(text: &str, scenario: &Scenario) -> Result<PlanDocument, Vec<PlanIssue>> {
     let mut reader = ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = Header::read(&mut reader, scenario)?;
-    let mut table = PlanDocument::default();
+    let mut document = PlanDocument::default();
     let mut issues = Vec::new();
     let mut record = StringRecord::new();
     loop {
         match reader.read_record(&mut record) {
             Ok(false) => break,
-            Ok(true) => header.add(&record, &mut table, &mut issues),
+            Ok(true) => header.add(&record, &mut document, &mut issues),
             Err(error) => {
                 issues.push(PlanIssue::new("", Issue::new("CSV syntax", error.to_string(), "valid CSV")));
                 break;
             }
         }
     }
-    if issues.is_empty() { Ok(table) } else { Err(issues) }
+    if issues.is_empty() { Ok(document) } else { Err(issues) }
 }
 
-/// Which column is what.
+/// The columns of the file.
 struct Header {
     names: Vec<String>,
     time: usize,
@@ -76,8 +76,8 @@ impl Header {
         Ok(Self { time, vehicle, only_vehicle, columns: super::columns_of(scenario), names })
     }
 
-    /// Adds one line to the track of its vehicle.
-    fn add(&self, record: &StringRecord, table: &mut PlanDocument, issues: &mut Vec<PlanIssue>) {
+    /// Adds a line to the table of its vehicle.
+    fn add(&self, record: &StringRecord, document: &mut PlanDocument, issues: &mut Vec<PlanIssue>) {
         let line = record.position().map_or(0, |position| position.line() as usize);
         let mut issue = |issue: Issue| issues.push(PlanIssue::new(format!(":{line}"), issue));
         if record.len() != self.names.len() {
@@ -86,8 +86,9 @@ impl Header {
             return;
         }
         let named = self.vehicle.map_or_else(|| self.only_vehicle.as_deref(), |index| record.get(index));
-        let track =
-            track_of(table, named.unwrap_or_default(), &self.names, [self.time, self.vehicle.unwrap_or(self.time)]);
+        let is_value = |index: &usize| *index != self.time && Some(*index) != self.vehicle;
+        let values = self.names.iter().enumerate().filter(|(index, _)| is_value(index)).map(|(_, name)| name.clone());
+        let table = document.table_of(named.unwrap_or_default(), RowLocations::Lines(Vec::new()), values);
         for (index, (name, cell)) in self.names.iter().zip(record).enumerate() {
             if Some(index) == self.vehicle {
                 continue;
@@ -97,37 +98,13 @@ impl Header {
                 issue(Issue::new(name, found, self.columns.expectation(name)));
                 0.0
             });
-            match track.columns.get_mut(name) {
+            match table.columns.get_mut(name) {
                 Some(column) => column.push(value),
-                None => track.times_s.push(value),
+                None => table.times_s.push(value),
             }
         }
-        if let RowLocations::Lines(lines) = &mut track.places {
+        if let RowLocations::Lines(lines) = &mut table.locations {
             lines.push(line);
         }
     }
-}
-
-/// The track of `vehicle`, new and empty if this is its first row.
-///
-/// - `apart`: columns that are not values of the track: time and vehicle
-fn track_of<'t>(
-    table: &'t mut PlanDocument,
-    vehicle: &str,
-    names: &[String],
-    apart: [usize; 2],
-) -> &'t mut ColumnTable {
-    let index = table.tracks.iter().rposition(|track| track.vehicle == vehicle).unwrap_or_else(|| {
-        let values = names.iter().enumerate().filter(|(index, _)| !apart.contains(index));
-        let columns = values.map(|(_, name)| (name.clone(), Vec::new())).collect();
-        table.tracks.push(ColumnTable {
-            vehicle: vehicle.to_owned(),
-            places: RowLocations::Lines(Vec::new()),
-            times_s: Vec::new(),
-            columns,
-            planner_nodes: Vec::new(),
-        });
-        table.tracks.len() - 1
-    });
-    &mut table.tracks[index]
 }

@@ -1,4 +1,4 @@
-//! A plan as a JSON document: our own `plan.json`, or the same with columns instead of states and controls.
+//! JSON documents: the format of `plan.json`, or the same with columns instead of states and controls.
 //!
 //! ```text
 //! { "status": "solved", "trajectories": [ { "vehicle": "uav-1", "times_s": [...], "x_m": [...], "y_m": [...], ... } ] }
@@ -11,9 +11,9 @@ use serde_json::{Map, Value};
 
 use super::columns::Columns;
 use super::{ColumnTable, PlanDocument, PlanHeader, PlanIssue};
-use crate::{Issue, Plan, closest_name};
+use crate::{Issue, Plan, PlanStatus, closest_name};
 
-/// Keys that a document may have. `protocol` belongs to replies of outside planners.
+/// Keys of a document. `protocol` occurs in replies of external planners.
 const KEYS: [&str; 12] = [
     "schema",
     "protocol",
@@ -28,7 +28,8 @@ const KEYS: [&str; 12] = [
     "account",
     "timings",
 ];
-/// Reads the whole text.
+
+/// Reads the text.
 pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<PlanIssue>> {
     let document: Value = serde_json::from_str(text).map_err(|error| vec![syntax(&error, text)])?;
     let Value::Object(document) = document else {
@@ -37,32 +38,21 @@ pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<Pl
     };
     let mut issues: Vec<PlanIssue> = unknown_keys(&document).collect();
     if let Some(schema) = document.get("schema").filter(|schema| schema.as_u64() != Some(Plan::SCHEMA.into())) {
-        issues.push(PlanIssue::new(
-            "",
-            issue("schema", schema.to_string(), "1, the version of the form that this harness reads"),
-        ));
+        let issue = issue("schema", schema.to_string(), "1, the supported version of the format");
+        issues.push(PlanIssue::new("", issue));
     }
     let header = header(&document, &mut issues);
-    let tracks = match document.get("trajectories") {
-        Some(Value::Array(trajectories)) => tracks(trajectories, columns, &mut issues),
-        // a planner without a plan has no trajectories to show
-        None | Some(Value::Null) if header.status == Some(crate::PlanStatus::NoPlan) => Vec::new(),
-        None => {
-            issues.push(PlanIssue::new(
-                "",
-                issue("trajectories", "nothing".into(), "an array with one trajectory per vehicle"),
-            ));
-            Vec::new()
-        }
-        Some(other) => {
-            issues.push(PlanIssue::new(
-                "",
-                issue("trajectories", describe(other), "an array with one trajectory per vehicle"),
-            ));
+    let tables = match document.get("trajectories") {
+        Some(Value::Array(trajectories)) => tables(trajectories, columns, &mut issues),
+        None | Some(Value::Null) if header.status == Some(PlanStatus::NoPlan) => Vec::new(),
+        other => {
+            let found = describe(other.unwrap_or(&Value::Null));
+            let issue = issue("trajectories", found, "an array with one trajectory per vehicle");
+            issues.push(PlanIssue::new("", issue));
             Vec::new()
         }
     };
-    if issues.is_empty() { Ok(PlanDocument { header, tracks }) } else { Err(issues) }
+    if issues.is_empty() { Ok(PlanDocument { header, tables }) } else { Err(issues) }
 }
 
 fn unknown_keys(document: &Map<String, Value>) -> impl Iterator<Item = PlanIssue> + '_ {
@@ -84,7 +74,7 @@ fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHea
         field("status", "\"solved\", \"not-converged\" or \"no-plan\""),
         field("reason", "text"),
         field("objective", "a number"),
-        field("history", "an array of iterations, as in our plan.json"),
+        field("history", "an array of iterations, as in a written plan.json"),
         field("account", "an object with `events` or `alternatives`"),
         field("timings", "an object with `wall_s`"),
     ];
@@ -101,7 +91,7 @@ fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHea
     }
 }
 
-/// The value in the form that is wanted; nothing for `null`, and a issue for what has another form.
+/// The value as a `T`; `None` for `null`, and for another type, which is added to `issues`.
 fn optional<T: DeserializeOwned>(
     (value, key, expected): (Value, String, String),
     issues: &mut Vec<PlanIssue>,
@@ -119,15 +109,15 @@ fn optional<T: DeserializeOwned>(
     }
 }
 
-fn tracks(trajectories: &[Value], columns: &Columns, issues: &mut Vec<PlanIssue>) -> Vec<ColumnTable> {
-    let mut tracks = Vec::with_capacity(trajectories.len());
+fn tables(trajectories: &[Value], columns: &Columns, issues: &mut Vec<PlanIssue>) -> Vec<ColumnTable> {
+    let mut tables = Vec::with_capacity(trajectories.len());
     for (index, trajectory) in trajectories.iter().enumerate() {
-        match trajectory::track(trajectory, index, columns) {
-            Ok(track) => tracks.push(track),
+        match trajectory::table(trajectory, index, columns) {
+            Ok(table) => tables.push(table),
             Err(issue) => issues.push(PlanIssue::new("", issue)),
         }
     }
-    tracks
+    tables
 }
 
 fn issue(field: &str, found: String, expected: &str) -> Issue {
@@ -139,7 +129,7 @@ fn syntax(error: &serde_json::Error, text: &str) -> PlanIssue {
     let found = found.split(" at line ").next().unwrap_or_default().to_owned();
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
     let is_number = ["NaN", "Infinity", "nan"].iter().any(|word| line.contains(word));
-    let remedy = if is_number { "JSON has no NaN and no infinity: what is no number is no plan" } else { "" };
+    let remedy = if is_number { "JSON has no NaN and no infinity" } else { "" };
     let place = format!(":{}:{}", error.line(), error.column());
     PlanIssue::new(place, Issue::new("JSON syntax", found, "a JSON document").remedy(remedy))
 }

@@ -1,4 +1,4 @@
-//! A table as a Parquet file: the columns of the CSV form, numbers as numbers and names as text.
+//! Parquet files: the columns of the CSV format, with numbers as numbers and names as text.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -8,36 +8,39 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
 use super::columns::{Columns, TIME, VEHICLE};
-use super::{ColumnTable, PlanDocument, PlanIssue, RowLocations};
+use super::{PlanDocument, PlanIssue, RowLocations};
 use crate::{Issue, Scenario};
 
-/// Reads the whole file. In a scenario with a single vehicle the column `vehicle` may be missing.
+/// Reads the file. The column `vehicle` is optional if the scenario has a single vehicle.
 pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<PlanIssue>> {
     let broken = |error: ParquetError| {
-        let issue =
-            Issue::new("Parquet", error.to_string(), "a whole Parquet file, plain or compressed by snappy or zstd");
+        let issue = Issue::new(
+            "Parquet",
+            error.to_string(),
+            "a valid Parquet file, uncompressed or compressed with snappy or zstd",
+        );
         vec![PlanIssue::new("", issue)]
     };
     let reader = SerializedFileReader::new(file).map_err(broken)?;
     let only_vehicle = (scenario.vehicles.len() == 1).then(|| scenario.vehicles[0].name.as_str());
-    let mut table = PlanDocument::default();
+    let mut document = PlanDocument::default();
     let mut issues = Vec::new();
     for (index, row) in reader.get_row_iter(None).map_err(broken)?.enumerate() {
         let row = row.map_err(broken)?;
-        if let Err(issue) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut table) {
+        if let Err(issue) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut document) {
             issues.push(PlanIssue::new(format!(", row {}", index + 1), issue));
         }
     }
-    if issues.is_empty() { Ok(table) } else { Err(issues) }
+    if issues.is_empty() { Ok(document) } else { Err(issues) }
 }
 
-/// Adds one row to the track of its vehicle.
+/// Adds a row to the table of its vehicle.
 fn add(
     row: &Row,
     number: usize,
     only_vehicle: Option<&str>,
     known: &Columns,
-    table: &mut PlanDocument,
+    document: &mut PlanDocument,
 ) -> Result<(), Issue> {
     let mut vehicle = only_vehicle;
     let mut t_s = None;
@@ -47,7 +50,7 @@ fn add(
             (VEHICLE, Field::Str(text)) => vehicle = Some(text),
             (VEHICLE, other) => return Err(Issue::new(VEHICLE, other.to_string(), "text")),
             (TIME, field) => t_s = Some(number_in(name, field)?),
-            // what pandas adds for its own use
+            // The index that pandas adds.
             (name, _) if name.starts_with("__index_level") => {}
             (_, Field::Str(word)) => {
                 let number = known.word(name, word);
@@ -59,30 +62,18 @@ fn add(
     }
     let vehicle = vehicle.ok_or_else(|| Issue::new(VEHICLE, "nothing", "a column with the vehicle's name"))?;
     let t_s = t_s.ok_or_else(|| Issue::new(TIME, "nothing", "a column with the time in s"))?;
-    let index = table.tracks.iter().rposition(|track| track.vehicle == vehicle).unwrap_or_else(|| {
-        let columns = values.keys().map(|name| (name.clone(), Vec::new())).collect();
-        let places = RowLocations::Rows(Vec::new());
-        table.tracks.push(ColumnTable {
-            vehicle: vehicle.to_owned(),
-            places,
-            times_s: Vec::new(),
-            columns,
-            planner_nodes: Vec::new(),
-        });
-        table.tracks.len() - 1
-    });
-    let track = &mut table.tracks[index];
-    track.times_s.push(t_s);
+    let table = document.table_of(vehicle, RowLocations::Rows(Vec::new()), values.keys().cloned());
+    table.times_s.push(t_s);
     for (name, value) in values {
-        track.columns.entry(name).or_default().push(value);
+        table.columns.entry(name).or_default().push(value);
     }
-    if let RowLocations::Rows(rows) = &mut track.places {
+    if let RowLocations::Rows(rows) = &mut table.locations {
         rows.push(number);
     }
     Ok(())
 }
 
-/// The number in a field. A missing value is NaN, which is refused with its place like every other.
+/// The number in a field. A missing value becomes NaN, which is rejected later together with its location.
 fn number_in(name: &str, field: &Field) -> Result<f64, Issue> {
     match field {
         Field::Null => Ok(f64::NAN),

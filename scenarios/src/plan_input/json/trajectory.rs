@@ -1,4 +1,4 @@
-//! One trajectory of a document: columns as arrays over time, or states and controls as objects, one per node.
+//! One trajectory of a document: columns as arrays over time, or states and controls as one object per node.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +9,16 @@ use super::super::{ColumnTable, RowLocations};
 use super::{describe, issue};
 use crate::Issue;
 
-/// Values by the names of their columns.
+/// Values by column name.
 type Values = BTreeMap<String, Vec<f64>>;
 
-/// Reads the trajectory that stands at `index` of the document.
-pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result<ColumnTable, Issue> {
+/// Reads the trajectory at `index` of the document.
+pub(super) fn table(trajectory: &Value, index: usize, known: &Columns) -> Result<ColumnTable, Issue> {
     let field = format!("trajectories[{index}]");
     let Value::Object(trajectory) = trajectory else {
         return Err(issue(&field, describe(trajectory), "an object"));
     };
-    let vehicle = said(trajectory, &field, known)?;
+    let vehicle = vehicle_name(trajectory, &field, known)?;
     let times = trajectory.get("times_s").or_else(|| trajectory.get("t_s"));
     let times_s = numbers(times.unwrap_or(&Value::Null), &format!("{field}.times_s"))?;
     let mut columns = Values::new();
@@ -36,14 +36,14 @@ pub(super) fn track(trajectory: &Value, index: usize, known: &Columns) -> Result
         let expected = format!("{}, one per time", times_s.len());
         return Err(issue(&format!("{field}.{name}"), format!("{} values", column.len()), &expected));
     }
-    Ok(ColumnTable { vehicle, places: RowLocations::Trajectory(index), times_s, columns, planner_nodes })
+    Ok(ColumnTable { vehicle, locations: RowLocations::Trajectory(index), times_s, columns, planner_nodes })
 }
 
-/// What the trajectory says of itself in words: the vehicle; family and interpolation must be what they can be.
-fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result<String, Issue> {
+/// The name of the vehicle, after checks of the optional family and interpolation.
+fn vehicle_name(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result<String, Issue> {
     let words = [
         ("family", known.family.key(), "the family of the scenario's vehicles"),
-        ("interpolation", "first-order-hold", "the only interpolation of controls that is flown"),
+        ("interpolation", "first-order-hold", "the only supported interpolation of controls"),
     ];
     for (key, wanted, why) in words {
         if let Some(other) = trajectory.get(key).filter(|value| **value != wanted) {
@@ -60,7 +60,7 @@ fn said(trajectory: &Map<String, Value>, field: &str, known: &Columns) -> Result
     }
 }
 
-/// From one object per node to one column per number in it.
+/// Converts one object per node into one column per number.
 fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) -> Result<(), Issue> {
     let Value::Array(nodes) = nodes else {
         return Err(issue(field, describe(nodes), "an array, one object per node"));
@@ -76,7 +76,7 @@ fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) 
                 let column = columns.entry(name).or_default();
                 column.push(number);
                 if column.len() != index + 1 {
-                    let found = "a value that earlier nodes do not have";
+                    let found = "a value that earlier nodes lack";
                     return Err(issue(&inner, found.into(), "the same keys at every node"));
                 }
             }
@@ -85,7 +85,7 @@ fn transpose(nodes: &Value, field: &str, known: &Columns, columns: &mut Values) 
     Ok(())
 }
 
-/// The columns that a key of a node stands for: itself, or one for each number of its array.
+/// The columns of a key: the key itself, or one for each number of its array.
 fn parts(key: &str, value: &Value, field: &str, known: &Columns) -> Result<Vec<(String, f64)>, Issue> {
     let Some((_, names)) = known.arrays.iter().find(|(name, _)| *name == key) else {
         return Ok(vec![(key.to_owned(), number(value, field)?)]);
@@ -97,7 +97,7 @@ fn parts(key: &str, value: &Value, field: &str, known: &Columns) -> Result<Vec<(
     Ok(names.iter().map(|name| (*name).to_owned()).zip(values).collect())
 }
 
-/// Numbers, or words in a column of words.
+/// A column of numbers or of words.
 fn column(value: &Value, field: &str, name: &str, known: &Columns) -> Result<Vec<f64>, Issue> {
     let Value::Array(values) = value else { return Err(issue(field, describe(value), "an array over time")) };
     let cell = |(index, value): (usize, &Value)| {
@@ -113,7 +113,7 @@ fn column(value: &Value, field: &str, name: &str, known: &Columns) -> Result<Vec
 }
 
 fn indices(value: &Value, field: &str) -> Result<Vec<usize>, Issue> {
-    serde_json::from_value(value.clone()).map_err(|_| issue(field, describe(value), "an array of indices of nodes"))
+    serde_json::from_value(value.clone()).map_err(|_| issue(field, describe(value), "an array of node indices"))
 }
 
 fn numbers(value: &Value, field: &str) -> Result<Vec<f64>, Issue> {
@@ -121,7 +121,7 @@ fn numbers(value: &Value, field: &str) -> Result<Vec<f64>, Issue> {
     values.iter().enumerate().map(|(index, value)| number(value, &format!("{field}[{index}]"))).collect()
 }
 
-/// A number; `null`, which is how our own files write what is none, is NaN.
+/// A number. `null`, as which NaN is written, becomes NaN.
 fn number(value: &Value, field: &str) -> Result<f64, Issue> {
     match value {
         Value::Null => Ok(f64::NAN),
