@@ -1,11 +1,15 @@
 //! The one table of vehicle families: what the harness does with each of them.
 
-use scenarios::{Family, Plan, Scenario};
+use scenarios::{Family, Plan, Scenario, Vehicle};
+use serde_json::Value;
 use sim::Flight;
 
+use crate::campaign::selftest;
+use crate::campaign::selftest::family::FamilySelftest;
 use crate::metrics::{self, Metrics};
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 use crate::output::scene::{self, FamilyScene};
+use crate::plan_source::external::request;
 use crate::verdict::case::Case;
 use crate::verdict::{self, Check};
 
@@ -17,6 +21,14 @@ pub struct VehicleFamily {
     pub checks: for<'a> fn(&Case<'a>) -> Vec<Check>,
     /// The figures of a flyable plan and, if there is one, its flight.
     pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
+    /// What an external planner is told of a vehicle.
+    pub request: fn(&Scenario, &Vehicle) -> Value,
+    /// What the selftest does with it.
+    pub selftest: &'static FamilySelftest,
+    /// Radius of the disc from which a sweep draws the wind that it adds, unless told otherwise, m/s.
+    pub usual_wind_mps: f64,
+    /// Standard deviation of the position measurement at which a search for a failure begins, m.
+    pub first_noise_m: f64,
     /// What it adds to the scene that recordings draw.
     #[cfg(any(feature = "mcap", feature = "rrd"))]
     pub scene: FamilyScene,
@@ -27,6 +39,10 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::FixedWing,
         checks: verdict::fixed_wing::checks,
         measure: metrics::fixed_wing::measure,
+        request: request::fixed_wing,
+        selftest: &selftest::fixed_wing::SELFTEST,
+        usual_wind_mps: 3.0,
+        first_noise_m: 0.25,
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::fixed_wing::SCENE,
     },
@@ -34,6 +50,10 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::SlungLoad,
         checks: verdict::slung_load::checks,
         measure: metrics::slung_load::measure,
+        request: request::slung_load,
+        selftest: &selftest::slung_load::SELFTEST,
+        usual_wind_mps: 1.0,
+        first_noise_m: 0.002,
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::slung_load::SCENE,
     },
@@ -41,6 +61,10 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::Multirotor,
         checks: verdict::multirotor::checks,
         measure: metrics::multirotor::measure,
+        request: request::multirotor,
+        selftest: &selftest::multirotor::SELFTEST,
+        usual_wind_mps: 1.0,
+        first_noise_m: 0.002,
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::multirotor::SCENE,
     },

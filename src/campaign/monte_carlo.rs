@@ -10,7 +10,7 @@ mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
-use scenarios::{Group, Scenario, checks_of};
+use scenarios::{Group, LimitField, Scenario, check_spec, checks_of};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::system_under_test::SystemUnderTest;
@@ -73,9 +73,10 @@ pub struct Sample {
     pub verdict: Outcome,
     /// Names of the deciding checks that failed.
     pub failed_checks: Vec<String>,
-    /// The margin of every check of the flight; NaN where it has none, or one in another unit (of several quantities that
-    /// a check holds against their limits now one is worst, now another).
+    /// The margin of every check of the flight; NaN where it has none.
     pub margins: Vec<f64>,
+    /// The unit of every margin: of a check of several quantities, that of the decisive one.
+    pub units: Vec<String>,
 }
 
 /// Version of the result format.
@@ -133,19 +134,27 @@ pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flo
     numbers.into_par_iter().map(sample).collect()
 }
 
+/// Whether a check compares several quantities with their limits, so that the unit of its margin is that of the decisive one.
+fn has_several_quantities(check: &str) -> bool {
+    check_spec(check).is_some_and(|spec| spec.limit == LimitField::ModelLimits && spec.unit == "-")
+}
+
 impl Sample {
     fn of(number: usize, perturbation: Perturbation, verdict: &Verdict, asked: &[(String, String)]) -> Self {
         let decisive = verdict.checks.iter().filter(|check| check.is_bad() && !check.advisory);
-        let margin = |(name, unit): &(String, String)| {
-            let check = verdict.checks.iter().find(|check| check.name == *name && check.unit == *unit);
-            check.and_then(|check| check.margin).unwrap_or(f64::NAN)
+        let measured = |(name, unit): &(String, String)| {
+            let check = verdict.checks.iter().find(|check| check.name == *name);
+            let margin = check.and_then(|check| check.margin).unwrap_or(f64::NAN);
+            (margin, check.map_or_else(|| unit.clone(), |check| check.unit.clone()))
         };
+        let (margins, units) = asked.iter().map(measured).unzip();
         Self {
             number,
             perturbation,
             verdict: verdict.outcome,
             failed_checks: decisive.map(|check| check.name.clone()).collect(),
-            margins: asked.iter().map(margin).collect(),
+            margins,
+            units,
         }
     }
 }

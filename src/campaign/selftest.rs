@@ -4,11 +4,15 @@
 //! A fault must fail the verdict, by the check that it aims at. Near misses, just inside a limit, must pass. And every
 //! check that can be asked must be turned red by something: one that never fails may as well not be there.
 
+pub mod family;
 mod fault;
 mod faults;
+pub mod fixed_wing;
+pub mod multirotor;
 mod near_misses;
 mod reference_case;
 mod show;
+pub mod slung_load;
 
 use std::collections::BTreeSet;
 
@@ -16,6 +20,7 @@ use rayon::prelude::*;
 use scenarios::Family;
 use serde::Serialize;
 
+use crate::families;
 use crate::verdict::{Check, Outcome, Status};
 
 pub use fault::{Fault, NearMiss};
@@ -108,7 +113,7 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
     };
     for family in Family::ALL {
         let mut asked = BTreeSet::new();
-        for reference in reference_case::all(family) {
+        for reference in (families::of(family).selftest.reference_cases)() {
             progress(&format!("{}: planning and flying", reference.scenario.name));
             let reference = reference.flown();
             let untouched = approach(&reference, &NearMiss::new("nothing is changed", |_| {}));

@@ -170,8 +170,14 @@ impl Shown {
         table::write(sweep, samples, &folder.join("sweep.parquet"))?;
         output::write_json(&folder.join("sweep.json"), &Whole { sweep, statistics: &statistics })?;
         if !self.quiet {
-            console::print(&monte_carlo::text(sweep, &statistics))?;
+            match samples.is_empty() {
+                true => console::print("this partition has no samples; merge its table with the others'")?,
+                false => console::print(&monte_carlo::text(sweep, &statistics))?,
+            }
             console::print(&format!("results in {}", folder.display()))?;
+        }
+        if samples.is_empty() && sweep.samples > 0 {
+            return Ok(Exit::Passed);
         }
         // Written so that a sweep of nothing has not passed.
         let share = 100.0 * statistics.passed as f64 / statistics.samples as f64;

@@ -13,7 +13,7 @@ pub(crate) mod group;
 mod in_loop;
 mod process;
 mod reply;
-mod request;
+pub(crate) mod request;
 
 use std::path::PathBuf;
 use std::time::Duration;

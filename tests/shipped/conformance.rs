@@ -44,10 +44,14 @@ fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
 /// Every planner on every scenario that it does not refuse, as far as that takes no more than seconds: the large fleets
 /// are planned by the planner that they name, and judged, in `verdicts`.
 fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
-    for (_, scenario) in super::shipped().into_iter().chain(super::shipped_in("scenarios/slung")) {
+    for (_, scenario) in super::shipped_in("scenarios") {
         let willing = planners::registry().iter().filter(|entry| (entry.unsupported_reason)(&scenario).is_none());
         for entry in willing.filter(|entry| scenario.vehicles.len() <= largest_fleet(entry.name)) {
-            check(&scenario, &entry.plan(&scenario, 0, &mut |_| {}));
+            let plan = match entry.plans_in_the_loop() {
+                true => super::multirotor::followed(&scenario, entry),
+                false => entry.plan(&scenario.planner_view(), 0, &mut |_| {}),
+            };
+            check(&scenario, &plan);
         }
     }
 }

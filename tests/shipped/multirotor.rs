@@ -2,8 +2,11 @@
 
 use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{self, Outcome};
-use scenarios::Scenario;
+use scenarios::{Plan, Scenario};
 use sim::Flight;
+
+/// Long enough for some turns of every planner, s.
+const FIRST_SECONDS_S: f64 = 3.0;
 
 fn flown(scenario: &Scenario, planner: &str) -> Flight {
     let entry = planners::find(planner).expect("a planner that exists");
@@ -12,6 +15,14 @@ fn flown(scenario: &Scenario, planner: &str) -> Flight {
     let vehicles = 0..scenario.vehicles.len();
     let planners = vehicles.map(|index| entry.in_loop(&planner_view, index, seed)).collect();
     sim::fly_in_loop(scenario, planners, seed, &mut |_| {})
+}
+
+/// What a planner in the loop followed during the first seconds of a flight.
+pub fn followed(scenario: &Scenario, planner: &planners::Planner) -> Plan {
+    let mut short = scenario.clone();
+    short.simulation.max_duration_s = FIRST_SECONDS_S.min(scenario.simulation.max_duration_s);
+    let flight = flown(&short, planner.name);
+    as_plan(scenario, planner.name, 0, flight.planning.as_ref().expect("a log of the planning"))
 }
 
 #[test]

@@ -1,6 +1,8 @@
 use clap::ValueEnum;
-use scenarios::{Family, Scenario, Wind};
+use scenarios::{Scenario, Wind};
 use serde::Serialize;
+
+use crate::families;
 
 /// A disturbance whose level is varied. Level 0 is a flight without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
@@ -40,12 +42,11 @@ impl Disturbance {
 
     /// The first level that is tried after 0.
     pub fn first_step(self, scenario: &Scenario) -> f64 {
-        match (self, scenario.family()) {
-            (Self::Wind, _) => 1.0,
-            (Self::Mass, _) => 0.02,
-            (Self::Delay, _) => scenario.simulation.step_s,
-            (Self::Noise, Family::FixedWing) => 0.25,
-            (Self::Noise, Family::SlungLoad | Family::Multirotor) => 0.002,
+        match self {
+            Self::Wind => 1.0,
+            Self::Mass => 0.02,
+            Self::Delay => scenario.simulation.step_s,
+            Self::Noise => families::of(scenario.family()).first_noise_m,
         }
     }
 

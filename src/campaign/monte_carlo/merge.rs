@@ -81,6 +81,7 @@ mod tests {
             checks: vec![
                 ("flight.separation".to_owned(), "m".to_owned()),
                 ("flight.rest".to_owned(), "m/s".to_owned()),
+                ("flight.state_limits".to_owned(), "-".to_owned()),
             ],
         }
     }
@@ -101,7 +102,8 @@ mod tests {
             } else {
                 Vec::new()
             },
-            margins: vec![number as f64, -0.5],
+            margins: vec![number as f64, -0.5, 0.25],
+            units: ["m", "m/s", if number == 2 { "deg" } else { "m/s" }].map(str::to_owned).to_vec(),
         }
     }
 

@@ -1,8 +1,9 @@
 use rand_distr::{Distribution, Uniform, UnitDisc};
-use scenarios::{Family, Scenario, Wind};
+use scenarios::{Scenario, Wind};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::failure_threshold::Disturbance;
+use crate::families;
 
 /// How far the world may be from the scenario's; what is 0 is as the scenario has it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,10 +39,7 @@ impl Dispersions {
     pub fn usual(scenario: &Scenario) -> Self {
         let own_m = scenario.simulation.sensors.position_noise_m;
         let noise_m = if own_m > 0.0 { own_m } else { Disturbance::Noise.first_step(scenario) };
-        let wind_mps = match scenario.family() {
-            Family::FixedWing => 3.0,
-            Family::SlungLoad | Family::Multirotor => 1.0,
-        };
+        let wind_mps = families::of(scenario.family()).usual_wind_mps;
         Self { wind_mps, mass: 0.03, noise_m, start_m: scenario.limits().tracking_max_m / 10.0 }
     }
 

@@ -1,4 +1,6 @@
-//! What many flights say together.
+//! Statistics of the samples of a sweep.
+
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 
@@ -41,16 +43,20 @@ impl Statistics {
     /// Over samples of one sweep.
     pub fn of(sweep: &Sweep, samples: &[Sample]) -> Self {
         let passed = samples.iter().filter(|sample| sample.verdict == Outcome::Pass).count();
-        let checks = sweep.checks.iter().enumerate().map(|(index, (name, unit))| {
+        let rows = sweep.checks.iter().enumerate().flat_map(|(index, (name, unit))| {
+            units(samples, index, unit).into_iter().map(move |unit| (index, name, unit))
+        });
+        let checks = rows.map(|(index, name, unit)| {
+            let in_unit = || samples.iter().filter(|sample| sample.units[index] == unit);
             let mut margins: Vec<(f64, usize)> =
-                samples.iter().map(|sample| (sample.margins[index], sample.number)).collect();
+                in_unit().map(|sample| (sample.margins[index], sample.number)).collect();
             margins.retain(|(margin, _)| !margin.is_nan());
             margins.sort_by(|a, b| a.0.total_cmp(&b.0));
             let quantile = |share: f64| margins[(share * (margins.len() - 1) as f64).floor() as usize].0;
             CheckStatistics {
                 name: name.clone(),
-                unit: unit.clone(),
-                failures: samples.iter().filter(|sample| sample.failed_checks.contains(name)).count(),
+                unit: unit.to_owned(),
+                failures: in_unit().filter(|sample| sample.failed_checks.contains(name)).count(),
                 margins: (!margins.is_empty()).then(|| [0.0, 0.05, 0.5].map(quantile)),
                 worst: margins.first().map(|(_, number)| *number),
             }
@@ -62,6 +68,12 @@ impl Statistics {
             checks: checks.filter(|check| check.failures > 0 || check.margins.is_some()).collect(),
         }
     }
+}
+
+/// The units in which a check of the samples has margins, in the order of their names; the declared one if there is none.
+fn units<'a>(samples: &'a [Sample], check: usize, declared: &'a str) -> BTreeSet<&'a str> {
+    let found: BTreeSet<&str> = samples.iter().map(|sample| sample.units[check].as_str()).collect();
+    if found.is_empty() { BTreeSet::from([declared]) } else { found }
 }
 
 /// The sample that failed by most: of those that failed the one with most checks against it, the first of equals; `None` if

@@ -16,7 +16,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::{Row, RowAccessor};
 use parquet::schema::parser::parse_message_type;
 
-use super::{Perturbation, Sample, Sweep};
+use super::{Perturbation, Sample, Sweep, has_several_quantities};
 use crate::error::Error;
 use crate::output;
 use crate::verdict::Outcome;
@@ -69,6 +69,9 @@ fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Par
     column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.start_m))?;
     for index in 0..sweep.checks.len() {
         column::<DoubleType>(&mut group, samples.iter().map(|sample| sample.margins[index]))?;
+        if has_several_quantities(&sweep.checks[index].0) {
+            column::<ByteArrayType>(&mut group, samples.iter().map(|sample| sample.units[index].as_str().into()))?;
+        }
     }
     group.close()?;
     writer.close()?;
@@ -85,7 +88,11 @@ fn column<T: DataType>(
 }
 
 fn schema(sweep: &Sweep) -> String {
-    let margins = sweep.checks.iter().map(|(check, unit)| format!("double {}", margin_column(check, unit)));
+    let margins = sweep.checks.iter().flat_map(|(check, unit)| {
+        let margin = format!("double {}", margin_column(check, unit));
+        let unit = has_several_quantities(check).then(|| format!("binary {} (utf8)", unit_column(check)));
+        [Some(margin), unit].into_iter().flatten()
+    });
     let fields = COLUMNS.iter().map(|column| (*column).to_owned()).chain(margins);
     let fields: String = fields.map(|field| format!("required {field};")).collect();
     format!("message sweep {{ {fields} }}")
@@ -97,6 +104,11 @@ fn margin_column(check: &str, unit: &str) -> String {
     let unit: String = unit.replace('/', "p").chars().filter(char::is_ascii_alphanumeric).collect();
     let unit = if unit.is_empty() { unit } else { format!("_{unit}") };
     format!("{question}_margin{unit}")
+}
+
+/// `state_limits_margin_unit` for `flight.state_limits`.
+fn unit_column(check: &str) -> String {
+    format!("{}_unit", margin_column(check, ""))
 }
 
 fn name_of(verdict: Outcome) -> &'static str {
@@ -114,11 +126,22 @@ fn read_table(path: &Path) -> Result<(Sweep, Vec<Sample>), ParquetError> {
     let common = about.into_iter().flatten().find(|pair| pair.key == SWEEP).and_then(|pair| pair.value.clone());
     let common = common.ok_or_else(|| ParquetError::General("it holds no samples of a sweep".to_owned()))?;
     let sweep: Sweep = serde_json::from_str(&common).map_err(|reason| ParquetError::External(reason.into()))?;
-    let samples = reader.get_row_iter(None)?.map(|row| sample(&row?, sweep.checks.len())).collect::<Result<_, _>>()?;
+    let samples = reader.get_row_iter(None)?.map(|row| sample(&row?, &sweep.checks)).collect::<Result<_, _>>()?;
     Ok((sweep, samples))
 }
 
-fn sample(row: &Row, checks: usize) -> Result<Sample, ParquetError> {
+fn sample(row: &Row, checks: &[(String, String)]) -> Result<Sample, ParquetError> {
+    let (mut margins, mut units, mut column) = (Vec::new(), Vec::new(), COLUMNS.len());
+    for (check, unit) in checks {
+        margins.push(row.get_double(column)?);
+        column += 1;
+        if has_several_quantities(check) {
+            units.push(row.get_string(column)?.clone());
+            column += 1;
+        } else {
+            units.push(unit.clone());
+        }
+    }
     let verdict = row.get_string(2)?;
     let outcome = VERDICTS.iter().find(|(name, _)| name == verdict).map(|(_, outcome)| *outcome);
     Ok(Sample {
@@ -132,6 +155,7 @@ fn sample(row: &Row, checks: usize) -> Result<Sample, ParquetError> {
         },
         verdict: outcome.ok_or_else(|| ParquetError::General(format!("`{verdict}` is no verdict")))?,
         failed_checks: row.get_string(3)?.split(AND).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
-        margins: (0..checks).map(|index| row.get_double(COLUMNS.len() + index)).collect::<Result<_, _>>()?,
+        margins,
+        units,
     })
 }

@@ -1,14 +1,14 @@
 mod conditions;
-mod fixed_wing;
+pub mod fixed_wing;
 mod log;
-mod multirotor;
+pub mod multirotor;
 mod plan;
-mod slung_load;
+pub mod slung_load;
 pub mod tightened_limits;
 
-use scenarios::Family;
-
+use super::family::FamilySelftest;
 use super::{Fault, ReferenceCase};
+use crate::families;
 
 /// The faults for a reference: those of all vehicles, those of its family, and those that need a disturbance.
 ///
@@ -17,11 +17,10 @@ pub fn of(reference: &ReferenceCase) -> Vec<Fault> {
     if reference.scenario.simulation.wind.is_some() {
         return conditions::faults();
     }
-    let family = reference.family();
-    let of_family = match family {
-        Family::FixedWing => fixed_wing::faults(),
-        Family::SlungLoad => slung_load::faults(),
-        Family::Multirotor => return multirotor::faults(reference),
-    };
-    [plan::faults(), log::faults(), of_family, tightened_limits::faults(family)].into_iter().flatten().collect()
+    (families::of(reference.family()).selftest.faults)(reference)
+}
+
+/// The faults of any plan and any log, those of the family, and its tightened limits.
+pub fn with_limits(own: Vec<Fault>, family: &'static FamilySelftest) -> Vec<Fault> {
+    [plan::faults(), log::faults(), own, tightened_limits::faults(family)].into_iter().flatten().collect()
 }

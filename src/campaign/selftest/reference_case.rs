@@ -6,7 +6,7 @@ use sim::{Actuation, Commanded, Flight, LoadSample, Sample};
 use crate::plan_source::PlanSource;
 use crate::verdict::{self, Check, Verdict};
 
-pub use flying::all;
+pub use flying::{UnflownCase, by, shipped};
 
 /// A scenario with a plan and a flight that pass: what faults are injected into.
 #[derive(Clone)]

@@ -1,14 +1,15 @@
-//! The question, with everything in it that a planner may know: no file has to be read, no model to be looked up.
+//! The request to an external planner: everything that a planner may know, so that it need not read any file.
 
-use scenarios::fixed_wing::{self, GRAVITY_MPS2, Limits};
-use scenarios::{Family, Range, Scenario, Vehicle, Waypoint, World};
-use scenarios::{multirotor, slung_load};
+use scenarios::fixed_wing::{GRAVITY_MPS2, Limits};
+use scenarios::{Range, Scenario, Vehicle, Waypoint, World, slung_load};
 use serde_json::{Value, json};
 
 use super::PROTOCOL;
+use crate::families;
 
-/// The request for a plan. Angles are in radians; how the plan will be disturbed in flight is not told.
+/// The request for a plan. Angles are in radians; disturbances of the flight are left out.
 pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Value {
+    let tell = families::of(scenario.family()).request;
     json!({
         "protocol": PROTOCOL,
         "request": "plan",
@@ -17,7 +18,7 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
         "time_limit_s": time_limit_s,
         "gravity_mps2": GRAVITY_MPS2,
         "world": world(&scenario.world),
-        "vehicles": scenario.vehicles.iter().map(|own| vehicle(scenario, own)).collect::<Vec<_>>(),
+        "vehicles": scenario.vehicles.iter().map(|vehicle| tell(scenario, vehicle)).collect::<Vec<_>>(),
         "fleet": scenario.fleet,
         "verdict": scenario.limits(),
         "envelope_m": scenario.verdict.envelope_m,
@@ -26,25 +27,21 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
     })
 }
 
-/// Map and obstacles, the boxes as prisms.
+/// Map, obstacles (boxes as prisms), gates and ground.
 pub(super) fn world(world: &World) -> Value {
     json!({
         "map": world.map,
         "cylinders": world.cylinders,
         "prisms": world.prism_obstacles(),
+        "moving": world.moving,
+        "gates": world.gates,
         "ground_m": world.ground_m,
     })
 }
 
-fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
-    match scenario.family() {
-        Family::FixedWing => fixed_wing(vehicle, scenario.fixed_wing_model(vehicle)),
-        Family::SlungLoad => slung_load(vehicle, scenario.slung_load_model(vehicle)),
-        Family::Multirotor => multirotor(vehicle, scenario.multirotor_model(vehicle)),
-    }
-}
-
-fn fixed_wing(vehicle: &Vehicle, model: &fixed_wing::Model) -> Value {
+/// A fixed wing: its model, start and goal as states.
+pub fn fixed_wing(scenario: &Scenario, vehicle: &Vehicle) -> Value {
+    let model = scenario.fixed_wing_model(vehicle);
     json!({
         "name": vehicle.name,
         "family": "fixed-wing",
@@ -57,26 +54,28 @@ fn fixed_wing(vehicle: &Vehicle, model: &fixed_wing::Model) -> Value {
     })
 }
 
-/// The model as in a scenario file, without what disturbs a flight; start and goal as states.
-fn slung_load(vehicle: &Vehicle, model: &slung_load::Model) -> Value {
-    let mut told = json!(model);
-    if let Some(told) = told.as_object_mut() {
+/// A slung load: its model as in a scenario file, without the parameters that only disturb a flight; start and goal as states.
+pub fn slung_load(scenario: &Scenario, vehicle: &Vehicle) -> Value {
+    let model = scenario.slung_load_model(vehicle);
+    let mut planner_model = json!(model);
+    if let Some(fields) = planner_model.as_object_mut() {
         for disturbance in ["drag_area_m2", "load_drag_area_m2", "rotor_time_constant_s"] {
-            told.remove(disturbance);
+            fields.remove(disturbance);
         }
     }
     let state = |waypoint: &Waypoint| slung_load::State::at(waypoint, model.cable_length_m);
     json!({
         "name": vehicle.name,
         "family": "slung-load",
-        "model": told,
+        "model": planner_model,
         "start": state(&vehicle.start),
         "goal": state(&vehicle.goal),
     })
 }
 
-/// What a planner may know: how large, how fast, how far it sees.
-fn multirotor(vehicle: &Vehicle, model: &multirotor::Model) -> Value {
+/// A multirotor: size, limits and sensor range; start and goal as positions and velocities.
+pub fn multirotor(scenario: &Scenario, vehicle: &Vehicle) -> Value {
+    let model = scenario.multirotor_model(vehicle);
     let state =
         |waypoint: &Waypoint| json!({ "position_m": waypoint.position_m(), "velocity_mps": waypoint.velocity_mps() });
     json!({

@@ -1,7 +1,6 @@
 //! Limits that are tightened to just below the value reached. Their counterparts, just above it, are near misses.
 
-use scenarios::Family;
-
+use super::super::family::FamilySelftest;
 use super::super::{Fault, ReferenceCase};
 
 /// A limit of the scenario, and the checks that it decides.
@@ -27,52 +26,20 @@ const OF_ALL: &[TightenedLimit] = &[
     }),
 ];
 
-const OF_FIXED_WINGS: &[TightenedLimit] = &[
-    DEFECTS,
-    GOALS,
-    limit("the limit of the open-loop error", &["plan.rollout"], |it, limit| {
-        it.scenario.verdict.rollout_m = Some(limit);
-    }),
-    limit("the limit of the spread of arrivals", &["flight.arrival"], |it, limit| {
-        it.scenario.verdict.arrival_spread_s = Some(limit);
-    }),
-];
-
-const OF_SLUNG_LOADS: &[TightenedLimit] = &[
-    DEFECTS,
-    GOALS,
-    limit("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
-        it.scenario.verdict.rest_mps = Some(limit);
-    }),
-    limit("what the cable bears", &["plan.tension", "flight.tension"], |it, limit| {
-        it.slung_load_model().limits.tension_n = limit;
-    }),
-    limit("the limit of the time between planned and flown switches", &["flight.slack"], |it, limit| {
-        it.scenario.verdict.switch_s = Some(limit);
-    }),
-];
-
-// A multirotor's plan ends in its goal to the last bit: below that there is no limit.
-const OF_MULTIROTORS: &[TightenedLimit] = &[
-    limit("the limit of the distance from the goal", &["flight.goal"], |it, limit| {
-        it.scenario.verdict.goal_m = Some(limit);
-    }),
-    limit("the limit of the speed at the end", &["flight.rest"], |it, limit| {
-        it.scenario.verdict.rest_mps = Some(limit);
-    }),
-];
-
-const DEFECTS: TightenedLimit =
+/// The limit of `plan.dynamics`.
+pub const DEFECTS: TightenedLimit =
     limit("the limit of the defects", &["plan.dynamics"], |it, limit| it.scenario.verdict.dynamics_m = Some(limit));
-const GOALS: TightenedLimit =
+/// The limit of the distance from the goal.
+pub const GOALS: TightenedLimit =
     limit("the limit of the distance from the goal", &["nodes.goal", "plan.goal", "flight.goal"], |it, limit| {
         it.scenario.verdict.goal_m = Some(limit);
     });
 
-/// How far a limit is from what was reached, as a share of it.
+/// Distance of a limit from the value reached, relative to it.
 pub const SHARE: f64 = 1e-6;
 
-const fn limit(
+/// A limit that `set` sets, and the checks that it decides.
+pub const fn limit(
     name: &'static str,
     checks: &'static [&'static str],
     set: fn(&mut ReferenceCase, f64),
@@ -80,45 +47,27 @@ const fn limit(
     TightenedLimit { name, checks, set }
 }
 
-/// The limits that a value of this family may not exceed.
-pub fn at_most(family: Family) -> impl Iterator<Item = &'static TightenedLimit> {
-    let of_family = match family {
-        Family::FixedWing => OF_FIXED_WINGS,
-        Family::SlungLoad => OF_SLUNG_LOADS,
-        Family::Multirotor => OF_MULTIROTORS,
-    };
-    OF_ALL.iter().chain(of_family)
+/// The limits of a family, those of all families first.
+pub fn all(family: &'static FamilySelftest) -> impl Iterator<Item = &'static TightenedLimit> {
+    OF_ALL.iter().chain(family.limits)
 }
 
-/// The faults.
-pub fn faults(family: Family) -> Vec<Fault> {
-    let mut all = Vec::new();
-    for limit in at_most(family) {
+/// One fault for every limit and every check that it decides.
+pub fn faults(family: &'static FamilySelftest) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for limit in all(family) {
         for check in limit.checks {
-            let name: &'static str = limit.name;
-            all.push(Fault::new(check, name, move |it| {
+            faults.push(Fault::new(check, limit.name, move |it| {
                 let reached = it.value(check);
                 (limit.set)(it, reached * (1.0 - SHARE));
             }));
         }
     }
-    let distances: &[&'static str] = match family {
-        Family::FixedWing | Family::Multirotor => &["nodes.separation", "plan.separation", "flight.separation"],
-        Family::SlungLoad => &["nodes.envelope", "plan.envelope"],
-    };
-    all.extend(distances.iter().map(|check| {
+    faults.extend(family.distances.iter().map(|check| {
         Fault::new(check, "a distance that is to be kept is longer than the smallest one", move |it| {
             let reached_m = it.value(check);
-            keep_apart(it, reached_m + 1e-6);
+            (family.keep_apart)(it, reached_m + 1e-6);
         })
     }));
-    all
-}
-
-/// Sets the distance to keep: between vehicles, or of the envelope from obstacles.
-pub fn keep_apart(it: &mut ReferenceCase, limit_m: f64) {
-    match it.family() {
-        Family::FixedWing | Family::Multirotor => it.scenario.fleet.separation_m = Some(limit_m),
-        Family::SlungLoad => it.scenario.verdict.envelope_m = Some(limit_m),
-    }
+    faults
 }
