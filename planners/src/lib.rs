@@ -14,14 +14,25 @@ pub mod nlp;
 mod open_list;
 mod planner;
 pub mod pseudospectral;
-mod registry;
 pub mod roadmap;
 pub mod scp;
 pub mod search;
 pub mod slung;
 
+use std::sync::LazyLock;
+
 pub use planner::{Planner, PlanningMode, Progress};
-pub use registry::{find, registry};
 
 /// The families of planners, in the order in which they are listed.
 const FAMILIES: [&[Planner]; 4] = [scp::PLANNERS, slung::PLANNERS, horizon::PLANNERS, search::PLANNERS];
+
+/// All planners.
+pub fn registry() -> &'static [Planner] {
+    static PLANNERS: LazyLock<Vec<Planner>> = LazyLock::new(|| FAMILIES.concat());
+    &PLANNERS
+}
+
+/// The planner of that name; `None` if there is none.
+pub fn find(name: &str) -> Option<&'static Planner> {
+    registry().iter().find(|planner| planner.name == name)
+}

@@ -49,3 +49,18 @@ impl<T: Ord> OpenList<T> {
         self.heap.pop().map(|Reverse((TotalF64(cost), item))| (cost, item))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::OpenList;
+
+    #[test]
+    fn cheaper_items_come_first_and_of_equal_costs_the_smaller() {
+        let mut open = OpenList::new();
+        for (cost, item) in [(2.0, 1), (f64::NAN, 0), (1.0, 7), (1.0, 3), (f64::NEG_INFINITY, 9)] {
+            open.push(cost, item);
+        }
+        let order: Vec<i32> = std::iter::from_fn(|| open.pop()).map(|(_, item)| item).collect();
+        assert_eq!(order, [9, 3, 7, 1, 0]);
+    }
+}

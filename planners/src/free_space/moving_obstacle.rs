@@ -26,6 +26,10 @@ impl MovingObstacle {
     }
 
     /// Displacement from time 0 to `time_s`, m.
+    ///
+    /// # Panics
+    ///
+    /// If there are no knots.
     pub fn displacement_m(&self, time_s: f64) -> Point {
         let knots = match &self.displacement {
             Displacement::ConstantVelocity(velocity) => return velocity * time_s,

@@ -55,3 +55,49 @@ fn subdivided_edge(from: [f64; 2], to: [f64; 2], spacing_m: f64) -> impl Iterato
 fn turn_angle(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+    /// The last triangle corner turns by more than a quarter turn.
+    fn shapes() -> [Obstacle; 3] {
+        [
+            Obstacle::prism(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], UNBOUNDED),
+            Obstacle::prism(&[[0.0, 0.0], [5.0, 0.0], [0.0, 1.0]], UNBOUNDED),
+            Obstacle::cylinder([1.0, -2.0], 0.0, UNBOUNDED),
+        ]
+    }
+
+    #[test]
+    fn edges_of_an_offset_polygon_keep_the_offset() {
+        for obstacle in shapes() {
+            let corners = offset_polygon(&obstacle, 0.5);
+            for (i, from) in corners.iter().enumerate() {
+                let to = corners[(i + 1) % corners.len()];
+                let [from, to] = [[from[0], from[1], 0.0], [to[0], to[1], 0.0]];
+                let distance_m = obstacle.distance_lower_bound_m(from.into(), to.into());
+                assert!((distance_m - 0.5).abs() < 1e-12, "{distance_m}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_sharp_corners_are_cut_off() {
+        assert_eq!(shapes().map(|obstacle| offset_polygon(&obstacle, 0.5).len()), [4, 5, CYLINDER_CORNERS]);
+    }
+
+    #[test]
+    fn subdivided_polygons_keep_their_corners_and_the_spacing() {
+        let square = [[0.0, 0.0], [2.5, 0.0], [2.5, 1.0], [0.0, 1.0]];
+        let points = subdivided(&square, 1.0);
+        assert_eq!(points.len(), 3 + 1 + 3 + 1);
+        assert!(square.iter().all(|corner| points.contains(corner)));
+        for (i, from) in points.iter().enumerate() {
+            let to = points[(i + 1) % points.len()];
+            assert!((to[0] - from[0]).hypot(to[1] - from[1]) <= 1.0 + 1e-12);
+        }
+    }
+}

@@ -49,6 +49,10 @@ pub struct Solution {
 
 /// Searches for the best controls. The first iteration contains `seeds` as its first particles; a sampler with a mean
 /// starts at the first of them.
+///
+/// # Panics
+///
+/// If the budget has no particles.
 pub fn optimise(
     problem: &HorizonProblem<'_>,
     sampler: SamplerKind,

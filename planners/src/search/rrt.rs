@@ -20,6 +20,10 @@ pub struct RrtSettings {
 }
 
 /// A path of straight legs from start to goal; `None` if the samples are used up before one is found.
+///
+/// # Panics
+///
+/// If a free coordinate is unbounded.
 pub fn search(problem: &PathProblem, settings: &RrtSettings, stream: &mut impl Rng) -> Option<Vec<Point>> {
     let goal = problem.goal;
     let mut tree = Tree { problem, nodes: vec![Node { position: problem.start, parent: 0, length_m: 0.0 }] };

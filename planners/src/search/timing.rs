@@ -30,6 +30,10 @@ const MIN_PHASE_S: f64 = 1e-9;
 /// - `path`: at least two points, consecutive ones distinct, m
 /// - `limits`: bounds on speed and acceleration
 /// - `deviation_m`: largest deviation of the motion from the path's corners, m
+///
+/// # Panics
+///
+/// If the path is empty.
 pub fn timed_motion(path: &[Point], limits: PlanningLimits, deviation_m: f64) -> PointMassMotion {
     let path = &without_straight_corners(path);
     let speeds_mps = corner_speeds_mps(path, limits, deviation_m);
