@@ -126,6 +126,20 @@ pub struct Check {
     /// Why it was skipped or is undecided, or what exactly is wrong.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Where the limit stands in the scenario, for a check that picks one of several quantities. Not part of a report.
+    #[serde(skip)]
+    pub limit_key: Option<LimitKey>,
+}
+
+/// The place of a limit in a scenario.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimitKey {
+    /// In `world.map`.
+    Map(&'static str),
+    /// In the limits of the vehicle's model: `planning_limits` for `nodes.*`, else `limits`.
+    Limits(&'static str),
+    /// In the airframe of the vehicle's model.
+    Airframe(&'static str),
 }
 
 impl Check {

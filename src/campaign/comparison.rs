@@ -7,7 +7,11 @@ mod baseline;
 mod rules;
 mod snapshot;
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
+
+use self::rules::MARGIN_OF;
 
 pub use baseline::{Acceptance, Baseline};
 pub use snapshot::{CheckEntry, Entry, Snapshot};
@@ -73,6 +77,20 @@ impl Comparison {
     /// Did nothing get worse?
     pub fn is_good(&self) -> bool {
         self.count(Severity::Worse) == 0
+    }
+
+    /// What got worse of one result.
+    pub fn losses(&self, scenario: &str, planner: &str) -> Vec<&Difference> {
+        let is_loss = |difference: &&Difference| {
+            difference.rating == Severity::Worse && difference.scenario == scenario && difference.planner == planner
+        };
+        self.differences.iter().filter(is_loss).collect()
+    }
+
+    /// Number of results of which something got worse.
+    pub fn worse_results(&self) -> usize {
+        let worse = self.differences.iter().filter(|difference| difference.rating == Severity::Worse);
+        worse.map(|difference| (&difference.scenario, &difference.planner)).collect::<BTreeSet<_>>().len()
     }
 
     /// `12 results compared: 1 worse, 3 better`.
@@ -142,7 +160,7 @@ fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Opti
         return None;
     }
     let is_advisory =
-        name.strip_prefix("margin of ").and_then(|check| new.checks.get(check)).is_some_and(|it| it.advisory);
+        name.strip_prefix(MARGIN_OF).and_then(|check| new.checks.get(check)).is_some_and(|it| it.advisory);
     let rating = match rule.decides && !is_advisory {
         false => Severity::Note,
         true if rule.is_gain(change) => Severity::Better,
@@ -176,6 +194,20 @@ fn word(status: Status) -> &'static str {
         Status::Fail => "fail",
         Status::Undecided => "undecided",
         Status::Skip => "skip",
+    }
+}
+
+impl Difference {
+    /// `margin of flight.separation: 17.900 m before, 3.100 m now, -14.800 m (tolerance 0.358 m)`.
+    pub fn sentence(&self) -> String {
+        let Self { what, old, new, change, .. } = self;
+        let change = if change.is_empty() { String::new() } else { format!(", {change}") };
+        format!("{what}: {old} before, {new} now{change}")
+    }
+
+    /// The check that it is about, if it is about one: by its status or by its margin.
+    pub fn check(&self) -> &str {
+        self.what.strip_prefix(MARGIN_OF).unwrap_or(&self.what)
     }
 }
 

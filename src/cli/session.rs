@@ -105,7 +105,7 @@ impl Session {
         for refusal in jobs.rejected {
             let refused = done.summary.refuse(&refusal);
             self.event(&Event::Refused { file: refused })?;
-            done.annotations.extend(github::annotations_of(&refusal.error));
+            done.annotations.extend(github::load_error_annotations(&refusal.error));
             console::print_error(refusal.error);
         }
         let total = jobs.runnable.len();
@@ -118,7 +118,7 @@ impl Session {
             done.reports.push(report);
             done.jobs.push(job);
         }
-        self.finish(&done, baseline.as_ref())
+        self.finish(done, baseline.as_ref())
     }
 
     fn run_job(&self, job: &Job, outputs: &Outputs, number: usize, total: usize) -> Result<Report, Error> {
@@ -132,40 +132,46 @@ impl Session {
         Ok(done.report)
     }
 
-    fn finish(&self, done: &Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
-        let Done { summary, reports, .. } = done;
-        let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(reports), Scope::NewRunOnly));
+    fn finish(&self, mut done: Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
+        let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(&done.reports), Scope::NewRunOnly));
+        done.summary.worse_than_baseline = compared.as_ref().map(Comparison::worse_results);
+        let Done { summary, reports, .. } = &done;
         let compared_page = compared.as_ref().map_or_else(String::new, comparison_table::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
         output::write_file(&self.out.join("summary.md"), |writer| {
             write!(writer, "{}\n{compared_page}", summary.markdown(reports))
         })?;
-        let xml = junit::document(reports, &summary.refused);
+        let xml = junit::document(reports, &summary.refused, compared.as_ref());
         output::replace_file(&self.out.join("junit.xml"), |partial| Ok(std::fs::write(partial, xml?)?))?;
         github::add_to_job_summary(&format!("{}\n{compared_page}", summary.markdown_without_links(reports)))?;
-        let exit = exit(summary, compared.as_ref());
+        let exit = summary.exit();
         self.event(&Event::Summary { summary, exit_code: exit.code() })?;
         self.show(&terminal::summary(summary, &self.out))?;
         if let Some(compared) = &compared {
             self.event(&Event::Comparison { comparison: compared })?;
             self.show(&comparison_table::text(compared))?;
         }
-        self.annotate(done)?;
+        self.annotate(&done, compared.as_ref())?;
         Ok(exit)
     }
 
     /// On GitHub, points to the lines of the scenario files. Beside a stream of JSON they go to standard error, which the
     /// runner reads too.
-    fn annotate(&self, done: &Done) -> Result<(), Error> {
-        if !github::is_present() {
+    fn annotate(&self, done: &Done, compared: Option<&Comparison>) -> Result<(), Error> {
+        if !github::is_github_actions() {
             return Ok(());
         }
         let findings: Vec<github::Finding<'_>> = done
             .reports
             .iter()
             .zip(&done.jobs)
-            .map(|(report, job)| github::Finding { report, scenario: &job.scenario, source: &job.source })
+            .map(|(report, job)| github::Finding {
+                report,
+                scenario: &job.scenario,
+                source: &job.source,
+                losses: compared.map_or_else(Vec::new, |it| it.losses(&report.scenario, &report.planner)),
+            })
             .collect();
         for line in done.annotations.iter().cloned().chain(github::annotations(&findings)) {
             if self.quiet || self.format == Format::JsonLines { console::eprint(&line) } else { console::print(&line)? }
@@ -179,14 +185,6 @@ impl Session {
 
     fn event(&self, event: &Event<'_>) -> Result<(), Error> {
         if self.quiet || self.format != Format::JsonLines { Ok(()) } else { json_lines::print(event) }
-    }
-}
-
-/// Bad input weighs more than a loss, and a loss as much as a failed verdict.
-fn exit(summary: &Summary, compared: Option<&Comparison>) -> Exit {
-    match summary.exit() {
-        Exit::Passed if compared.is_some_and(|compared| !compared.is_good()) => Exit::Failed,
-        exit => exit,
     }
 }
 

@@ -116,6 +116,7 @@ fn without_value(spec: &CheckSpec, status: Status, reason: impl Into<String>) ->
         between: Vec::new(),
         advisory: false,
         reason: Some(reason.into()),
+        limit_key: None,
     }
 }
 

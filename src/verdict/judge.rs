@@ -86,6 +86,7 @@ impl Check {
             between: Vec::new(),
             advisory: false,
             reason: Some("required, but there is no check of this name".to_owned()),
+            limit_key: None,
         }
     }
 }

@@ -1,5 +1,6 @@
 use scenarios::{Range, Scenario};
 
+use crate::verdict::LimitKey;
 use crate::verdict::bernstein;
 use crate::verdict::motion::Motion;
 use crate::verdict::worst::{Quantity, Worst};
@@ -39,7 +40,8 @@ impl<'a> MapBounds<'a> {
     }
 
     fn quantity(&self, axis: usize) -> Quantity {
-        Quantity { name: ["x", "y", "z"][axis], unit: "m", range: self.axes[axis] }
+        let (name, key) = [("x", "x_m"), ("y", "y_m"), ("z", "z_m")][axis];
+        Quantity { name, unit: "m", range: self.axes[axis], key: LimitKey::Map(key) }
     }
 }
 

@@ -105,6 +105,7 @@ fn skip(check: &mut Check, reason: &str) {
         between: Vec::new(),
         advisory: false,
         reason: Some(reason.to_owned()),
+        limit_key: None,
     };
 }
 

@@ -3,8 +3,8 @@
 use scenarios::{CheckSpec, Range};
 
 use crate::number_format::given_range;
-use crate::verdict::Check;
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::{Check, LimitKey};
 
 /// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
 /// The limit that the check reports includes it. The physical limits know no such mercy.
@@ -19,6 +19,8 @@ pub struct Quantity {
     pub unit: &'static str,
     /// What it has to stay inside.
     pub range: Range,
+    /// Where the range stands.
+    pub key: LimitKey,
 }
 
 /// The value that uses most of its range so far.
@@ -59,13 +61,13 @@ impl<'a> Worst<'a> {
 impl Found<'_> {
     /// The check of the value found.
     pub fn into_check(self, spec: &CheckSpec) -> Check {
-        let Self { vehicle, quantity: Quantity { name: what, unit, range }, value, t_s } = self;
+        let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, t_s } = self;
         let limit = if value - range.min < range.max - value { range.min } else { range.max };
         let margin = range.margin(value);
         let place = if margin >= 0.0 { "inside" } else { "outside" };
         let remark = format!("{what} {place} {}", given_range(range, unit));
         let measured = Measurement::value(value).at(t_s).with(vehicle).with_reason(remark);
-        Check { unit: unit.to_owned(), ..spec.inside(measured, limit, margin) }
+        Check { unit: unit.to_owned(), limit_key: Some(key), ..spec.inside(measured, limit, margin) }
     }
 }
 

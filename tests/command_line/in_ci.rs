@@ -108,3 +108,52 @@ fn json_lines_are_all_that_is_on_standard_output() {
     assert_eq!((&lines[4]["exit_code"], code(&output)), (&2.into(), 2));
     assert!(stderr(&output).contains("::error "), "annotations go where they do no harm");
 }
+
+/// A margin that shrinks beyond tolerance fails the run although every check passes: everything that CI shows says so.
+#[test]
+fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_summary() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    workplace.harness(&["run", "pair.toml", "--record", "none", "-q"]);
+    assert_eq!(code(&workplace.harness(&["baseline", "accept", "--reason", "the first"])), 0);
+    let against_baseline = &["run", "pair.toml", "--record", "none", "--baseline", "baseline.json"];
+    let case = |kind: &str| {
+        let xml = fs::read_to_string(workplace.path("out/junit.xml")).unwrap();
+        let case =
+            xml.split("<testcase ").find(|case| case.starts_with("name=\"baseline\"")).expect("a case").to_owned();
+        assert_eq!(case.contains("<failure"), kind == "failure", "{case}");
+        case
+    };
+
+    let output = on_github(&workplace, against_baseline);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(!stdout(&output).contains("::error"));
+    assert_eq!(workplace.json("out/summary.json")["worse_than_baseline"], 0);
+    case("success");
+
+    fs::write(workplace.path("pair.toml"), PAIR.replace("separation_m = 100", "separation_m = 120")).unwrap();
+    fs::remove_file(workplace.path("step.md")).unwrap();
+    let output = on_github(&workplace, against_baseline);
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    let failure = case("failure");
+    for part in
+        ["worse-than-baseline", "margin of flight.separation: 99.695 m before, 79.965 m now, -19.730 m (tolerance"]
+    {
+        assert!(failure.contains(part), "`{part}` is missing in {failure}");
+    }
+    let line = PAIR.lines().position(|line| line.starts_with("separation_m")).unwrap() + 1;
+    let page = stdout(&output);
+    let annotations: Vec<&str> = page.lines().filter(|line| line.starts_with("::error ")).collect();
+    assert_eq!(annotations.len(), 1, "{annotations:#?}");
+    let expected = format!("::error file=pair.toml,line={line},title=pair · parallel-scp%3A worse than the baseline::");
+    assert!(annotations[0].starts_with(&expected) && annotations[0].contains("79.965 m now"), "{annotations:#?}");
+    for file in ["out/summary.md", "step.md"] {
+        let summary = fs::read_to_string(workplace.path(file)).unwrap();
+        assert!(summary.starts_with("# 1 passed, 1 worse than the baseline\n"), "{file}: {summary}");
+    }
+    assert!(page.contains("1 passed, 1 worse than the baseline"), "{page}");
+
+    let output = on_github(&workplace, &[&against_baseline[..], &["--format", "json-lines"]].concat());
+    let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).expect(line)).collect();
+    let summary = lines.iter().find(|line| line["event"] == "summary").unwrap();
+    assert_eq!((&summary["exit_code"], &summary["summary"]["worse_than_baseline"]), (&1.into(), &1.into()));
+}

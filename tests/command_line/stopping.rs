@@ -117,7 +117,7 @@ fn selftest_stress_and_benchmarks_stop_too() {
     ] {
         let (code, said) = stopped_when(start(&workplace, arguments), when);
         assert_eq!(code, 130, "{arguments:?}: {said}");
-        assert!(said.contains("nothing is half written"), "{arguments:?}: {said}");
+        assert!(said.contains("no incomplete files are left"), "{arguments:?}: {said}");
         assert_nothing_half_written(&workplace);
     }
 }

@@ -1,5 +1,7 @@
 //! Which way is better, and how much of a change is none.
 
+/// Prefix of the names of margins among the figures, before the name of the check.
+pub const MARGIN_OF: &str = "margin of ";
 /// Name of the planned flight time among the figures.
 pub const PLANNED_TIME: &str = "planned flight time";
 /// Name of the flown time among the figures.

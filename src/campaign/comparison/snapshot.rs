@@ -89,7 +89,7 @@ impl Entry {
         // how far it is from the plan is compared by itself
         let told = ["duration", "tracking_max", "tracking_rms"];
         let margins = made.filter(|check| !told.contains(&check.question()));
-        let margins = margins.filter_map(|check| Some((format!("margin of {}", check.name), check.margin?)));
+        let margins = margins.filter_map(|check| Some((format!("{}{}", rules::MARGIN_OF, check.name), check.margin?)));
         let (flight, slung) = (report.metrics.flight.as_ref(), report.metrics.slung_load.as_ref());
         let figures = [
             (rules::PLANNED_TIME, report.plan.flight_time_s),
@@ -117,7 +117,7 @@ impl Entry {
 
     /// Unit of a figure.
     pub(super) fn unit_of(&self, figure: &str) -> &str {
-        match figure.strip_prefix("margin of ").and_then(|check| self.checks.get(check)) {
+        match figure.strip_prefix(rules::MARGIN_OF).and_then(|check| self.checks.get(check)) {
             Some(check) => &check.unit,
             None if figure.starts_with("tracking") => "m",
             None => "s",

@@ -26,7 +26,7 @@ pub enum Event<'a> {
     Summary {
         /// The contents of `summary.json`.
         summary: &'a Summary,
-        /// With which the process will end, unless a comparison says otherwise.
+        /// Exit code of the process.
         exit_code: u8,
     },
     /// What a comparison with an earlier run found.

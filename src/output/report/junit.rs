@@ -5,18 +5,25 @@ use std::time::Duration;
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite, XmlString};
 
 use super::{RefusedFile, headline};
+use crate::campaign::comparison::{Comparison, Difference};
 use crate::report::Report;
 use crate::verdict::{Check, Outcome, Status};
 
 /// The whole run as XML.
-pub fn document(reports: &[Report], refused: &[RefusedFile]) -> Result<String, quick_junit::SerializeError> {
+///
+/// - `comparison`: with the baseline, if there is one; every suite then has one more case, `baseline`
+pub fn document(
+    reports: &[Report],
+    refused: &[RefusedFile],
+    comparison: Option<&Comparison>,
+) -> Result<String, quick_junit::SerializeError> {
     let mut document = Document::new("harness");
-    document.add_test_suites(reports.iter().map(suite));
+    document.add_test_suites(reports.iter().map(|report| suite(report, comparison)));
     document.add_test_suites(refused.iter().map(refused_suite));
     document.to_string()
 }
 
-fn suite(report: &Report) -> TestSuite {
+fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
     let mut suite = TestSuite::new(format!("{} · {}", report.scenario, report.planner));
     suite.set_time(Duration::try_from_secs_f64(report.timings.total_s()).unwrap_or_default());
     suite.add_property(("seed", report.seed.to_string().as_str()));
@@ -28,6 +35,8 @@ fn suite(report: &Report) -> TestSuite {
         suite.add_test_case(case(report, "plan", status));
     }
     suite.add_test_cases(report.checks.iter().map(|check| case(report, &check.name, status(report, check))));
+    let losses = comparison.map(|comparison| comparison.losses(&report.scenario, &report.planner));
+    suite.add_test_cases(losses.map(|losses| case(report, "baseline", against_baseline(&losses))));
     suite
 }
 
@@ -49,6 +58,18 @@ fn status(report: &Report, check: &Check) -> TestCaseStatus {
         Status::Fail => failure("fail", check),
         Status::Undecided => failure("undecided", check),
     }
+}
+
+/// Passes unless something got worse.
+fn against_baseline(losses: &[&Difference]) -> TestCaseStatus {
+    if losses.is_empty() {
+        return TestCaseStatus::success();
+    }
+    let sentences: Vec<String> = losses.iter().map(|loss| loss.sentence()).collect();
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    status.set_type("worse-than-baseline").set_message(format!("worse than the baseline: {}", sentences[0]));
+    status.set_description(XmlString::new(sentences.join("\n")));
+    status
 }
 
 fn skipped(why: String) -> TestCaseStatus {

@@ -1,77 +1,137 @@
-//! Which field of the scenario file a check is held against.
+//! The fields of a scenario file in which the limit of a check stands.
 
-use scenarios::Scenario;
+use scenarios::{LimitField, Scenario, check_spec};
 
-use crate::verdict::Check;
+use crate::verdict::{Check, LimitKey};
 
-/// Fields that the check's limit may stand in, the likeliest first; the last ones are always in the file.
+/// Fields in which the limit may stand, the most specific first. The last ones are in every file.
 pub(super) fn candidates(check: &Check, scenario: &Scenario) -> Vec<String> {
-    let own = match check.question() {
-        "separation" => vec!["fleet.separation_m".to_owned()],
-        "clearance" | "crash" => obstacles(check, scenario),
-        "envelope" => vec!["verdict.envelope_m".to_owned()],
-        "state_limits" | "control_limits" | "swing" | "tension" => limits(check, scenario),
-        "rest" => vec!["verdict.rest_mps".to_owned()],
-        "slack" => vec!["verdict.switch_s".to_owned()],
-        "goal" => [vec!["verdict.goal_m".to_owned()], vehicle_fields(check, scenario, ".goal")].concat(),
-        "arrival" => vec!["verdict.arrival_spread_s".to_owned(), "fleet.simultaneous_arrival".to_owned()],
-        "duration" => vec!["simulation.max_duration_s".to_owned()],
-        "tracking_rms" => vec!["verdict.tracking_rms_m".to_owned()],
-        "tracking_max" => vec!["verdict.tracking_max_m".to_owned()],
-        "dynamics" => vec!["verdict.dynamics_m".to_owned()],
-        "rollout" => vec!["verdict.rollout_m".to_owned()],
-        "saturation" => vec!["verdict.saturation".to_owned()],
-        _ => Vec::new(),
+    let own = match check_spec(&check.name).map(|spec| spec.limit) {
+        Some(LimitField::Fields(fields)) => fields.iter().map(|field| (*field).to_owned()).collect(),
+        Some(LimitField::Obstacles) => obstacles(check, scenario),
+        Some(LimitField::Gates) => gates(check, scenario),
+        Some(LimitField::ModelLimits) => model_limits(check, scenario),
+        Some(LimitField::Goal) => goal(check, scenario),
+        Some(LimitField::None) | None => Vec::new(),
     };
-    let last = ["verdict", "planner.command", "planner.name"].map(str::to_owned);
-    own.into_iter().chain(last).collect()
+    let fallback = ["verdict", "planner.command", "planner.name"].map(str::to_owned);
+    own.into_iter().chain(fallback).collect()
 }
 
+/// The obstacles concerned; the map and the ground limit vehicles too.
 fn obstacles(check: &Check, scenario: &Scenario) -> Vec<String> {
     let world = &scenario.world;
-    let kinds: [(&str, Vec<&String>); 3] = [
-        ("cylinders", world.cylinders.iter().map(|cylinder| &cylinder.name).collect()),
-        ("boxes", world.boxes.iter().map(|block| &block.name).collect()),
-        ("prisms", world.prisms.iter().map(|prism| &prism.name).collect()),
+    let named = [
+        list("cylinders", check, world.cylinders.iter().map(|cylinder| &cylinder.name)),
+        list("boxes", check, world.boxes.iter().map(|box_obstacle| &box_obstacle.name)),
+        list("prisms", check, world.prisms.iter().map(|prism| &prism.name)),
+        list("moving", check, world.moving.iter().map(|moving| &moving.name)),
     ];
-    let all = kinds.into_iter().flat_map(|(kind, names)| {
-        names.into_iter().enumerate().map(move |(index, name)| (format!("world.{kind}[{index}].name"), name))
-    });
-    all.filter(|(_, name)| check.between.contains(name)).map(|(field, _)| field).collect()
+    let bounds = [("ground", "world.ground_m"), ("map frame", "world.map")];
+    let bounds = bounds.into_iter().filter(|(name, _)| check.between.iter().any(|concerned| concerned == name));
+    named.into_iter().flatten().chain(bounds.map(|(_, field)| field.to_owned())).collect()
 }
 
-/// The limits of the model of the vehicle concerned; the remark of such a check begins with the name of the quantity.
-fn limits(check: &Check, scenario: &Scenario) -> Vec<String> {
-    const KEYS: [(&str, &str); 12] = [
-        ("altitude", "altitude_m"),
-        ("speed", "speed_mps"),
-        ("flight-path angle", "flight_path_deg"),
-        ("n_x", "n_x"),
-        ("n_y", "n_y"),
-        ("n_z", "n_z"),
-        ("thrust", "thrust_n"),
-        ("roll", "attitude_deg"),
-        ("pitch", "attitude_deg"),
-        ("yaw", "attitude_deg"),
-        ("cable angle", "cable_deg"),
-        ("tension", "tension_n"),
-    ];
-    const MAP: [(&str, &str); 3] = [("x", "world.map.x_m"), ("y", "world.map.y_m"), ("z", "world.map.z_m")];
-    let remark = check.reason.as_deref().unwrap_or_default();
-    let is_about = |name: &str| remark.strip_prefix(name).is_some_and(|rest| rest.starts_with(' '));
+fn gates(check: &Check, scenario: &Scenario) -> Vec<String> {
+    list("gates", check, scenario.world.gates.iter().map(|gate| &gate.name))
+}
+
+/// The entries of a list of the world that the check names.
+fn list<'a>(list: &str, check: &Check, names: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let concerned = names.enumerate().filter(|(_, name)| check.between.contains(name));
+    concerned.map(|(index, _)| format!("world.{list}[{index}].name")).collect()
+}
+
+/// The limit that decided, then the table in which it stands.
+fn model_limits(check: &Check, scenario: &Scenario) -> Vec<String> {
     let table = if check.name.starts_with("nodes.") { "planning_limits" } else { "limits" };
-    let key = KEYS.iter().find(|(name, _)| is_about(name)).map(|(_, key)| *key);
-    let vehicles = scenario.vehicles.iter().filter(|vehicle| check.between.contains(&vehicle.name));
+    let mut concerned = scenario.vehicles.iter().filter(|vehicle| check.between.contains(&vehicle.name));
     let family = scenario.family().key();
-    let model = vehicles.map(|vehicle| format!("models.{family}.{}.{table}", vehicle.model)).next();
-    let on_map = MAP.iter().find(|(name, _)| is_about(name)).map(|(_, field)| (*field).to_owned());
-    let of_model =
-        model.into_iter().flat_map(|model| key.map(|key| format!("{model}.{key}")).into_iter().chain([model]));
-    on_map.into_iter().chain(of_model).collect()
+    let model = concerned.next().map(|vehicle| format!("models.{family}.{}", vehicle.model));
+    let limit = match (check.limit_key, &model) {
+        (Some(LimitKey::Map(key)), _) => Some(format!("world.map.{key}")),
+        (Some(LimitKey::Limits(key)), Some(model)) => Some(format!("{model}.{table}.{key}")),
+        (Some(LimitKey::Airframe(key)), Some(model)) => Some(format!("{model}.airframe.{key}")),
+        _ => None,
+    };
+    limit.into_iter().chain(model.map(|model| format!("{model}.{table}"))).collect()
 }
 
-fn vehicle_fields(check: &Check, scenario: &Scenario, field: &str) -> Vec<String> {
+/// The tolerance, then the goals of the vehicles concerned.
+fn goal(check: &Check, scenario: &Scenario) -> Vec<String> {
     let vehicles = scenario.vehicles.iter().enumerate();
     let concerned = vehicles.filter(|(_, vehicle)| check.between.contains(&vehicle.name));
-    concerned.map(|(index, _)| format!("vehicles[{index}]{field}")).collect()
+    let goals = concerned.map(|(index, _)| format!("vehicles[{index}].goal"));
+    std::iter::once("verdict.goal_m".to_owned()).chain(goals).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use scenarios::{Scenario, check_spec};
+
+    use super::candidates;
+    use crate::verdict::{Check, LimitKey, Status};
+
+    fn shipped(name: &str) -> Scenario {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+        scenarios::load(&path).expect("a shipped scenario loads")
+    }
+
+    /// The most specific field of a check that failed between these.
+    fn field(name: &str, limit_key: Option<LimitKey>, between: &[&str], scenario: &Scenario) -> String {
+        let check = Check {
+            name: name.to_owned(),
+            status: Status::Fail,
+            value: Some(-1.0),
+            lower: None,
+            upper: None,
+            limit: Some(0.0),
+            margin: Some(-1.0),
+            unit: check_spec(name).expect("a check").unit.to_owned(),
+            at_s: None,
+            between: between.iter().map(|name| (*name).to_owned()).collect(),
+            advisory: false,
+            reason: None,
+            limit_key,
+        };
+        candidates(&check, scenario).swap_remove(0)
+    }
+
+    #[test]
+    fn moving_obstacles_and_the_map_are_found() {
+        let scenario = shipped("multirotor/corridor-moving.toml");
+        let cart = scenario.world.moving[1].name.clone();
+        assert_eq!(field("flight.clearance", None, &["uav-1", &cart], &scenario), "world.moving[1].name");
+        assert_eq!(field("flight.crash", None, &["uav-1", &cart], &scenario), "world.moving[1].name");
+        assert_eq!(field("flight.clearance", None, &["uav-1", "map frame"], &scenario), "world.map");
+    }
+
+    #[test]
+    fn gates_and_the_ground_are_found() {
+        let scenario = shipped("slung/gate.toml");
+        let (gate, vehicle) = (scenario.world.gates[0].name.clone(), scenario.vehicles[0].name.clone());
+        for group in ["nodes", "plan", "flight"] {
+            let name = format!("{group}.gates");
+            assert_eq!(field(&name, None, &[&vehicle, &gate], &scenario), "world.gates[0].name");
+        }
+        assert_eq!(field("flight.clearance", None, &[&vehicle, "ground"], &scenario), "world.ground_m");
+    }
+
+    #[test]
+    fn the_limit_that_decided_is_found_whatever_the_reason_says() {
+        let fleet = shipped("fixed-wing/rendezvous-7.toml");
+        let model = format!("models.fixed-wing.{}", fleet.vehicles[0].model);
+        let vehicle = fleet.vehicles[0].name.as_str();
+        let limit = |name, key| field(name, Some(key), &[vehicle], &fleet);
+        assert_eq!(limit("nodes.control_limits", LimitKey::Limits("n_z")), format!("{model}.planning_limits.n_z"));
+        assert_eq!(limit("flight.state_limits", LimitKey::Limits("speed_mps")), format!("{model}.limits.speed_mps"));
+        assert_eq!(limit("plan.state_limits", LimitKey::Map("x_m")), "world.map.x_m");
+        let multirotor = shipped("multirotor/paper-map-quadrotor.toml");
+        let model = format!("models.multirotor.{}", multirotor.vehicles[0].model);
+        let vehicle = multirotor.vehicles[0].name.as_str();
+        let tilt = field("flight.state_limits", Some(LimitKey::Airframe("tilt_deg")), &[vehicle], &multirotor);
+        assert_eq!(tilt, format!("{model}.airframe.tilt_deg"));
+    }
 }

@@ -17,6 +17,9 @@ pub struct Summary {
     pub runs: Vec<SummaryRun>,
     /// Files that could not be run.
     pub refused: Vec<RefusedFile>,
+    /// Number of results that got worse than the baseline; absent without a baseline.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worse_than_baseline: Option<usize>,
 }
 
 /// One job.
@@ -57,7 +60,7 @@ pub struct RefusedFile {
 
 impl Default for Summary {
     fn default() -> Self {
-        Self { schema: SCHEMA, runs: Vec::new(), refused: Vec::new() }
+        Self { schema: SCHEMA, runs: Vec::new(), refused: Vec::new(), worse_than_baseline: None }
     }
 }
 
@@ -101,17 +104,23 @@ impl Summary {
             (self.count(Outcome::Fail), "failed"),
             (self.count(Outcome::NoPlan), "without a plan"),
             (self.refused.len(), "refused as bad input"),
+            (self.worse_than_baseline.unwrap_or(0), "worse than the baseline"),
         ];
         let others = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
         let passed = format!("{} passed", self.count(Outcome::Pass));
         std::iter::once(passed).chain(others).collect::<Vec<_>>().join(", ")
     }
 
-    /// The exit code of the run. Bad input weighs more than a bad verdict.
+    /// Did every verdict pass, without refused files and without a loss against the baseline?
+    pub fn is_good(&self) -> bool {
+        self.exit() == Exit::Passed
+    }
+
+    /// The exit code of the run. Bad input takes precedence over failed verdicts and losses against the baseline.
     pub fn exit(&self) -> Exit {
         if !self.refused.is_empty() {
             Exit::BadInput
-        } else if self.runs.iter().any(|run| run.verdict != Outcome::Pass) {
+        } else if self.runs.iter().any(|run| run.verdict != Outcome::Pass) || self.worse_than_baseline > Some(0) {
             Exit::Failed
         } else {
             Exit::Passed
@@ -167,6 +176,12 @@ mod tests {
         assert_eq!(summary(&[Pass, NoPlan], 0).exit(), Exit::Failed);
         assert_eq!(summary(&[Pass, Fail], 1).exit(), Exit::BadInput);
         assert_eq!(summary(&[], 1).exit(), Exit::BadInput);
+        let against = |worse| Summary { worse_than_baseline: Some(worse), ..summary(&[Pass, Pass], 0) };
+        assert_eq!((against(0).exit(), against(1).exit()), (Exit::Passed, Exit::Failed));
+        assert_eq!(
+            (against(0).counts_line(), against(1).counts_line()),
+            ("2 passed".into(), "2 passed, 1 worse than the baseline".into())
+        );
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub fn summary(summary: &Summary, out: &Path) -> String {
     let repeated = if summary.runs.len() > 1 { bad.as_slice() } else { &[] };
     let repeated: String =
         repeated.iter().map(|run| verdict_line(run.verdict, &run.scenario, &run.planner) + "\n").collect();
-    let color = if bad.is_empty() && summary.refused.is_empty() { AnsiColor::Green } else { AnsiColor::Red };
+    let color = if summary.is_good() { AnsiColor::Green } else { AnsiColor::Red };
     format!("{repeated}{}; results in {}", painted(&summary.counts_line(), color), out.display())
 }
 

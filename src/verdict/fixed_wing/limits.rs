@@ -11,12 +11,12 @@
 use scenarios::fixed_wing::{Control, Limits, Model};
 use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
-use crate::verdict::Check;
 use crate::verdict::evidence::Evidence;
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::Motion;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
+use crate::verdict::{Check, LimitKey};
 
 /// States at the nodes against the planning limits.
 pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
@@ -132,13 +132,24 @@ impl<'a> Limited<'a> {
     }
 
     fn altitude(&self, worst: &mut Worst<'a>, value: f64, t_s: f64) {
-        let altitude = Quantity { name: "altitude", unit: "m", range: self.limits.altitude_m };
+        let altitude = Quantity {
+            name: "altitude",
+            unit: "m",
+            range: self.limits.altitude_m,
+            key: LimitKey::Limits("altitude_m"),
+        };
         worst.consider(self.vehicle, altitude, value, t_s);
     }
 
     fn velocity(&self, worst: &mut Worst<'a>, speed_mps: f64, flight_path_deg: f64, t_s: f64) {
-        let speed = Quantity { name: "speed", unit: "m/s", range: self.limits.speed_mps };
-        let flight_path = Quantity { name: "flight-path angle", unit: "deg", range: self.limits.flight_path_deg };
+        let speed =
+            Quantity { name: "speed", unit: "m/s", range: self.limits.speed_mps, key: LimitKey::Limits("speed_mps") };
+        let flight_path = Quantity {
+            name: "flight-path angle",
+            unit: "deg",
+            range: self.limits.flight_path_deg,
+            key: LimitKey::Limits("flight_path_deg"),
+        };
         worst.consider(self.vehicle, speed, speed_mps, t_s);
         worst.consider(self.vehicle, flight_path, flight_path_deg, t_s);
     }
@@ -151,7 +162,7 @@ impl<'a> Limited<'a> {
     fn control(&self, worst: &mut Worst<'a>, control: &Control, t_s: f64) {
         let named = ["n_x", "n_y", "n_z"].into_iter().zip(self.limits.controls());
         for ((name, range), value) in named.zip(control.to_array()) {
-            worst.consider(self.vehicle, Quantity { name, unit: "-", range }, value, t_s);
+            worst.consider(self.vehicle, Quantity { name, unit: "-", range, key: LimitKey::Limits(name) }, value, t_s);
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::verdict::evidence::Evidence;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
-use crate::verdict::{Check, FlownMotions};
+use crate::verdict::{Check, FlownMotions, LimitKey};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
 const ROTATION_TOLERANCE: f64 = 1e-6;
@@ -112,11 +112,16 @@ impl<'a> Limited<'a> {
     }
 
     fn speed(&self, worst: &mut Worst<'a>, speed_mps: f64, most_mps: f64, t_s: f64) {
-        worst.consider(self.vehicle, up_to("speed", "m/s", most_mps), speed_mps, t_s);
+        worst.consider(self.vehicle, up_to("speed", "m/s", most_mps, LimitKey::Limits("speed_mps")), speed_mps, t_s);
     }
 
     fn acceleration(&self, worst: &mut Worst<'a>, value_mps2: f64, most_mps2: f64, t_s: f64) {
-        worst.consider(self.vehicle, up_to("acceleration", "m/s²", most_mps2), value_mps2, t_s);
+        worst.consider(
+            self.vehicle,
+            up_to("acceleration", "m/s²", most_mps2, LimitKey::Limits("acceleration_mps2")),
+            value_mps2,
+            t_s,
+        );
     }
 
     /// The airframe, of a quadrotor.
@@ -131,7 +136,12 @@ impl<'a> Limited<'a> {
         let is_rotation = !exceeds((attitude.norm() - 1.0).abs(), ROTATION_TOLERANCE);
         let body_z = UnitQuaternion::from_quaternion(attitude) * Vector3::z();
         let tilt_deg = if is_rotation { body_z.z.clamp(-1.0, 1.0).acos().to_degrees() } else { f64::NAN };
-        worst.consider(self.vehicle, up_to("tilt", "deg", airframe.tilt_deg), tilt_deg, sample.t_s);
+        worst.consider(
+            self.vehicle,
+            up_to("tilt", "deg", airframe.tilt_deg, LimitKey::Airframe("tilt_deg")),
+            tilt_deg,
+            sample.t_s,
+        );
     }
 
     fn control(&self, worst: &mut Worst<'a>, sample: &Sample) {
@@ -139,7 +149,8 @@ impl<'a> Limited<'a> {
             (Actuation::Thrusts(Commanded { control, .. }), Some(airframe)) => {
                 let named = ["F_1", "F_2", "F_3", "F_4"].into_iter().zip(control.thrust_n);
                 for (name, value) in named {
-                    let quantity = Quantity { name, unit: "N", range: airframe.thrust_n };
+                    let quantity =
+                        Quantity { name, unit: "N", range: airframe.thrust_n, key: LimitKey::Airframe("thrust_n") };
                     worst.consider(self.vehicle, quantity, value, sample.t_s);
                 }
             }
@@ -153,8 +164,8 @@ impl<'a> Limited<'a> {
 }
 
 /// A magnitude: the range goes as far below 0 as above, so that small ones are far inside.
-fn up_to(name: &'static str, unit: &'static str, most: f64) -> Quantity {
-    Quantity { name, unit, range: Range::new(-most, most) }
+fn up_to(name: &'static str, unit: &'static str, most: f64, key: LimitKey) -> Quantity {
+    Quantity { name, unit, range: Range::new(-most, most), key }
 }
 
 fn norm([x, y, z]: [f64; 3]) -> f64 {

@@ -5,9 +5,9 @@ use sim::slung_load::MIN_PHASE_S;
 use sim::{EventKind, Flight, VehicleLog};
 
 use super::planned::PlannedMotion;
-use crate::verdict::Check;
 use crate::verdict::compare::{exceeds, is_larger, is_smaller};
 use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::{Check, LimitKey};
 use scenarios::CheckSpec;
 
 /// Tension is judged by its mean over this time, s: a stiff cable has no finite peak at an impact, but an impulse.
@@ -81,7 +81,10 @@ fn highest_mean(spec: &CheckSpec, vehicle: &str, mut impulses: Vec<(f64, f64)>, 
     }
     match highest {
         None => spec.fail("there is no motion"),
-        Some((mean_n, at_s)) => spec.at_most(Measurement::value(mean_n).at(at_s).with(vehicle), limit_n),
+        Some((mean_n, at_s)) => {
+            let measured = Measurement::value(mean_n).at(at_s).with(vehicle);
+            Check { limit_key: Some(LimitKey::Limits("tension_n")), ..spec.at_most(measured, limit_n) }
+        }
     }
 }
 

@@ -12,10 +12,10 @@ use sim::slung_load::SlungLoadState;
 use sim::{Actuation, VehicleLog};
 
 use super::planned::PlannedMotion;
-use crate::verdict::Check;
 use crate::verdict::evidence::Evidence;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
+use crate::verdict::{Check, LimitKey};
 
 /// A vehicle and what it has to stay inside.
 pub struct LimitChecks<'a> {
@@ -140,19 +140,34 @@ impl<'a> LimitChecks<'a> {
     fn attitude(&self, worst: &mut Worst<'a>, attitude: &UnitQuaternion<f64>, range: Range, t_s: f64) {
         let (roll, pitch, yaw) = attitude.euler_angles();
         for (name, angle) in [("roll", roll), ("pitch", pitch), ("yaw", yaw)] {
-            worst.consider(self.vehicle, Quantity { name, unit: "deg", range }, angle.to_degrees(), t_s);
+            worst.consider(
+                self.vehicle,
+                Quantity { name, unit: "deg", range, key: LimitKey::Limits("attitude_deg") },
+                angle.to_degrees(),
+                t_s,
+            );
         }
     }
 
     fn cable(&self, worst: &mut Worst<'a>, body: &SlungLoadState, range: Range, t_s: f64) {
         for (name, angle) in ["cable angle alpha", "cable angle beta"].into_iter().zip(body.cable_angles_rad()) {
-            worst.consider(self.vehicle, Quantity { name, unit: "deg", range }, angle.to_degrees(), t_s);
+            worst.consider(
+                self.vehicle,
+                Quantity { name, unit: "deg", range, key: LimitKey::Limits("cable_deg") },
+                angle.to_degrees(),
+                t_s,
+            );
         }
     }
 
     fn thrusts(&self, worst: &mut Worst<'a>, thrust_n: [f64; 4], range: Range, t_s: f64) {
         for (name, value) in ["F_1", "F_2", "F_3", "F_4"].into_iter().zip(thrust_n) {
-            worst.consider(self.vehicle, Quantity { name, unit: "N", range }, value, t_s);
+            worst.consider(
+                self.vehicle,
+                Quantity { name, unit: "N", range, key: LimitKey::Limits("thrust_n") },
+                value,
+                t_s,
+            );
         }
     }
 }

@@ -232,6 +232,7 @@ fn verdict() -> Verdict {
         between: between.iter().map(|name| (*name).to_owned()).collect(),
         advisory: false,
         reason: None,
+        limit_key: None,
     };
     let skipped = Check {
         status: Status::Skip,
