@@ -7,7 +7,7 @@ pub mod fixed_wing;
 mod flight;
 mod in_loop;
 pub mod multirotor;
-mod over_time;
+pub mod over_time;
 pub mod slung_load;
 pub mod trajectory_error;
 
@@ -20,7 +20,6 @@ use self::trajectory_error::VehicleErrors;
 use crate::{families, verdict};
 
 pub use in_loop::InLoopMetrics;
-pub use over_time::{DistanceSample, clearance_in_space_over_time, clearance_over_time, separation_over_time};
 pub use slung_load::{CableSwitch, SlungLoadMetrics};
 
 /// Everything that was measured of a plan and its flight.

@@ -3,6 +3,7 @@
 mod files;
 pub mod recording;
 pub mod report;
+#[cfg(any(feature = "mcap", feature = "rrd"))]
 mod run;
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 pub mod scene;

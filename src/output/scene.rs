@@ -39,7 +39,7 @@ pub use paths::TRAIL_S;
 pub use series::{PlotView, Series, SeriesKind, StateSeries, Tab};
 pub use shape::{BoxOutline, Cylinder, Cylinders, Label, Lines, Paint, Points, Radius, Shape, Sphere, Triangles};
 
-use super::run::Run;
+use super::run::JudgedRun;
 
 /// Everything there is to see of a run.
 #[derive(Default)]
@@ -115,9 +115,9 @@ impl Scene<'_> {
 /// What a vehicle family adds to a scene.
 pub struct FamilyScene {
     /// Adds bodies, series and plots of a flight.
-    pub add: for<'a> fn(&mut Scene<'a>, &Run<'a>, &'a Flight),
+    pub add: for<'a> fn(&mut Scene<'a>, &JudgedRun<'a>, &'a Flight),
     /// How to read the picture: lines of Markdown.
-    pub legend: fn(&Run<'_>) -> Vec<String>,
+    pub legend: fn(&JudgedRun<'_>) -> Vec<String>,
     /// The log line at the end of the plan.
     pub end_of_plan: &'static str,
 }

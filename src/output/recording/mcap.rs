@@ -63,7 +63,7 @@ impl Recorder for Mcap {
         attach(&writer, "scenario.json", run.scenario)?;
         attach(&writer, "plan.json", run.plan)?;
         attach(&writer, "verdict.json", run.verdict)?;
-        let scene = builder::build(run);
+        let scene = builder::build(&run.judged());
         let artist = Artist::new(&run.scenario.world.map);
         shapes::log(&context, &scene, &artist);
         bodies::log(&context, &scene.bodies, &artist);

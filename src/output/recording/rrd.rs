@@ -51,7 +51,7 @@ impl Recorder for Rrd {
 
     fn write(&self, run: &Run<'_>, path: &Path) -> Logged {
         let stream = open(run, path)?;
-        let scene = builder::build(run);
+        let scene = builder::build(&run.judged());
         layout::send(&stream, run, &scene)?;
         document::log(&stream, run, &scene.legend)?;
         events::log(&stream, &scene.events)?;

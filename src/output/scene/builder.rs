@@ -2,10 +2,10 @@
 
 use super::{Scene, closest, end_s, events, map, obstacles, paths};
 use crate::families;
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 
 /// The scene of a run: what all families share, and what the family of its vehicles adds.
-pub fn build<'a>(run: &Run<'a>) -> Scene<'a> {
+pub fn build<'a>(run: &JudgedRun<'a>) -> Scene<'a> {
     let family = &families::of(run.scenario.family()).scene;
     let mut scene = Scene { end_s: run.flight.map_or(0.0, end_s), ..Scene::default() };
     map::add(&mut scene, run.scenario);

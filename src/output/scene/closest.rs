@@ -6,7 +6,7 @@ use sim::{EventKind, Flight, Sample};
 use super::body::is_drawable;
 use super::{Lines, Paint, Points, Scene, colours};
 use crate::number_format::quantity;
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 use crate::verdict::{Check, Status};
 
 /// The checks that are marked in space, and their labels.
@@ -14,7 +14,7 @@ const MARKED: [(&str, &str); 2] = [("flight.separation", "separation"), ("flight
 
 /// Adds one line between the two objects that came closest for every marked check that names them, and a point where each
 /// vehicle crashed.
-pub(super) fn add(scene: &mut Scene<'_>, run: &Run<'_>, flight: &Flight) {
+pub(super) fn add(scene: &mut Scene<'_>, run: &JudgedRun<'_>, flight: &Flight) {
     for (name, title) in MARKED {
         let Some(check) = run.verdict.checks.iter().find(|check| check.name == name) else { continue };
         if is_crash(flight, check) {
@@ -52,7 +52,7 @@ fn add_crashes(scene: &mut Scene<'_>, flight: &Flight) {
 }
 
 /// The positions of the two objects concerned: two vehicles, or a vehicle and the nearest point of an obstacle, m.
-fn ends_m(run: &Run<'_>, flight: &Flight, check: &Check) -> Option<[[f64; 3]; 2]> {
+fn ends_m(run: &JudgedRun<'_>, flight: &Flight, check: &Check) -> Option<[[f64; 3]; 2]> {
     let [first, second] = check.between.as_slice() else { return None };
     let at_s = check.at_s?;
     let vehicle_m = |name: &str| position_m(flight, name, at_s);

@@ -3,8 +3,8 @@
 use scenarios::Scenario;
 
 use super::{Curve, Scene, Series, colours};
-use crate::metrics::{DistanceSample, separation_over_time};
-use crate::output::run::Run;
+use crate::metrics::over_time::{DistanceSample, separation_over_time};
+use crate::output::run::JudgedRun;
 use crate::verdict::{FlownMotions, Motion, is_flyable};
 
 /// Time between two points, s.
@@ -17,7 +17,7 @@ const MAX_POINTS: usize = 4000;
 /// - `clearance_over_time`: smallest clearance of any of the motions, at steps of the given length, s
 pub(super) fn add(
     scene: &mut Scene<'_>,
-    run: &Run<'_>,
+    run: &JudgedRun<'_>,
     clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
 ) -> Distances {
     let distances = Distances::new(run, clearance_over_time);
@@ -48,7 +48,7 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    fn new(run: &Run<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
+    fn new(run: &JudgedRun<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
         let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
         let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
             return Self::default();
@@ -67,7 +67,7 @@ impl Distances {
 
 /// The curve through `series` and through the worst instant of the check, which lies between two points of the series: the
 /// plot must not look better than the verdict.
-fn with_worst(run: &Run<'_>, check: &str, series: &[DistanceSample]) -> Option<Curve> {
+fn with_worst(run: &JudgedRun<'_>, check: &str, series: &[DistanceSample]) -> Option<Curve> {
     let check = run.verdict.checks.iter().find(|candidate| candidate.name == check);
     let worst = check.and_then(|check| Some((check.at_s?, check.value?)));
     let mut points: Vec<(f64, f64)> = series.iter().map(|nearest| (nearest.t_s, nearest.distance_m)).collect();

@@ -3,7 +3,7 @@
 use sim::{EventKind, Flight};
 
 use crate::number_format::{given_quantity, quantity};
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 use crate::verdict::{Check, Status};
 
 /// A line of the log.
@@ -33,7 +33,7 @@ pub enum Level {
 /// All events in the order of time.
 ///
 /// - `end_of_plan`: what happens when the plan ends
-pub(super) fn all(run: &Run<'_>, end_of_plan: &str) -> Vec<Event> {
+pub(super) fn all(run: &JudgedRun<'_>, end_of_plan: &str) -> Vec<Event> {
     let end_s = run.plan.flight_time_s().unwrap_or(0.0);
     let mut events: Vec<Event> = run.verdict.checks.iter().filter_map(|check| check_event(check, end_s)).collect();
     if let Some(flight) = run.flight {

@@ -12,9 +12,9 @@ use super::{
     Body, BodyKind, Channel, Channels, Cylinder, Cylinders, FamilyScene, Paint, Part, Plot, PlotView, Points, Pose,
     Scene, Series, TRAIL_S, Tab, colours, distances, item_path,
 };
-use crate::metrics::clearance_over_time;
+use crate::metrics::over_time::clearance_over_time;
 use crate::number_format::given;
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 
 /// Shortest time between two poses, s.
 const POSE_INTERVAL_S: f64 = 0.1;
@@ -36,7 +36,7 @@ const MAX_POINTS_OF_FLEET: usize = 240_000;
 /// What fixed wings add to a scene.
 pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan ends, the vehicles fly straight on" };
 
-fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, flight: &'a Flight) {
+fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     add_bodies(scene, run.scenario, flight);
     let distances = distances::add(scene, run, |scenario, motions, step_s| {
         clearance_over_time(motions, &scenario.world.cylinders, step_s)
@@ -131,7 +131,7 @@ fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distan
     scene.tabs.push(Tab { name: "Speed and altitude", plots: plots(&[Airspeed, Altitude]) });
 }
 
-fn legend(run: &Run<'_>) -> Vec<String> {
+fn legend(run: &JudgedRun<'_>) -> Vec<String> {
     let scenario = run.scenario;
     let body_m = scenario.vehicles.iter().filter_map(|vehicle| scenario.models.fixed_wing.get(&vehicle.model));
     let body_m = body_m.map(|model| 2.0 * model.body_radius_m).fold(0.0, f64::max);

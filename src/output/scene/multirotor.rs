@@ -8,8 +8,8 @@ use scenarios::{Scenario, Vehicle};
 use sim::{Actuation, Flight, Sample, VehicleLog};
 
 use super::{Channel, Channels, FamilyScene, Plot, PlotView, Scene, Series, Tab, colours, distance_m, distances, norm};
-use crate::metrics::clearance_in_space_over_time;
-use crate::output::run::Run;
+use crate::metrics::over_time::clearance_in_space_over_time;
+use crate::output::run::JudgedRun;
 
 /// Largest number of points of one series.
 const MAX_POINTS: usize = 2000;
@@ -21,7 +21,7 @@ const MAX_ENTRIES_OF_LOW_PLOT: usize = 3;
 /// What multirotors add to a scene.
 pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the flight is over" };
 
-fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, flight: &'a Flight) {
+fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     vehicle::add(scene, run.scenario, flight);
     if let Some(log) = &flight.planning {
         planning::add(scene, run.scenario, log);
@@ -147,7 +147,7 @@ fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distan
     }
 }
 
-fn legend(_: &Run<'_>) -> Vec<String> {
+fn legend(_: &JudgedRun<'_>) -> Vec<String> {
     let lines = [
         "- everything is to scale; unbounded obstacles are drawn from the floor to the ceiling of the map",
         "- obstacles: red once a vehicle knows of them, pale violet until they are sensed; orange: moving",

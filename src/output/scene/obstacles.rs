@@ -5,7 +5,7 @@ use sim::{EventKind, Flight};
 
 use super::map::middle;
 use super::{Body, BodyKind, Changes, Cylinder, Cylinders, Lines, Paint, Part, Pose, Scene, colours, item_path};
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 
 /// Number of vertical lines on the faces of a prism.
 const FACE_LINES: f64 = 60.0;
@@ -15,7 +15,7 @@ const CYLINDER_CORNERS: usize = 24;
 const INTERVAL_S: f64 = 0.05;
 
 /// Adds all obstacles.
-pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>) {
+pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>) {
     add_known(scene, run.scenario);
     add_hidden(scene, run.scenario, run.flight);
     for moving in &run.scenario.world.moving {

@@ -5,7 +5,7 @@ use sim::{Flight, Sample};
 
 use super::body::spaced;
 use super::{Animation, Lines, Paint, Scene, colours, is_finite, item_path};
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 use crate::verdict::Knot;
 
 /// Points of a planned path between two nodes.
@@ -23,7 +23,7 @@ const TRAIL_INTERVAL_S: f64 = 1.0;
 
 /// Adds the planned paths (the cubic through positions and velocities of the nodes) and the alternatives that the planner
 /// discarded.
-pub(super) fn add_planned(scene: &mut Scene<'_>, run: &Run<'_>) {
+pub(super) fn add_planned(scene: &mut Scene<'_>, run: &JudgedRun<'_>) {
     let count = run.scenario.vehicles.len();
     for (index, trajectory) in run.plan.trajectories.iter().enumerate() {
         let paint = Paint::opaque(colours::dimmed(colours::vehicle(index, count)));

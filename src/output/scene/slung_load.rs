@@ -6,12 +6,12 @@ mod series;
 use sim::Flight;
 
 use super::{FamilyScene, PlotView, Scene, Tab};
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 
 /// What a slung load adds to a scene.
 pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan ends, the vehicle hovers" };
 
-fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, flight: &'a Flight) {
+fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     for log in &flight.vehicles {
         bodies::add(scene, run, log);
     }
@@ -29,7 +29,7 @@ fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, flight: &'a Flight) {
     scene.tabs.push(Tab { name: "Forces", plots: forces });
 }
 
-fn legend(_: &Run<'_>) -> Vec<String> {
+fn legend(_: &JudgedRun<'_>) -> Vec<String> {
     let lines = [
         "- everything is to scale; unbounded obstacles are drawn from the floor to the ceiling of the map",
         "- red: obstacles, limits, violations",

@@ -11,7 +11,7 @@ use scenarios::{Map, Scenario};
 use super::blueprint::{Blueprint, Part, ViewClass};
 use super::shapes::color;
 use super::{Logged, SIM_TIME, convergence, to_f32};
-use crate::output::run::Run;
+use crate::output::recording::Run;
 use crate::output::scene::{Paint, PlotView, Scene, colours};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;

@@ -8,7 +8,7 @@ use super::super::body::{is_drawable, is_due};
 use super::super::{
     Animation, Body, BodyKind, Lines, Paint, Part, Points, Pose, Radius, Scene, circle, colours, is_finite, item_path,
 };
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 
 /// Time between two frames, s.
 const FRAME_S: f64 = 0.02;
@@ -27,7 +27,7 @@ struct Frame<'a> {
 }
 
 /// Adds one vehicle with its load.
-pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, log: &'a VehicleLog) {
+pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, log: &'a VehicleLog) {
     let Some(vehicle) = run.scenario.vehicles.iter().find(|vehicle| vehicle.name == log.vehicle) else { return };
     let model = run.scenario.slung_load_model(vehicle);
     scene.bodies.extend([quadrotor(model, log), load(model, log)]);

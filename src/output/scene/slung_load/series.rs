@@ -6,7 +6,7 @@ use sim::slung_load::{Part, Parts, SlungLoadState};
 use sim::{Actuation, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use super::super::{Channel, Channels, Curve, Plot, Scene, Series, StateSeries, colours, distance_m};
-use crate::output::run::Run;
+use crate::output::run::JudgedRun;
 use crate::verdict::is_flyable;
 use crate::verdict::slung_load::{FlownMotion, PlannedMotion, TENSION_WINDOW_S};
 
@@ -18,7 +18,7 @@ const DISTANCE_STEP_S: f64 = 0.01;
 const WIDTH: f32 = 1.3;
 
 /// Adds every series of the flight.
-pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &Run<'a>, flight: &'a Flight) {
+pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     let (Some(log), Some(vehicle)) = (flight.vehicles.first(), run.scenario.vehicles.first()) else { return };
     let (model, end_s) = (run.scenario.slung_load_model(vehicle), scene.end_s);
     scene.channels.push(channels(log, flight.plan_end_s));
@@ -86,7 +86,7 @@ fn cable_deg(sample: &Sample, load: &LoadSample) -> f64 {
     x.hypot(y).atan2(-z).to_degrees()
 }
 
-fn add_tension(scene: &mut Scene<'_>, run: &Run<'_>, log: &VehicleLog) {
+fn add_tension(scene: &mut Scene<'_>, run: &JudgedRun<'_>, log: &VehicleLog) {
     let window = (TENSION_WINDOW_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
     let mean_n = |end: usize| {
         let first = (end + 1).saturating_sub(window);
@@ -104,7 +104,7 @@ fn add_tension(scene: &mut Scene<'_>, run: &Run<'_>, log: &VehicleLog) {
 }
 
 /// Distance of every part and of the envelope to the nearest obstacle; of the body to the ground too.
-fn add_distances(scene: &mut Scene<'_>, run: &Run<'_>, model: &Model, flight: &Flight) {
+fn add_distances(scene: &mut Scene<'_>, run: &JudgedRun<'_>, model: &Model, flight: &Flight) {
     let Ok(flown) = FlownMotion::new(flight) else { return };
     let (obstacles, parts) = (run.scenario.world.prism_obstacles(), Parts::new(model));
     let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
@@ -126,7 +126,7 @@ fn add_distances(scene: &mut Scene<'_>, run: &Run<'_>, model: &Model, flight: &F
 }
 
 /// The planned and the flown state of the cable, as states and as a curve of steps.
-fn add_states(scene: &mut Scene<'_>, run: &Run<'_>, flight: &Flight) {
+fn add_states(scene: &mut Scene<'_>, run: &JudgedRun<'_>, flight: &Flight) {
     let Some(scenarios::Trajectory::SlungLoad(trajectory)) = run.plan.trajectories.first() else { return };
     let Some(first) = trajectory.cable.first() else { return };
     let flown = flight.events.iter().filter_map(|event| match event.kind {
