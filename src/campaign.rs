@@ -9,4 +9,3 @@ pub mod margin_budget;
 #[cfg(feature = "parquet")]
 pub mod monte_carlo;
 pub mod selftest;
-pub mod system_under_test;

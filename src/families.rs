@@ -4,8 +4,8 @@ use scenarios::{Family, Plan, Scenario, Vehicle};
 use serde_json::Value;
 use sim::Flight;
 
-use crate::campaign::selftest;
-use crate::campaign::selftest::family::FamilySelftest;
+use crate::campaign::failure_threshold::TypicalDisturbances;
+use crate::campaign::selftest::{self, FamilySelftest};
 use crate::metrics::{self, Metrics};
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 use crate::output::scene::{self, FamilyScene};
@@ -21,14 +21,12 @@ pub struct VehicleFamily {
     pub checks: for<'a> fn(&Case<'a>) -> Vec<Check>,
     /// The figures of a flyable plan and, if there is one, its flight.
     pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
-    /// What an external planner is told of a vehicle.
+    /// A vehicle as external planners are told of it.
     pub request: fn(&Scenario, &Vehicle) -> Value,
-    /// What the selftest does with it.
-    pub selftest: &'static FamilySelftest,
-    /// Radius of the disc from which a sweep draws the wind that it adds, unless told otherwise, m/s.
-    pub usual_wind_mps: f64,
-    /// Standard deviation of the position measurement at which a search for a failure begins, m.
-    pub first_noise_m: f64,
+    /// References, faults and near misses of the selftest.
+    pub selftest: FamilySelftest,
+    /// The disturbances at which `stress` begins and which `sweep` draws.
+    pub typical_disturbances: TypicalDisturbances,
     /// What it adds to the scene that recordings draw.
     #[cfg(any(feature = "mcap", feature = "rrd"))]
     pub scene: FamilyScene,
@@ -39,10 +37,9 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::FixedWing,
         checks: verdict::fixed_wing::checks,
         measure: metrics::fixed_wing::measure,
-        request: request::fixed_wing,
-        selftest: &selftest::fixed_wing::SELFTEST,
-        usual_wind_mps: 3.0,
-        first_noise_m: 0.25,
+        request: request::fixed_wing::vehicle,
+        selftest: selftest::fixed_wing::SELFTEST,
+        typical_disturbances: TypicalDisturbances { wind_mps: 3.0, position_noise_m: 0.25 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::fixed_wing::SCENE,
     },
@@ -50,10 +47,9 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::SlungLoad,
         checks: verdict::slung_load::checks,
         measure: metrics::slung_load::measure,
-        request: request::slung_load,
-        selftest: &selftest::slung_load::SELFTEST,
-        usual_wind_mps: 1.0,
-        first_noise_m: 0.002,
+        request: request::slung_load::vehicle,
+        selftest: selftest::slung_load::SELFTEST,
+        typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::slung_load::SCENE,
     },
@@ -61,10 +57,9 @@ static FAMILIES: [VehicleFamily; 3] = [
         family: Family::Multirotor,
         checks: verdict::multirotor::checks,
         measure: metrics::multirotor::measure,
-        request: request::multirotor,
-        selftest: &selftest::multirotor::SELFTEST,
-        usual_wind_mps: 1.0,
-        first_noise_m: 0.002,
+        request: request::multirotor::vehicle,
+        selftest: selftest::multirotor::SELFTEST,
+        typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::multirotor::SCENE,
     },

@@ -1,40 +1,41 @@
 //! Where a plan comes from: a registered planner, an external command, or an imported file.
+//!
+//! ```text
+//! PlanSource --prepare--> Guidance (a plan, or in-loop planners) --fly--> Flown (plan and flight)
+//! ```
 
 use planners::Planner;
-use scenarios::in_loop::InLoopPlanner;
-use scenarios::{Iteration, Plan, Scenario};
-use sim::Flight;
+use scenarios::{Iteration, Scenario};
 
 pub mod external;
+mod guidance;
 pub mod in_loop;
 pub mod plan_import;
 
 use self::external::ExternalPlanner;
+pub use self::guidance::{Flown, Guidance};
 use self::plan_import::CompletedPlan;
 
-/// Those who plan in the loop, one per vehicle.
-pub type InLoopPlanners = Vec<Box<dyn InLoopPlanner>>;
-
-/// Ends a command that plans in the loop, and returns what it wrote to its standard error.
-pub type Log = Box<dyn FnOnce() -> String>;
-
-/// Who answers a scenario.
+/// Where the plan for a scenario comes from.
 #[derive(Clone)]
 pub enum PlanSource {
-    /// A planner of ours.
+    /// A planner of the registry.
     Registered(&'static Planner),
     /// A command.
     External(ExternalPlanner),
-    /// Somebody who has answered already; the plan bears the name.
+    /// A plan that exists already, under the name of its planner.
     Imported(Box<CompletedPlan>),
 }
 
-/// A plan as its plan_source hands it over.
+/// Returns what an external planner has written to its standard error. An in-loop planner is terminated first.
+pub type PlannerLog = Box<dyn FnOnce() -> String>;
+
+/// What a plan source provides for one flight.
 pub struct PlannerOutput {
-    /// The plan.
-    pub answer: CompletedPlan,
-    /// What an outside planner wrote to its standard error.
-    pub log: Option<String>,
+    /// A plan, or in-loop planners.
+    pub guidance: Guidance,
+    /// Standard error of an external planner; `None` for the other sources.
+    pub log: Option<PlannerLog>,
 }
 
 impl PlanSource {
@@ -47,7 +48,7 @@ impl PlanSource {
         }
     }
 
-    /// Does it answer during the flight?
+    /// Whether it plans during the flight.
     pub fn plans_in_the_loop(&self) -> bool {
         match self {
             Self::Registered(planner) => planner.plans_in_the_loop(),
@@ -56,45 +57,42 @@ impl PlanSource {
         }
     }
 
-    /// Those who plan in the loop, one per vehicle, and how to come by what a command writes to its standard error; `None`
-    /// if it answers before the flight. They are told what is known beforehand, and no more.
-    pub fn crew(&self, scenario: &Scenario, seed: u64) -> Option<(InLoopPlanners, Option<Log>)> {
-        let planner_view = scenario.planner_view();
+    /// Plans, or creates the in-loop planners. Planners receive [`Scenario::planner_view`], which holds no disturbances.
+    ///
+    /// - `progress`: receives each iteration of a registered planner
+    pub fn prepare(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> PlannerOutput {
         match self {
-            Self::Registered(planner) if planner.plans_in_the_loop() => {
-                let vehicles = 0..scenario.vehicles.len();
-                Some((vehicles.map(|index| planner.in_loop(&planner_view, index, seed)).collect(), None))
+            Self::Registered(planner) => {
+                let guidance = prepare_registered(planner, &scenario.planner_view(), seed, progress);
+                PlannerOutput { guidance, log: None }
             }
-            Self::External(planner) if planner.in_loop => {
-                let crew = external::ExternalSession::start(planner, &planner_view, seed);
-                let log: Log = Box::new(crew.log());
-                Some((crew.planners, Some(log)))
-            }
-            _ => None,
+            Self::External(planner) => planner.prepare(&scenario.planner_view(), seed),
+            Self::Imported(answer) => PlannerOutput { guidance: Guidance::Plan((**answer).clone()), log: None },
         }
     }
 
-    /// The flight of one who plans in the loop, and what he followed as a plan; `None` if he answers before the flight.
-    pub fn fly_in_loop(&self, scenario: &Scenario, seed: u64) -> Option<(Plan, Flight)> {
-        let (crew, _) = self.crew(scenario, seed)?;
-        let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
-        let plan = in_loop::as_plan(scenario, self.name(), seed, flight.planning.as_ref()?);
-        Some((plan, flight))
+    /// Plans and flies once.
+    pub fn fly(&self, scenario: &Scenario, seed: u64) -> Flown {
+        self.prepare(scenario, seed, &mut |_| {}).guidance.fly(scenario, seed, &mut |_| {})
     }
 
-    /// The plan of one who answers before the flight, from what is known beforehand. `progress` receives the iterations of a
-    /// planner of ours as they end.
-    pub fn plan(&self, scenario: &Scenario, seed: u64, progress: &mut dyn FnMut(&Iteration)) -> PlannerOutput {
-        match self {
-            Self::Registered(planner) => PlannerOutput {
-                answer: CompletedPlan::whole(planner.plan(&scenario.planner_view(), seed, progress)),
-                log: None,
-            },
-            Self::External(planner) => {
-                let outside = planner.plan(&scenario.planner_view(), seed);
-                PlannerOutput { answer: outside.answer, log: Some(outside.log) }
-            }
-            Self::Imported(answer) => PlannerOutput { answer: (**answer).clone(), log: None },
-        }
+    /// What to fly in many worlds: `answer`, which stays as it is, or this source if it plans in the loop.
+    pub fn fixed_to(&self, answer: CompletedPlan) -> Self {
+        if self.plans_in_the_loop() { self.clone() } else { Self::Imported(Box::new(answer)) }
+    }
+}
+
+fn prepare_registered(
+    planner: &Planner,
+    planner_view: &Scenario,
+    seed: u64,
+    progress: &mut dyn FnMut(&Iteration),
+) -> Guidance {
+    if planner.plans_in_the_loop() {
+        let vehicles = 0..planner_view.vehicles.len();
+        let planners = vehicles.map(|index| planner.in_loop(planner_view, index, seed)).collect();
+        Guidance::InLoop { planner: planner.name.to_owned(), planners }
+    } else {
+        Guidance::Plan(CompletedPlan::whole(planner.plan(planner_view, seed, progress)))
     }
 }

@@ -68,6 +68,19 @@ pub struct Verdict {
     pub integration: Option<Integration>,
 }
 
+impl Verdict {
+    /// The check of this full name.
+    pub fn check(&self, name: &str) -> Option<&Check> {
+        self.checks.iter().find(|check| check.name == name)
+    }
+
+    /// Names of the deciding checks that failed or are undecided.
+    pub fn failed_checks(&self) -> Vec<String> {
+        let failed = self.checks.iter().filter(|check| check.is_bad() && !check.advisory);
+        failed.map(|check| check.name.clone()).collect()
+    }
+}
+
 /// The whole verdict in one word, from the best to the worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use scenarios::Scenario;
 use serde::Serialize;
 
-use crate::campaign::system_under_test::SystemUnderTest;
+use crate::plan_source::PlanSource;
 use crate::verdict::Outcome;
 
-pub use disturbance::Disturbance;
+pub use disturbance::{Disturbance, TypicalDisturbances};
 
 /// Levels of the grid.
 const GRID_LEVELS: usize = 20;
@@ -76,11 +76,12 @@ pub struct FailureBracket {
 
 /// Searches for the level of a disturbance at which a plan, or an in-loop planner, fails.
 ///
+/// - `system`: the system under test: a plan, or an in-loop planner, which plans anew in every flight
 /// - `seed`: of gusts and noise, the same at every level
 /// - `progress`: is called before every round of flights, with the number of levels in it
 pub fn run(
     scenario: &Scenario,
-    system: SystemUnderTest<'_>,
+    system: &PlanSource,
     over: Disturbance,
     seed: u64,
     progress: &mut dyn FnMut(usize),
@@ -105,7 +106,7 @@ pub fn run(
     FailureThreshold {
         schema: SCHEMA,
         scenario: scenario.name.clone(),
-        planner: system.planner().to_owned(),
+        planner: system.name().to_owned(),
         over,
         unit: over.unit(),
         asked: over.level_of(scenario),
@@ -131,13 +132,11 @@ fn bisect(trials: &mut Vec<Trial>, finest: f64, fly: &impl Fn(f64) -> Trial, pro
     }
 }
 
-fn trial(scenario: &Scenario, system: SystemUnderTest<'_>, over: Disturbance, seed: u64, level: f64) -> Trial {
+fn trial(scenario: &Scenario, system: &PlanSource, over: Disturbance, seed: u64, level: f64) -> Trial {
     let (mut disturbed, level) = (scenario.clone(), over.round_level(scenario, level));
     over.set(&mut disturbed, level);
-    let verdict = system.judged_in(&disturbed, seed);
-    let decisive = verdict.checks.into_iter().filter(|check| check.is_bad() && !check.advisory);
-    let failed_checks = decisive.map(|check| check.name).collect();
-    Trial { level, passed: verdict.outcome == Outcome::Pass, failed_checks }
+    let verdict = system.fly(&disturbed, seed).judge(&disturbed);
+    Trial { level, passed: verdict.outcome == Outcome::Pass, failed_checks: verdict.failed_checks() }
 }
 
 fn sort(trials: &mut Vec<Trial>) {

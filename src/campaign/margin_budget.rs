@@ -1,16 +1,16 @@
-//! Where did the margin go? A budget from what the planner saw at its nodes to what was flown, one step at a time.
+//! Margin budgets: what each disturbance costs, from the margin at the planner's nodes to the margin of the flight.
 //!
-//! Every step is a verdict of its own, of the plan or of a flight with one disturbance more than the last; its term is the
-//! difference to the step before. So the terms add up to the whole way from first to last, and none is an estimate.
+//! Every step is a verdict of its own, on the plan or on a flight with one more disturbance than the step before. Its
+//! change is the difference of their margins, so that the changes add up exactly.
 
-use scenarios::{Mismatch, Plan, Scenario, Sensors};
+use scenarios::{Mismatch, Scenario, Sensors};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::plan_source::PlanSource;
-use crate::verdict::{self, Provenance, Verdict};
+use crate::verdict::{self, Verdict};
 
-/// The budget of one question.
+/// The margin budget of one kind of check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MarginBudget {
     /// Name of the checks without their group: `separation`, `clearance`.
@@ -22,56 +22,45 @@ pub struct MarginBudget {
     pub steps: Vec<MarginStep>,
 }
 
-/// One step of a budget.
+/// One step of a margin budget.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MarginStep {
-    /// What is new on it.
+    /// What this step adds.
     pub name: String,
-    /// The margin that is left.
+    /// The remaining margin.
     pub margin: f64,
-    /// What this step cost: its margin less the one before; 0 on the first.
+    /// This margin less that of the step before; 0 on the first step.
     pub change: f64,
 }
 
-/// Questions with a budget.
+/// Checks with a budget, by their names without the group.
 const BUDGETED_CHECKS: [&str; 2] = ["separation", "clearance"];
 
-/// The budgets of a plan that was flown. A question that some step cannot answer has none.
+/// The margin budgets of a flight. A check that some step does not measure has none.
 ///
+/// - `source`: the plan that was flown, or the in-loop planner, which plans anew on every step
 /// - `seed`: of the flight that was judged
-/// - `flown`: its verdict
-pub fn of(scenario: &Scenario, plan: &Plan, provenance: &Provenance, seed: u64, flown: &Verdict) -> Vec<MarginBudget> {
-    if verdict::is_flyable(scenario, plan).is_err() {
-        return Vec::new();
-    }
-    let fly = |(name, scenario): (&'static str, Scenario)| {
-        let flight = sim::fly(&scenario, plan, seed, &mut |_| {});
-        (name, verdict::judge_imported(&scenario, plan, provenance, Some(&flight)))
-    };
-    let flights: Vec<(&str, Verdict)> = disturbances_added(scenario).into_iter().map(fly).collect();
-    let from = [("nodes", "nodes", flown), ("between the nodes", "plan", flown)];
-    BUDGETED_CHECKS.into_iter().filter_map(|question| budget(question, &from, &flights, flown)).collect()
-}
-
-/// The budgets of a flight that was planned while it lasted. On every step it is planned anew; the first one is what was
-/// followed in the mildest flight, as if it had been a plan before.
-///
-/// Empty for one who plans ahead.
-pub fn in_the_loop(scenario: &Scenario, plan_source: &PlanSource, seed: u64, flown: &Verdict) -> Vec<MarginBudget> {
+/// - `flown`: the verdict on that flight
+pub fn budgets(scenario: &Scenario, source: &PlanSource, seed: u64, flown: &Verdict) -> Vec<MarginBudget> {
     let mut followed = None;
     let mut flights: Vec<(&str, Verdict)> = Vec::new();
     for (name, scenario) in disturbances_added(scenario) {
-        let Some((plan, flight)) = plan_source.fly_in_loop(&scenario, seed) else { return Vec::new() };
-        followed.get_or_insert_with(|| verdict::judge(&scenario, &plan, None));
-        flights.push((name, verdict::judge(&scenario, &plan, Some(&flight))));
+        let trial = source.fly(&scenario, seed);
+        if source.plans_in_the_loop() {
+            followed.get_or_insert_with(|| verdict::judge(&scenario, &trial.answer.plan, None));
+        }
+        flights.push((name, trial.judge(&scenario)));
     }
-    let Some(followed) = &followed else { return Vec::new() };
-    let from = [("followed", "plan", followed)];
-    BUDGETED_CHECKS.into_iter().filter_map(|question| budget(question, &from, &flights, flown)).collect()
+    // An in-loop planner has no nodes of its own: its budget begins with what was followed without disturbances.
+    let planned = match &followed {
+        Some(followed) => vec![("followed", "plan", followed)],
+        None => vec![("nodes", "nodes", flown), ("between the nodes", "plan", flown)],
+    };
+    BUDGETED_CHECKS.into_iter().filter_map(|check| budget(check, &planned, &flights, flown)).collect()
 }
 
-/// The scenario with one disturbance after the other put back, the last one aside: that is the scenario itself. What it does
-/// not have makes no step.
+/// The scenario without disturbances, then with one more of them on every step up to the scenario itself. A disturbance
+/// that the scenario does not have makes no step.
 fn disturbances_added(scenario: &Scenario) -> Vec<(&'static str, Scenario)> {
     let mut calm = scenario.clone();
     calm.simulation.wind = None;
@@ -96,27 +85,23 @@ fn disturbances_added(scenario: &Scenario) -> Vec<(&'static str, Scenario)> {
     steps
 }
 
-/// - `from`: the first steps: their names, the groups of checks that answer them, and whose
-/// - `flights`: the steps above, from mild to wild
+/// - `planned`: the first steps: their names, their groups of checks and their verdicts
+/// - `flights`: the steps after them
+/// - `flown`: the verdict on the flight itself, which is the last step
 fn budget(
     question: &str,
-    from: &[(&str, &str, &Verdict)],
+    planned: &[(&str, &str, &Verdict)],
     flights: &[(&str, Verdict)],
     flown: &Verdict,
 ) -> Option<MarginBudget> {
     let check = |verdict: &Verdict, group: &str| {
-        let name = format!("{group}.{question}");
-        verdict
-            .checks
-            .iter()
-            .find(|check| check.name == name)
-            .and_then(|check| Some((check.margin?, check.unit.clone())))
+        let check = verdict.check(&format!("{group}.{question}"))?;
+        Some((check.margin?, check.unit.clone()))
     };
     let unit = check(flown, "flight")?.1;
-    let planned = from.iter().map(|(name, group, verdict)| Some((*name, check(verdict, group)?.0)));
+    let planned = planned.iter().map(|(name, group, verdict)| Some((*name, check(verdict, group)?.0)));
     let flights = flights.iter().map(|(name, verdict)| Some((*name, check(verdict, "flight")?.0)));
     let mut margins: Vec<(&str, f64)> = planned.chain(flights).collect::<Option<_>>()?;
-    // The last step is the flight itself, not one that should be the same.
     margins.last_mut()?.1 = check(flown, "flight")?.0;
     let mut before = margins.first()?.1;
     let steps = margins.into_iter().map(|(name, margin)| {
@@ -129,44 +114,36 @@ fn budget(
 
 #[cfg(test)]
 mod tests {
-    use super::{BUDGETED_CHECKS, in_the_loop, of};
+    use super::{BUDGETED_CHECKS, budgets};
     use crate::plan_source::PlanSource;
-    use crate::verdict::{Provenance, judge};
 
     #[test]
-    fn a_flight_that_is_planned_while_it_lasts_has_a_ladder_too() {
+    fn an_in_loop_flight_has_a_budget_from_the_followed_reference_on() {
         let text = include_str!("../../scenarios/multirotor/paper-map-gusts.toml");
         let scenario = scenarios::parse("paper-map-gusts.toml", text).unwrap();
-        let plan_source = PlanSource::Registered(planners::find(&scenario.planner.name).unwrap());
-        let (plan, flight) = plan_source.fly_in_loop(&scenario, 1).unwrap();
-        let verdict = judge(&scenario, &plan, Some(&flight));
-        let budgets = in_the_loop(&scenario, &plan_source, 1, &verdict);
+        let source = PlanSource::Registered(planners::find(&scenario.planner.name).unwrap());
+        let verdict = source.fly(&scenario, 1).judge(&scenario);
+        let budgets = budgets(&scenario, &source, 1, &verdict);
         let [budget] = budgets.as_slice() else { panic!("one vehicle has no separation: {budgets:?}") };
         let names: Vec<&str> = budget.steps.iter().map(|step| step.name.as_str()).collect();
         assert_eq!(names, ["followed", "tracking", "model", "wind", "noise"]);
-        let flown = verdict.checks.iter().find(|check| check.name == "flight.clearance").unwrap();
-        assert_eq!(Some(budget.steps[4].margin), flown.margin);
+        assert_eq!(Some(budget.steps[4].margin), verdict.check("flight.clearance").unwrap().margin);
         let sum: f64 = budget.steps.iter().map(|step| step.change).sum();
         assert!((budget.steps[0].margin + sum - budget.steps[4].margin).abs() < 1e-12, "{budget:?}");
     }
 
     #[test]
-    fn the_terms_add_up_and_the_ends_are_those_of_the_verdict() {
+    fn changes_add_up_and_both_ends_are_those_of_the_verdict() {
         let text = include_str!("../../scenarios/fixed-wing/rendezvous-7-wind.toml");
         let scenario = scenarios::parse("rendezvous-7-wind.toml", text).unwrap();
-        let planner = planners::find(&scenario.planner.name).unwrap();
-        let plan = planner.plan(&scenario, 1, &mut |_| {});
-        let flight = sim::fly(&scenario, &plan, 1, &mut |_| {});
-        let verdict = judge(&scenario, &plan, Some(&flight));
-        let budgets = of(&scenario, &plan, &Provenance::whole(), 1, &verdict);
+        let flown = PlanSource::Registered(planners::find(&scenario.planner.name).unwrap()).fly(&scenario, 1);
+        let verdict = flown.judge(&scenario);
+        let budgets = budgets(&scenario, &PlanSource::Imported(Box::new(flown.answer)), 1, &verdict);
         assert_eq!(budgets.iter().map(|it| it.question.as_str()).collect::<Vec<_>>(), BUDGETED_CHECKS);
         for budget in &budgets {
             let names: Vec<&str> = budget.steps.iter().map(|step| step.name.as_str()).collect();
             assert_eq!(names, ["nodes", "between the nodes", "tracking", "model", "wind", "noise"]);
-            let margin = |group: &str| {
-                let name = format!("{group}.{}", budget.question);
-                verdict.checks.iter().find(|check| check.name == name).unwrap().margin.unwrap()
-            };
+            let margin = |group: &str| verdict.check(&format!("{group}.{}", budget.question)).unwrap().margin.unwrap();
             let (first, last) = (&budget.steps[0], &budget.steps[5]);
             assert_eq!((first.margin, last.margin), (margin("nodes"), margin("flight")));
             let sum: f64 = budget.steps.iter().map(|step| step.change).sum();

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use scenarios::{Group, LimitField, Scenario, check_spec, checks_of};
 use serde::{Deserialize, Serialize};
 
-use crate::campaign::system_under_test::SystemUnderTest;
+use crate::plan_source::PlanSource;
 use crate::verdict::{Outcome, Verdict};
 
 pub use merge::merge;
@@ -91,7 +91,7 @@ impl Sweep {
             schema: SCHEMA,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scenario: scenario.name.clone(),
-            planner: system.planner().to_owned(),
+            planner: system.name().to_owned(),
             seed: scenario.simulation.seed,
             samples,
             dispersions,
@@ -104,8 +104,8 @@ impl Sweep {
 pub struct Experiment<'a> {
     /// The unperturbed scenario.
     pub scenario: &'a Scenario,
-    /// What is flown in every sample.
-    pub system: SystemUnderTest<'a>,
+    /// What is flown in every sample: a plan, or an in-loop planner, which plans anew in every flight.
+    pub system: &'a PlanSource,
 }
 
 impl Experiment<'_> {
@@ -127,7 +127,7 @@ pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flo
     let numbers: Vec<usize> = partition.numbers(sweep.samples).collect();
     let sample = |number: usize| {
         let (scenario, perturbation) = experiment.scenario_of(&sweep.dispersions, number);
-        let verdict = experiment.system.judged_in(&scenario, scenario.simulation.seed);
+        let verdict = experiment.system.fly(&scenario, scenario.simulation.seed).judge(&scenario);
         flown();
         Sample::of(number, perturbation, &verdict, &sweep.checks)
     };
@@ -141,21 +141,13 @@ fn has_several_quantities(check: &str) -> bool {
 
 impl Sample {
     fn of(number: usize, perturbation: Perturbation, verdict: &Verdict, asked: &[(String, String)]) -> Self {
-        let decisive = verdict.checks.iter().filter(|check| check.is_bad() && !check.advisory);
-        let measured = |(name, unit): &(String, String)| {
-            let check = verdict.checks.iter().find(|check| check.name == *name);
-            let margin = check.and_then(|check| check.margin).unwrap_or(f64::NAN);
-            (margin, check.map_or_else(|| unit.clone(), |check| check.unit.clone()))
+        let measured = |(name, declared_unit): &(String, String)| {
+            let check = verdict.check(name);
+            let own_unit = check.filter(|_| has_several_quantities(name)).map(|check| &check.unit);
+            (check.and_then(|check| check.margin).unwrap_or(f64::NAN), own_unit.unwrap_or(declared_unit).clone())
         };
         let (margins, units) = asked.iter().map(measured).unzip();
-        Self {
-            number,
-            perturbation,
-            verdict: verdict.outcome,
-            failed_checks: decisive.map(|check| check.name.clone()).collect(),
-            margins,
-            units,
-        }
+        Self { number, perturbation, verdict: verdict.outcome, failed_checks: verdict.failed_checks(), margins, units }
     }
 }
 

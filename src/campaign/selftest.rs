@@ -4,7 +4,7 @@
 //! A fault must fail the verdict, by the check that it aims at. Near misses, just inside a limit, must pass. And every
 //! check that can be asked must be turned red by something: one that never fails may as well not be there.
 
-pub mod family;
+mod family;
 mod fault;
 mod faults;
 pub mod fixed_wing;
@@ -23,6 +23,7 @@ use serde::Serialize;
 use crate::families;
 use crate::verdict::{Check, Outcome, Status};
 
+pub use family::FamilySelftest;
 pub use fault::{Fault, NearMiss};
 pub use reference_case::ReferenceCase;
 pub use show::{markdown, text};

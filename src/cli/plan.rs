@@ -10,6 +10,7 @@ use crate::jobs;
 use crate::output;
 use crate::pipeline;
 use crate::plan_source::plan_import::CompletedPlan;
+use crate::plan_source::{PlanSource, PlannerOutput};
 use crate::progress::Progress;
 
 /// Plan a scenario without flying it.
@@ -39,14 +40,17 @@ Examples:
 
 `harness check SCENARIO --plan FILE` flies and judges the plan.";
 
-/// Says so if an answer holds no plan, and why.
-pub fn tell_no_plan(answer: &CompletedPlan) -> bool {
+/// Whether the source is a plan that is none; the reason is printed.
+pub fn has_no_plan(source: &PlanSource) -> bool {
+    matches!(source, PlanSource::Imported(answer) if print_no_plan(answer))
+}
+
+/// Prints the reason if an answer holds no plan.
+fn print_no_plan(answer: &CompletedPlan) -> bool {
     let is_none = answer.plan.status == PlanStatus::NoPlan;
     if is_none {
-        console::eprint(&format!(
-            "no plan: {}",
-            answer.plan.reason.as_deref().unwrap_or("the planner gives no reason")
-        ));
+        let reason = answer.plan.reason.as_deref().unwrap_or("the planner gives no reason");
+        console::eprint(&format!("no plan: {reason}"));
     }
     is_none
 }
@@ -57,19 +61,18 @@ impl PlanCommand {
         self.refuse_unknown_form()?;
         let plan_sources = self.plan_source.plan_sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
-        if job.plan_source.plans_in_the_loop() {
-            return Err(Error::PlansInTheLoop { planner: job.plan_source.name().to_owned() });
-        }
+        let in_loop = || Error::PlansInTheLoop { planner: job.plan_source.name().to_owned() };
         let mut progress = Progress::new(job, 1, 1, self.quiet);
-        let output = pipeline::plan(job, &mut progress);
+        let PlannerOutput { guidance, log } = pipeline::prepare(job, &mut progress);
         progress.finish();
-        if tell_no_plan(&output.answer) {
-            if let Some(log) = output.log.filter(|log| !log.is_empty()) {
+        let answer = guidance.into_plan().ok_or_else(in_loop)?;
+        if print_no_plan(&answer) {
+            if let Some(log) = log.map(|log| log()).filter(|log| !log.is_empty()) {
                 console::eprint(log.trim_end());
             }
             return Ok(Exit::Failed);
         }
-        self.write(&output.answer.plan)?;
+        self.write(&answer.plan)?;
         Ok(Exit::Passed)
     }
 

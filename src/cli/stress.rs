@@ -2,10 +2,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::plan::tell_no_plan;
+use super::plan::has_no_plan;
 use super::run::AuthorArgs;
 use crate::campaign::failure_threshold::{self, Disturbance, FailureThreshold};
-use crate::campaign::system_under_test::SystemUnderTest;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
@@ -55,18 +54,17 @@ impl StressCommand {
         let plan_sources = self.plan_source.plan_sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
         let mut progress = Progress::new(job, 1, 1, self.quiet);
-        let answer = pipeline::answer(job, &mut progress);
+        let system = pipeline::plan_once(job, &mut progress);
         progress.finish();
-        if answer.as_ref().is_some_and(tell_no_plan) {
+        if has_no_plan(&system) {
             return Ok(Exit::Failed);
         }
-        let system = SystemUnderTest::of(&job.plan_source, answer.as_ref());
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
         let mut exit = Exit::Passed;
         for &over in &self.over {
             let mut flown = 0;
-            let stress = failure_threshold::run(&job.scenario, system, over, job.seed, &mut |count| flown += count);
+            let stress = failure_threshold::run(&job.scenario, &system, over, job.seed, &mut |count| flown += count);
             output::write_json(&folder.join(format!("stress-{}.json", name(over))), &stress)?;
             if !self.quiet {
                 console::print(&format!("{}  ({flown} flights)", in_words(&stress)))?;

@@ -4,16 +4,16 @@ use std::sync::Mutex;
 use clap::Args;
 use serde::Serialize;
 
-use super::plan::tell_no_plan;
+use super::plan::has_no_plan;
 use super::run::AuthorArgs;
 use super::session::start_threads;
 use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
-use crate::campaign::system_under_test::SystemUnderTest;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
 use crate::output;
 use crate::pipeline;
+use crate::plan_source::PlanSource;
 use crate::progress::Progress;
 
 /// Fly one plan in many worlds that are drawn: wind, mass, noise, start.
@@ -102,18 +102,17 @@ impl SweepCommand {
         let plan_sources = self.plan_source.plan_sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
         let mut progress = Progress::new(job, 1, 1, self.shown.quiet);
-        let answer = pipeline::answer(job, &mut progress);
-        if answer.as_ref().is_some_and(tell_no_plan) {
+        let system = &pipeline::plan_once(job, &mut progress);
+        if has_no_plan(system) {
             progress.finish();
             return Ok(Exit::Failed);
         }
-        let system = SystemUnderTest::of(&job.plan_source, answer.as_ref());
         let experiment = Experiment { scenario: &job.scenario, system };
         let sweep = Sweep::new(&experiment, self.samples as usize, self.dispersions.about(job));
         let samples = self.fly(&experiment, &sweep, progress);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;
-        if let Some(answer) = &answer {
+        if let PlanSource::Imported(answer) = system {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
         }
         let worst = write_worst(&experiment, &sweep, &samples, &folder)?;

@@ -20,9 +20,9 @@ use std::time::Duration;
 
 use scenarios::{Plan, PlanTimings, Scenario};
 
+use self::in_loop::ExternalSession;
 use crate::plan_source::plan_import::CompletedPlan;
-
-pub use in_loop::ExternalSession;
+use crate::plan_source::{Guidance, PlannerOutput};
 
 /// Version of request and reply.
 pub const PROTOCOL: u64 = 1;
@@ -44,29 +44,41 @@ pub struct ExternalPlanner {
     pub in_loop: bool,
 }
 
-/// What came of it, with what the command wrote to its standard error.
-#[derive(Clone, Debug)]
-pub struct OutsideAnswer {
+/// What a command returned.
+struct ExternalAnswer {
     /// A plan, or the reason why there is none.
-    pub answer: CompletedPlan,
+    answer: CompletedPlan,
     /// Standard error.
-    pub log: String,
+    log: String,
 }
 
 impl ExternalPlanner {
-    /// Asks the command for a plan, and waits for it as long as its time limit allows.
-    pub fn plan(&self, scenario: &Scenario, seed: u64) -> OutsideAnswer {
+    /// Requests a plan, or starts the command as an in-loop planner.
+    pub(super) fn prepare(&self, planner_view: &Scenario, seed: u64) -> PlannerOutput {
+        if self.in_loop {
+            let session = ExternalSession::start(self, planner_view, seed);
+            let log = session.log();
+            let guidance = Guidance::InLoop { planner: self.name.clone(), planners: session.planners };
+            PlannerOutput { guidance, log: Some(Box::new(log)) }
+        } else {
+            let ExternalAnswer { answer, log } = self.plan(planner_view, seed);
+            PlannerOutput { guidance: Guidance::Plan(answer), log: Some(Box::new(|| log)) }
+        }
+    }
+
+    /// Requests a plan, and waits until the time limit.
+    fn plan(&self, scenario: &Scenario, seed: u64) -> ExternalAnswer {
         let time_limit_s = self.time_limit_s.unwrap_or(TIME_LIMIT_S);
-        let question = request::document(scenario, seed, time_limit_s);
+        let request = request::document(scenario, seed, time_limit_s);
         let time_limit = Duration::try_from_secs_f64(time_limit_s).unwrap_or(Duration::MAX);
-        let ended = process::run(&self.command, &self.folder, question.to_string().into_bytes(), time_limit);
+        let ended = process::run(&self.command, &self.folder, request.to_string().into_bytes(), time_limit);
         let wall_s = ended.wall.as_secs_f64();
         let answer = ended.output.and_then(|text| reply::read(&text, scenario, &self.name, seed));
         let mut answer = answer.unwrap_or_else(|reason| CompletedPlan::whole(self.no_plan(scenario, seed, reason)));
         if answer.plan.timings == PlanTimings::default() {
             answer.plan.timings.wall_s = wall_s;
         }
-        OutsideAnswer { answer, log: ended.log }
+        ExternalAnswer { answer, log: ended.log }
     }
 
     fn no_plan(&self, scenario: &Scenario, seed: u64, reason: String) -> Plan {

@@ -12,7 +12,7 @@ pub use cases::{Case, Experiment};
 pub use show::{markdown, text};
 
 use crate::metrics;
-use crate::plan_source::in_loop;
+use crate::plan_source::{Flown, PlanSource};
 use crate::verdict;
 
 /// What is measured.
@@ -129,21 +129,11 @@ struct CaseFlight {
 
 impl CaseFlight {
     fn by(case: &Case, seed: u64) -> Self {
-        let (scenario, planner) = (&case.scenario, case.planner);
-        let planner_view = scenario.planner_view();
-        let (plan, flight) = if planner.plans_in_the_loop() {
-            let crew = (0..scenario.vehicles.len()).map(|index| planner.in_loop(&planner_view, index, seed)).collect();
-            let flight = sim::fly_in_loop(scenario, crew, seed, &mut |_| {});
-            let log = flight.planning.as_ref().expect("what flies in the loop has a log of its planning");
-            (in_loop::as_plan(scenario, planner.name, seed, log), Some(flight))
-        } else {
-            let plan = planner.plan(&planner_view, seed, &mut |_| {});
-            let flight =
-                verdict::is_flyable(scenario, &plan).ok().map(|()| sim::fly(scenario, &plan, seed, &mut |_| {}));
-            (plan, flight)
-        };
-        let verdict = verdict::judge(scenario, &plan, flight.as_ref());
-        let measured = metrics::measure(scenario, &plan, flight.as_ref()).flight;
+        let scenario = &case.scenario;
+        let flown = PlanSource::Registered(case.planner).fly(scenario, seed);
+        let verdict = flown.judge(scenario);
+        let Flown { answer, flight } = flown;
+        let measured = metrics::measure(scenario, &answer.plan, flight.as_ref()).flight;
         let is_limit =
             |check: &&verdict::Check| check.name.ends_with("state_limits") || check.name.ends_with("control_limits");
         Self {

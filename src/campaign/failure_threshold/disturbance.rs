@@ -4,6 +4,14 @@ use serde::Serialize;
 
 use crate::families;
 
+/// Disturbances of an ordinary day, for vehicles of one family.
+pub struct TypicalDisturbances {
+    /// Speed of a light breeze, m/s.
+    pub wind_mps: f64,
+    /// Standard deviation of the measured position, m.
+    pub position_noise_m: f64,
+}
+
 /// A disturbance whose level is varied. Level 0 is a flight without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
@@ -46,7 +54,7 @@ impl Disturbance {
             Self::Wind => 1.0,
             Self::Mass => 0.02,
             Self::Delay => scenario.simulation.step_s,
-            Self::Noise => families::of(scenario.family()).first_noise_m,
+            Self::Noise => families::of(scenario.family()).typical_disturbances.position_noise_m,
         }
     }
 

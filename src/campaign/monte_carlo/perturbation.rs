@@ -39,7 +39,7 @@ impl Dispersions {
     pub fn usual(scenario: &Scenario) -> Self {
         let own_m = scenario.simulation.sensors.position_noise_m;
         let noise_m = if own_m > 0.0 { own_m } else { Disturbance::Noise.first_step(scenario) };
-        let wind_mps = families::of(scenario.family()).usual_wind_mps;
+        let wind_mps = families::of(scenario.family()).typical_disturbances.wind_mps;
         Self { wind_mps, mass: 0.03, noise_m, start_m: scenario.limits().tracking_max_m / 10.0 }
     }
 

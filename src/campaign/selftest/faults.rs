@@ -1,18 +1,12 @@
 mod conditions;
-pub mod fixed_wing;
-mod log;
-pub mod multirotor;
-mod plan;
-pub mod slung_load;
+pub mod log;
+pub mod plan;
 pub mod tightened_limits;
 
-use super::family::FamilySelftest;
 use super::{Fault, ReferenceCase};
 use crate::families;
 
-/// The faults for a reference: those of all vehicles, those of its family, and those that need a disturbance.
-///
-/// A reference in still air gets everything but the last, one in wind only the last: the rest would be said twice.
+/// The faults for a reference case: in still air those of its family, in wind those that need a disturbance.
 pub fn of(reference: &ReferenceCase) -> Vec<Fault> {
     if reference.scenario.simulation.wind.is_some() {
         return conditions::faults();
@@ -20,7 +14,8 @@ pub fn of(reference: &ReferenceCase) -> Vec<Fault> {
     (families::of(reference.family()).selftest.faults)(reference)
 }
 
-/// The faults of any plan and any log, those of the family, and its tightened limits.
-pub fn with_limits(own: Vec<Fault>, family: &'static FamilySelftest) -> Vec<Fault> {
-    [plan::faults(), log::faults(), own, tightened_limits::faults(family)].into_iter().flatten().collect()
+/// The faults that all families have in common, with those of one family among them.
+pub fn with_common(of_family: Vec<Fault>, reference: &ReferenceCase) -> Vec<Fault> {
+    let all = [plan::faults(), log::faults(), of_family, tightened_limits::faults(reference.family())];
+    all.into_iter().flatten().collect()
 }

@@ -1,14 +1,13 @@
-//! Near misses of every family: what is just inside a limit must pass, since a judge that fails everything catches every fault.
+//! Plans and flights just inside a limit. They must pass: a judge that fails everything catches every fault, too.
 
-use super::family::FamilySelftest;
-use super::faults::tightened_limits::{self, SHARE, TightenedLimit};
+use super::faults::tightened_limits::{self, RELATIVE_STEP};
 use super::{NearMiss, ReferenceCase};
 use crate::families;
 
 /// Distance from a limit, m.
 pub const NEAR_M: f64 = 1e-5;
 
-/// The near misses of a reference case. In wind there are none beyond the case itself.
+/// The near misses for a reference case. In wind there are none beyond the reference case itself.
 pub fn of(reference: &ReferenceCase) -> Vec<NearMiss> {
     if reference.scenario.simulation.wind.is_some() {
         return Vec::new();
@@ -16,25 +15,21 @@ pub fn of(reference: &ReferenceCase) -> Vec<NearMiss> {
     (families::of(reference.family()).selftest.near_misses)(reference)
 }
 
-/// The near misses of tightened limits and of whole plans, then those of the family itself.
-pub fn with_limits(own: Vec<NearMiss>, family: &'static FamilySelftest) -> Vec<NearMiss> {
-    let mut near_misses: Vec<NearMiss> = tightened_limits::all(family).map(just_above).collect();
-    near_misses.extend(whole());
-    near_misses.extend(own);
-    near_misses
+/// Every upper limit just above the largest value that it bounds.
+pub fn limits(reference: &ReferenceCase) -> Vec<NearMiss> {
+    tightened_limits::upper(reference.family()).map(just_above).collect()
 }
 
-/// A limit just above the largest of the values that it decides.
-fn just_above(limit: &'static TightenedLimit) -> NearMiss {
+fn just_above(limit: &'static tightened_limits::TightenedLimit) -> NearMiss {
     NearMiss::new(limit.name, |it: &mut ReferenceCase| {
         let reached = limit.checks.iter().map(|check| it.value(check)).fold(0.0, f64::max);
-        // What two integrators disagree on is no margin.
-        let unsure_m = 2.0 * it.value("flight.dynamics");
-        (limit.set)(it, reached * (1.0 + SHARE) + unsure_m);
+        let bound = reached * (1.0 + RELATIVE_STEP) + integration_error_m(it);
+        (limit.set)(it, bound);
     })
 }
 
-fn whole() -> Vec<NearMiss> {
+/// Plans and flights that are barely complete.
+pub fn whole() -> Vec<NearMiss> {
     vec![
         NearMiss::new("the flight ends with its plan", |it| {
             let planned = it.planned_steps() + 1;
@@ -43,19 +38,24 @@ fn whole() -> Vec<NearMiss> {
                 log.loads.truncate(planned + 1);
             });
         }),
-        NearMiss::new("the plan is off by a rounding", |it| {
+        NearMiss::new("the plan's last time is off by a rounding error", |it| {
             let last = it.times_s(0).len() - 1;
             it.times_s(0)[last] *= 1.0 + f64::EPSILON;
         }),
     ]
 }
 
-/// Vehicles as near to each other as the separation allows.
-pub fn as_near_as_allowed() -> NearMiss {
-    NearMiss::new("vehicles as near to each other as they may be", |it| {
+/// A separation just below the smallest distance between vehicles.
+pub fn separation() -> NearMiss {
+    NearMiss::new("vehicles just beyond their separation", |it| {
         let groups = ["nodes.separation", "plan.separation", "flight.separation"];
         let nearest_m = groups.iter().map(|check| it.value(check)).fold(f64::INFINITY, f64::min);
-        let unsure_m = 2.0 * it.value("flight.dynamics");
-        it.scenario.fleet.separation_m = Some(nearest_m - NEAR_M - unsure_m);
+        let limit_m = nearest_m - NEAR_M - integration_error_m(it);
+        tightened_limits::set_separation(it, limit_m);
     })
+}
+
+/// Below this margin checks are undecided, m.
+fn integration_error_m(it: &ReferenceCase) -> f64 {
+    2.0 * it.value("flight.dynamics")
 }

@@ -1,28 +1,30 @@
-mod flying;
+mod unflown;
 
-use scenarios::{Family, Plan, Scenario, fixed_wing, multirotor, slung_load};
-use sim::{Actuation, Commanded, Flight, LoadSample, Sample};
+use scenarios::{Family, Plan, Scenario, slung_load};
+use sim::{Actuation, Commanded, Flight, Sample};
 
+use super::family::EditTrajectory;
+use crate::families;
 use crate::plan_source::PlanSource;
 use crate::verdict::{self, Check, Verdict};
 
-pub use flying::{UnflownCase, by, shipped};
+pub use unflown::UnflownCase;
 
-/// A scenario with a plan and a flight that pass: what faults are injected into.
+/// A scenario with a plan and a flight that pass, into which faults are injected.
 #[derive(Clone)]
 pub struct ReferenceCase {
-    /// The question.
+    /// The scenario.
     pub scenario: Scenario,
-    /// The planner's answer; of one who plans in the loop, what was followed.
+    /// The plan; of in-loop planners, the references that were followed.
     pub plan: Plan,
-    /// What was flown.
+    /// The flight.
     pub flight: Option<Flight>,
-    /// Who planned it.
+    /// Where the plan comes from.
     plan_source: PlanSource,
 }
 
 impl ReferenceCase {
-    /// By the same judge as every run.
+    /// The verdict of the same judge as in every run.
     pub fn judge(&self) -> Verdict {
         verdict::judge(&self.scenario, &self.plan, self.flight.as_ref())
     }
@@ -38,12 +40,12 @@ impl ReferenceCase {
         checks.into_iter().find(|check| check.name == name).unwrap_or_else(|| panic!("there is no check {name}"))
     }
 
-    /// What a check measures now. Panics if it measures nothing.
+    /// The value of a check. Panics if it has none.
     pub fn value(&self, name: &str) -> f64 {
         self.check(name).value.unwrap_or_else(|| panic!("{name} has no value"))
     }
 
-    /// The flight. Panics if it was taken away.
+    /// The flight. Panics if there is none.
     pub fn flight(&mut self) -> &mut Flight {
         self.flight.as_mut().expect("a reference has a flight")
     }
@@ -51,11 +53,6 @@ impl ReferenceCase {
     /// The samples of a vehicle.
     pub fn samples(&mut self, vehicle: usize) -> &mut Vec<Sample> {
         &mut self.flight().vehicles[vehicle].samples
-    }
-
-    /// The samples of the load of the first vehicle.
-    pub fn loads(&mut self) -> &mut Vec<LoadSample> {
-        &mut self.flight().vehicles[0].loads
     }
 
     /// The number of samples of the first vehicle.
@@ -85,58 +82,13 @@ impl ReferenceCase {
 
     /// The planned times of a vehicle.
     pub fn times_s(&mut self, vehicle: usize) -> &mut Vec<f64> {
-        match &mut self.plan.trajectories[vehicle] {
-            scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.times_s,
-            scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.times_s,
-            scenarios::Trajectory::Multirotor(trajectory) => &mut trajectory.times_s,
-        }
+        self.edit(vehicle).times_s()
     }
 
-    /// The nodes of a multirotor's plan. Panics for others.
-    pub fn multirotor(&mut self, vehicle: usize) -> &mut multirotor::Trajectory {
-        match &mut self.plan.trajectories[vehicle] {
-            scenarios::Trajectory::Multirotor(trajectory) => trajectory,
-            _ => panic!("not a multirotor"),
-        }
-    }
-
-    /// The plan of a fixed wing. Panics for others.
-    pub fn fixed_wing(&mut self, vehicle: usize) -> &mut fixed_wing::Trajectory {
-        match &mut self.plan.trajectories[vehicle] {
-            scenarios::Trajectory::FixedWing(trajectory) => trajectory,
-            _ => panic!("not a fixed wing"),
-        }
-    }
-
-    /// The plan of a slung load. Panics for others.
-    pub fn slung_load(&mut self) -> &mut slung_load::Trajectory {
-        match &mut self.plan.trajectories[0] {
-            scenarios::Trajectory::SlungLoad(trajectory) => trajectory,
-            _ => panic!("not a slung load"),
-        }
-    }
-
-    /// The only model of fixed wings.
-    pub fn fixed_wing_model(&mut self) -> &mut fixed_wing::Model {
-        self.scenario.models.fixed_wing.values_mut().next().expect("the reference has a model")
-    }
-
-    /// The only model of multirotors.
-    pub fn multirotor_model(&mut self) -> &mut multirotor::Model {
-        self.scenario.models.multirotor.values_mut().next().expect("the reference has a model")
-    }
-
-    /// The only model of slung loads.
-    pub fn slung_load_model(&mut self) -> &mut slung_load::Model {
-        self.scenario.models.slung_load.values_mut().next().expect("the reference has a model")
-    }
-}
-
-/// Load factors of a sample. Panics for a quadrotor's.
-pub fn load_factors(sample: &mut Sample) -> &mut Commanded<fixed_wing::Control> {
-    match &mut sample.actuation {
-        Actuation::LoadFactors(factors) => factors,
-        _ => panic!("not a fixed wing"),
+    /// The planned trajectory of a vehicle, whatever its family.
+    pub fn edit(&mut self, vehicle: usize) -> &mut dyn EditTrajectory {
+        let edit = families::of(self.family()).selftest.edit;
+        edit(&mut self.plan.trajectories[vehicle])
     }
 }
 
@@ -145,13 +97,5 @@ pub fn thrusts(sample: &mut Sample) -> &mut Commanded<slung_load::Control> {
     match &mut sample.actuation {
         Actuation::Thrusts(thrusts) => thrusts,
         _ => panic!("not a quadrotor"),
-    }
-}
-
-/// Acceleration of a sample. Panics for one that does not stand for a point mass.
-pub fn acceleration(sample: &mut Sample) -> &mut Commanded<[f64; 3]> {
-    match &mut sample.actuation {
-        Actuation::Acceleration(acceleration) => acceleration,
-        _ => panic!("not a point mass"),
     }
 }

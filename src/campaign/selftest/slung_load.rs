@@ -1,54 +1,63 @@
-//! The selftest of slung loads.
+//! Selftest of quadrotors with a slung load.
 
-use super::family::FamilySelftest;
-use super::faults::tightened_limits::{DEFECTS, GOALS, TightenedLimit, limit};
-use super::near_misses::NEAR_M;
-use super::reference_case::{UnflownCase, shipped};
-use super::{NearMiss, ReferenceCase, faults, near_misses};
+mod faults;
 
-/// What it consists of.
+use scenarios::{Trajectory, slung_load};
+use sim::LoadSample;
+
+use super::family::{EditTrajectory, FamilySelftest};
+use super::faults::tightened_limits::{self, DEFECTS, GOALS, limit};
+use super::near_misses::{self, NEAR_M};
+use super::reference_case::{UnflownCase, thrusts};
+use super::{Fault, NearMiss, ReferenceCase};
+
+/// The entry in the table of families.
 pub const SELFTEST: FamilySelftest = FamilySelftest {
     reference_cases,
-    faults: |_| faults::with_limits(faults::slung_load::faults(), &SELFTEST),
-    near_misses: |_| near_misses::with_limits(own_near_misses(), &SELFTEST),
-    limits: LIMITS,
-    distances: &["nodes.envelope", "plan.envelope"],
-    keep_apart,
+    faults,
+    near_misses,
+    upper_limits: &[
+        DEFECTS,
+        GOALS,
+        limit("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
+            it.scenario.verdict.rest_mps = Some(limit);
+        }),
+        limit("the strength of the cable", &["plan.tension", "flight.tension"], |it, limit| {
+            it.slung_load_model().limits.tension_n = limit;
+        }),
+        limit("the limit of the time between planned and flown switches", &["flight.slack"], |it, limit| {
+            it.scenario.verdict.switch_s = Some(limit);
+        }),
+    ],
+    distance_checks: &["nodes.envelope", "plan.envelope"],
+    set_distance: tightened_limits::set_envelope,
+    edit,
 };
-
-const LIMITS: &[TightenedLimit] = &[
-    DEFECTS,
-    GOALS,
-    limit("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
-        it.scenario.verdict.rest_mps = Some(limit);
-    }),
-    limit("what the cable bears", &["plan.tension", "flight.tension"], |it, limit| {
-        it.slung_load_model().limits.tension_n = limit;
-    }),
-    limit("the limit of the time between planned and flown switches", &["flight.slack"], |it, limit| {
-        it.scenario.verdict.switch_s = Some(limit);
-    }),
-];
 
 fn reference_cases() -> Vec<UnflownCase> {
     vec![
-        shipped("drop-and-catch", include_str!("../../../scenarios/slung/drop-and-catch.toml")),
-        shipped("drop-and-catch-wind", include_str!("../../../scenarios/slung/drop-and-catch-wind.toml")),
+        UnflownCase::shipped("drop-and-catch", include_str!("../../../scenarios/slung/drop-and-catch.toml")),
+        UnflownCase::shipped("drop-and-catch-wind", include_str!("../../../scenarios/slung/drop-and-catch-wind.toml")),
     ]
 }
 
-fn keep_apart(it: &mut ReferenceCase, limit_m: f64) {
-    it.scenario.verdict.envelope_m = Some(limit_m);
+fn faults(reference: &ReferenceCase) -> Vec<Fault> {
+    super::faults::with_common(faults::all(), reference)
 }
 
-fn own_near_misses() -> Vec<NearMiss> {
-    vec![
-        NearMiss::new("an envelope as near to the block as it may be", |it| {
+fn near_misses(reference: &ReferenceCase) -> Vec<NearMiss> {
+    let common = [near_misses::limits(reference), near_misses::whole()];
+    common.into_iter().flatten().chain(own_near_misses()).collect()
+}
+
+fn own_near_misses() -> [NearMiss; 2] {
+    [
+        NearMiss::new("an envelope just outside the obstacle", |it| {
             let nearest_m = it.value("nodes.envelope").min(it.value("plan.envelope"));
-            keep_apart(it, nearest_m - NEAR_M);
+            tightened_limits::set_envelope(it, nearest_m - NEAR_M);
         }),
-        NearMiss::new("thrusts as large as the rotors give", |it| {
-            let flown = it.samples(0).iter_mut().flat_map(|it| super::reference_case::thrusts(it).control.thrust_n);
+        NearMiss::new("thrusts just below the largest of the rotors", |it| {
+            let flown = it.samples(0).iter_mut().flat_map(|it| thrusts(it).control.thrust_n);
             let largest_n = flown.fold(0.0, f64::max);
             let promised_n = it.slung_load_model().planning_limits.thrust_n.max + 1e-4;
             let planned = it.slung_load().controls.iter().flat_map(|control| control.thrust_n);
@@ -56,4 +65,57 @@ fn own_near_misses() -> Vec<NearMiss> {
             it.slung_load_model().limits.thrust_n.max = largest_n.max(planned_n) + NEAR_M;
         }),
     ]
+}
+
+fn edit(trajectory: &mut Trajectory) -> &mut dyn EditTrajectory {
+    trajectory_of(trajectory)
+}
+
+fn trajectory_of(trajectory: &mut Trajectory) -> &mut slung_load::Trajectory {
+    match trajectory {
+        Trajectory::SlungLoad(trajectory) => trajectory,
+        _ => panic!("not a slung load"),
+    }
+}
+
+impl EditTrajectory for slung_load::Trajectory {
+    fn vehicle(&mut self) -> &mut String {
+        &mut self.vehicle
+    }
+
+    fn times_s(&mut self) -> &mut Vec<f64> {
+        &mut self.times_s
+    }
+
+    fn truncate(&mut self, nodes: usize) {
+        self.times_s.truncate(nodes);
+        self.states.truncate(nodes);
+        self.controls.truncate(nodes);
+        self.cable.truncate(nodes);
+        self.planner_nodes.retain(|node| *node < nodes);
+    }
+
+    fn move_north(&mut self, by_m: f64) {
+        self.states.iter_mut().for_each(|state| {
+            state.position_m[1] += by_m;
+            state.load_position_m[1] += by_m;
+        });
+    }
+}
+
+impl ReferenceCase {
+    /// The planned trajectory of a slung load. Panics for others.
+    fn slung_load(&mut self) -> &mut slung_load::Trajectory {
+        trajectory_of(&mut self.plan.trajectories[0])
+    }
+
+    /// The only model of slung loads.
+    fn slung_load_model(&mut self) -> &mut slung_load::Model {
+        self.scenario.models.slung_load.values_mut().next().expect("the reference has a model")
+    }
+
+    /// The samples of the load of the first vehicle.
+    pub fn loads(&mut self) -> &mut Vec<LoadSample> {
+        &mut self.flight().vehicles[0].loads
+    }
 }

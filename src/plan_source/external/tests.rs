@@ -22,10 +22,10 @@ fn ask(script: &str, time_limit_s: f64) -> (PlanStatus, String, String) {
         time_limit_s: Some(time_limit_s),
         in_loop: false,
     };
-    let outside = planner.plan(&scenario(), 3);
-    let plan = outside.answer.plan;
+    let external = planner.plan(&scenario(), 3);
+    let plan = external.answer.plan;
     assert_eq!((plan.planner.as_str(), plan.seed, plan.scenario.as_str()), ("shell", 3, "rendezvous-1"));
-    (plan.status, plan.reason.unwrap_or_default(), outside.log)
+    (plan.status, plan.reason.unwrap_or_default(), external.log)
 }
 
 /// The command has no plan, and the reason says `what`.

@@ -141,8 +141,9 @@ fn flattering() -> Vec<Fault> {
         }),
         Fault::new("flight.complete", "the flight is that of another plan, a little aside", |it| {
             let aside_m = 0.2 * it.scenario.limits().tracking_max_m;
-            let mut other = it.plan.clone();
-            other.trajectories.iter_mut().for_each(|trajectory| aside(trajectory, aside_m));
+            let own = it.plan.clone();
+            (0..own.trajectories.len()).for_each(|vehicle| it.edit(vehicle).move_north(aside_m));
+            let other = std::mem::replace(&mut it.plan, own);
             it.fly_instead(&other);
         }),
         Fault::new("flight.conditions", "the log shows a wind that is not in the scenario", |it| {
@@ -182,22 +183,6 @@ fn freeze(it: &mut ReferenceCase, from: f64, to: f64) {
         load.position_m = held.position_m;
         load.measured_position_m = held.position_m;
     });
-}
-
-/// The same trajectory, farther to the north.
-fn aside(trajectory: &mut scenarios::Trajectory, by_m: f64) {
-    match trajectory {
-        scenarios::Trajectory::FixedWing(trajectory) => {
-            trajectory.states.iter_mut().for_each(|state| state.y_m += by_m);
-        }
-        scenarios::Trajectory::Multirotor(trajectory) => {
-            trajectory.states.iter_mut().for_each(|state| state.position_m[1] += by_m);
-        }
-        scenarios::Trajectory::SlungLoad(trajectory) => trajectory.states.iter_mut().for_each(|state| {
-            state.position_m[1] += by_m;
-            state.load_position_m[1] += by_m;
-        }),
-    }
 }
 
 /// What two logs hold from some sample on, swapped, apart from what the plans ask for.

@@ -10,7 +10,7 @@ pub fn faults() -> Vec<Fault> {
         Fault::new("plan.complete", "the plan is empty", |it| it.plan.trajectories.clear()),
         Fault::new("plan.complete", "a trajectory has no node", |it| truncate(it, 0.0)),
         Fault::new("plan.complete", "a trajectory has states and no times", |it| it.times_s(0).clear()),
-        Fault::new("plan.complete", "the plan is for a vehicle of another name", rename),
+        Fault::new("plan.complete", "the plan is for a vehicle of another name", |it| it.edit(0).vehicle().push('?')),
         Fault::new("plan.complete", "a trajectory stands twice", |it| {
             let twice = it.plan.trajectories[0].clone();
             it.plan.trajectories.push(twice);
@@ -50,36 +50,10 @@ pub fn faults() -> Vec<Fault> {
     ]
 }
 
-/// Keeps a share of the nodes of every trajectory.
-fn truncate(it: &mut ReferenceCase, share: f64) {
-    for trajectory in &mut it.plan.trajectories {
-        let kept = (trajectory.times_s().len() as f64 * share) as usize;
-        match trajectory {
-            scenarios::Trajectory::FixedWing(trajectory) => {
-                trajectory.times_s.truncate(kept);
-                trajectory.states.truncate(kept);
-                trajectory.controls.truncate(kept);
-            }
-            scenarios::Trajectory::Multirotor(trajectory) => {
-                trajectory.times_s.truncate(kept);
-                trajectory.states.truncate(kept);
-            }
-            scenarios::Trajectory::SlungLoad(trajectory) => {
-                trajectory.times_s.truncate(kept);
-                trajectory.states.truncate(kept);
-                trajectory.controls.truncate(kept);
-                trajectory.cable.truncate(kept);
-                trajectory.planner_nodes.retain(|node| *node < kept);
-            }
-        }
+/// Keeps a fraction of the nodes of every trajectory.
+fn truncate(it: &mut ReferenceCase, fraction: f64) {
+    for vehicle in 0..it.plan.trajectories.len() {
+        let kept = (it.times_s(vehicle).len() as f64 * fraction) as usize;
+        it.edit(vehicle).truncate(kept);
     }
-}
-
-fn rename(it: &mut ReferenceCase) {
-    let name = match &mut it.plan.trajectories[0] {
-        scenarios::Trajectory::FixedWing(trajectory) => &mut trajectory.vehicle,
-        scenarios::Trajectory::SlungLoad(trajectory) => &mut trajectory.vehicle,
-        scenarios::Trajectory::Multirotor(trajectory) => &mut trajectory.vehicle,
-    };
-    name.push('?');
 }

@@ -1,20 +1,22 @@
-//! Limits that are tightened to just below the value reached. Their counterparts, just above it, are near misses.
+//! Limits tightened to just below the value reached. Their counterparts, just above it, are near misses.
 
-use super::super::family::FamilySelftest;
+use scenarios::Family;
+
 use super::super::{Fault, ReferenceCase};
+use crate::families;
 
-/// A limit of the scenario, and the checks that it decides.
+/// A limit of the scenario, and the checks that it bounds.
 pub struct TightenedLimit {
-    /// What the limit is, for a person to read.
+    /// Description of the limit.
     pub name: &'static str,
     /// The checks, by their full names.
     pub checks: &'static [&'static str],
-    /// Sets the limit.
+    /// Sets the limit, in the unit of the checks.
     pub set: fn(&mut ReferenceCase, f64),
 }
 
-/// Limits that a value may not exceed, in the unit of the check.
-const OF_ALL: &[TightenedLimit] = &[
+/// Upper limits of all families.
+const COMMON: &[TightenedLimit] = &[
     limit("the longest duration", &["plan.duration", "flight.duration"], |it, limit| {
         it.scenario.simulation.max_duration_s = limit;
     }),
@@ -26,19 +28,23 @@ const OF_ALL: &[TightenedLimit] = &[
     }),
 ];
 
-/// The limit of `plan.dynamics`.
+/// The limit of the defects.
 pub const DEFECTS: TightenedLimit =
     limit("the limit of the defects", &["plan.dynamics"], |it, limit| it.scenario.verdict.dynamics_m = Some(limit));
+
 /// The limit of the distance from the goal.
 pub const GOALS: TightenedLimit =
     limit("the limit of the distance from the goal", &["nodes.goal", "plan.goal", "flight.goal"], |it, limit| {
         it.scenario.verdict.goal_m = Some(limit);
     });
 
-/// Distance of a limit from the value reached, relative to it.
-pub const SHARE: f64 = 1e-6;
+/// The checks of the distance between vehicles.
+pub const SEPARATION_CHECKS: &[&str] = &["nodes.separation", "plan.separation", "flight.separation"];
 
-/// A limit that `set` sets, and the checks that it decides.
+/// Distance of a tightened limit from the value reached, as a fraction of it.
+pub const RELATIVE_STEP: f64 = 1e-6;
+
+/// One limit.
 pub const fn limit(
     name: &'static str,
     checks: &'static [&'static str],
@@ -47,27 +53,38 @@ pub const fn limit(
     TightenedLimit { name, checks, set }
 }
 
-/// The limits of a family, those of all families first.
-pub fn all(family: &'static FamilySelftest) -> impl Iterator<Item = &'static TightenedLimit> {
-    OF_ALL.iter().chain(family.limits)
+/// The upper limits of a family.
+pub fn upper(family: Family) -> impl Iterator<Item = &'static TightenedLimit> {
+    COMMON.iter().chain(families::of(family).selftest.upper_limits)
 }
 
-/// One fault for every limit and every check that it decides.
-pub fn faults(family: &'static FamilySelftest) -> Vec<Fault> {
-    let mut faults = Vec::new();
-    for limit in all(family) {
+/// The faults.
+pub fn faults(family: Family) -> Vec<Fault> {
+    let mut all = Vec::new();
+    for limit in upper(family) {
         for check in limit.checks {
-            faults.push(Fault::new(check, limit.name, move |it| {
+            all.push(Fault::new(check, limit.name, move |it| {
                 let reached = it.value(check);
-                (limit.set)(it, reached * (1.0 - SHARE));
+                (limit.set)(it, reached * (1.0 - RELATIVE_STEP));
             }));
         }
     }
-    faults.extend(family.distances.iter().map(|check| {
-        Fault::new(check, "a distance that is to be kept is longer than the smallest one", move |it| {
+    let selftest = &families::of(family).selftest;
+    all.extend(selftest.distance_checks.iter().map(|check| {
+        Fault::new(check, "the required distance is larger than the smallest one", move |it| {
             let reached_m = it.value(check);
-            (family.keep_apart)(it, reached_m + 1e-6);
+            (selftest.set_distance)(it, reached_m + 1e-6);
         })
     }));
-    faults
+    all
+}
+
+/// Sets the required distance between vehicles, m.
+pub fn set_separation(it: &mut ReferenceCase, limit_m: f64) {
+    it.scenario.fleet.separation_m = Some(limit_m);
+}
+
+/// Sets the required distance between the envelope and obstacles, m.
+pub fn set_envelope(it: &mut ReferenceCase, limit_m: f64) {
+    it.scenario.verdict.envelope_m = Some(limit_m);
 }

@@ -1,11 +1,10 @@
 //! Flights of point masses that follow a plan.
 
 use scenarios::Range;
-use sim::EventKind;
+use sim::{Actuation, Commanded, EventKind, Sample};
 
-use super::super::log::{delay, swap};
 use super::plans::add;
-use crate::campaign::selftest::reference_case::acceleration;
+use crate::campaign::selftest::faults::log::{delay, swap};
 use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
@@ -131,4 +130,12 @@ fn between_samples(it: &mut ReferenceCase) -> [f64; 3] {
     let middle = it.planned_steps() / 2;
     let [from, to] = [it.samples(0)[middle].position_m, it.samples(0)[middle + 1].position_m];
     std::array::from_fn(|axis| f64::midpoint(from[axis], to[axis]))
+}
+
+/// Acceleration of a sample. Panics for one that does not stand for a point mass.
+fn acceleration(sample: &mut Sample) -> &mut Commanded<[f64; 3]> {
+    match &mut sample.actuation {
+        Actuation::Acceleration(acceleration) => acceleration,
+        _ => panic!("not a point mass"),
+    }
 }

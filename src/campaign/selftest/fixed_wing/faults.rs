@@ -2,12 +2,12 @@
 
 use scenarios::Cylinder;
 
-use super::super::reference_case::load_factors;
-use super::super::{Fault, ReferenceCase};
-use super::log::{delay, swap};
+use super::load_factors;
+use crate::campaign::selftest::faults::log::{delay, swap};
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
-/// The faults.
-pub fn faults() -> Vec<Fault> {
+/// The faults of this family.
+pub fn all() -> Vec<Fault> {
     let mut all = plans();
     all.extend(flights());
     all.extend(obstacles());
@@ -143,7 +143,7 @@ fn obstacles() -> Vec<Fault> {
 }
 
 /// A pole near the first vehicle's path: at the share `between` of a step, its axis so far to the left.
-pub fn place(it: &mut ReferenceCase, step: usize, between: f64, left_m: f64, radius_m: f64) {
+fn place(it: &mut ReferenceCase, step: usize, between: f64, left_m: f64, radius_m: f64) {
     let [from, to] = [it.samples(0)[step], it.samples(0)[step + 1]];
     let at = |axis: usize| from.position_m[axis] + between * (to.position_m[axis] - from.position_m[axis]);
     let [vx, vy, _] = from.velocity_mps;

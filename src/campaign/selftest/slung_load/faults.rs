@@ -4,11 +4,11 @@ use scenarios::slung_load::Cable;
 use scenarios::{BoxObstacle, Gate, Range, Window};
 use sim::{Event, EventKind};
 
-use super::super::reference_case::thrusts;
-use super::super::{Fault, ReferenceCase};
+use crate::campaign::selftest::reference_case::thrusts;
+use crate::campaign::selftest::{Fault, ReferenceCase};
 
-/// The faults.
-pub fn faults() -> Vec<Fault> {
+/// The faults of this family.
+pub fn all() -> Vec<Fault> {
     let mut all = plans();
     all.extend(flights());
     all.extend(cables());
