@@ -1,3 +1,5 @@
+//! Smallest distances of a fleet over time, for plots; the smallest of all, over continuous time, is in the verdict.
+
 use rayon::prelude::*;
 use scenarios::{Cylinder, Scenario};
 
