@@ -1,6 +1,7 @@
 //! Which checks decide: skipped, advisory, required ones; and what the verdict says of the planner.
 
-use harness::metrics::{Metrics, clearance_over_time, measure, separation_over_time};
+use harness::metrics::over_time::{clearance_over_time, separation_over_time};
+use harness::metrics::{Metrics, measure};
 use harness::verdict::{FlownMotions, Outcome, Status, Verdict};
 use scenarios::PlanStatus;
 
