@@ -101,7 +101,7 @@ fn flights() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle..middle + 50].iter_mut().for_each(|it| load_factors(it).control.n_y += 0.02);
         }),
-        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| load_factors(sample).command.n_x = 1.0);
         }),

@@ -85,7 +85,7 @@ fn limits() -> Vec<Fault> {
                 told.control[0] = -told.control[0];
             });
         }),
-        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| acceleration(sample).command[0] = 9.0);
         }),

@@ -55,7 +55,7 @@ pub fn faults() -> Vec<Fault> {
             let most_deg = it.samples(0).iter().map(tilt_deg).fold(0.0, f64::max);
             it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.tilt_deg = most_deg - 1e-3);
         }),
-        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| thrusts(sample).command.thrust_n[0] = 9.0);
         }),

@@ -108,7 +108,7 @@ fn flights() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle..middle + 20].iter_mut().for_each(|it| thrusts(it).control.thrust_n[0] += 1.0);
         }),
-        Fault::new("flight.saturation", "commands are limit off for a tenth of the time", |it| {
+        Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| thrusts(sample).command.thrust_n[0] = 9.0);
         }),
