@@ -1,7 +1,7 @@
-//! Every way in which a run can end, and its exit code.
+//! Errors and exit codes.
 //!
-//! Findings about a plan (no plan, a failed check, a crash) are no errors: they are data in a verdict. A bug is a panic,
-//! which ends the process with 101. What is left is bad input and trouble with the environment: the errors of this file.
+//! Findings about a plan (no plan, a failed check, a crash) are not errors but data in a verdict. A bug is a panic, which
+//! ends the process with exit code 101. The errors of this module are bad input and failures of the environment.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,19 +11,19 @@ use scenarios::plan_input::PlanError;
 use scenarios::{FindError, LoadError};
 use thiserror::Error;
 
-/// How a command ended that did what it was asked to do.
+/// Result of a command that was carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Every verdict passed, or there was none to make.
+    /// Every verdict passed, or there was none.
     Passed,
-    /// Some verdict failed, or no plan was found.
+    /// A verdict failed, no plan was found, or something got worse than the baseline.
     Failed,
-    /// Some input could not be used; the rest was done all the same.
+    /// Some input was invalid; the rest was carried out.
     BadInput,
 }
 
 impl Exit {
-    /// The process's exit code: 0, 1 or 2.
+    /// The exit code of the process: 0, 1 or 2.
     pub fn code(self) -> u8 {
         match self {
             Self::Passed => 0,
@@ -39,45 +39,45 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command could not do what it was asked to do: bad usage, bad input, or the environment.
+/// Why a command could not be carried out: bad usage, bad input, or the environment.
 #[derive(Debug, Error, Diagnostic)]
 pub enum Error {
-    /// No list of scenario files could be made.
+    /// Scenario files could not be listed.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Find(#[from] FindError),
-    /// A file is no scenario, or not one for the planner that it names.
+    /// A file is not a valid scenario, or not one for the planner that it names.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Load(#[from] LoadError),
-    /// A file is no plan for its scenario.
+    /// A file is not a valid plan for its scenario.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plan(#[from] PlanError),
-    /// Tags and names leave nothing over.
+    /// Tags and names match no scenario.
     #[error("no scenario matches {options}")]
     #[diagnostic(help("`harness list` shows names and tags"))]
     NothingSelected {
-        /// What was asked for.
+        /// What was given.
         options: String,
     },
-    /// `--planner-command` is no command.
+    /// `--planner-command` is not a command.
     #[error("--planner-command: found `{command}`, expected a program and its arguments, quoted as in a shell")]
     PlannerCommand {
         /// What was given.
         command: String,
     },
-    /// `harness plan` with several planners.
+    /// `harness plan` was given several planners.
     #[error("one planner makes one plan: --planner was given more than once")]
     OnePlanner,
-    /// `harness plan` with a planner that plans in the loop.
+    /// `harness plan` was given an in-loop planner.
     #[error("{planner} plans in the loop: there is no plan before the flight")]
     #[diagnostic(help("`harness run` flies it, and writes what it followed as plan.json and plan.csv"))]
     PlansInTheLoop {
         /// The planner.
         planner: String,
     },
-    /// `harness plan --output` with an unknown ending.
+    /// `harness plan --output` has an unknown extension.
     #[error("{}: a plan is written as .json or .csv", path.display())]
     #[diagnostic(help("`-o plan.csv`, or `-o -` for JSON on standard output"))]
     PlanForm {
@@ -92,30 +92,30 @@ pub enum Error {
     Results {
         /// The file or folder.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Why.
         reason: String,
     },
-    /// A file is no table of samples, or not one that fits the others.
+    /// A file is not a table of samples, or does not match the others.
     #[error("{}: {reason}", path.display())]
     #[diagnostic(help("expected the sweep.parquet of every partition of one `harness sweep`, with the same options"))]
     Samples {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Why.
         reason: String,
     },
-    /// `--planner` names none.
+    /// `--planner` names an unknown planner.
     #[error("--planner {name}: there is no planner of that name, expected one of {known}")]
     #[diagnostic(help("{remedy}"))]
     UnknownPlanner {
-        /// What was asked for.
+        /// What was given.
         name: String,
-        /// What there is.
+        /// The known planners.
         known: String,
-        /// What may have been meant.
+        /// The closest known name.
         remedy: String,
     },
-    /// A planner that was asked for on the command line cannot handle a scenario.
+    /// A planner from the command line cannot handle a scenario.
     #[error("{file}: planner `{planner}` cannot handle this scenario: {reason}")]
     #[diagnostic(help("`harness list` shows what each planner handles"))]
     Unfit {
@@ -126,42 +126,42 @@ pub enum Error {
         /// Why.
         reason: String,
     },
-    /// `--record` with a format that was left out of this build.
+    /// `--record` names a format that this build lacks.
     #[error("--record {format}: this harness was built without the {what}")]
     #[diagnostic(help("build it with `--features {format}` (on by default), or ask for `--record none`"))]
     RecordingNotBuilt {
-        /// As on the command line.
+        /// The format, as on the command line.
         format: &'static str,
-        /// In words.
+        /// What it is.
         what: &'static str,
     },
     /// The worker threads could not be started.
     #[error("--jobs {jobs}: cannot start the worker threads: {reason}")]
     Threads {
-        /// How many.
+        /// Their number.
         jobs: usize,
-        /// What stood in the way.
+        /// Why.
         reason: String,
     },
     /// A benchmark could not be run.
     #[error("cannot {what}: {reason}")]
-    #[diagnostic(help("`harness bench` starts this program once more for every entry, in a temporary folder"))]
+    #[diagnostic(help("`harness bench` starts this program again for every entry, in a temporary folder"))]
     Bench {
-        /// What was tried.
+        /// What was attempted.
         what: String,
-        /// What stood in the way.
+        /// Why.
         reason: String,
     },
     /// A result could not be written.
     #[error("cannot write {}: {reason}", path.display())]
-    #[diagnostic(help("is there space left, and may you write there? `--out` chooses another folder"))]
+    #[diagnostic(help("check free space and write permission, or choose another folder with `--out`"))]
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says, or the library that writes the file.
+        /// The error of the operating system or of the library that writes the file.
         reason: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// Standard output is gone.
+    /// Standard output cannot be written to.
     #[error("cannot write to standard output")]
     Output(#[from] std::io::Error),
 }

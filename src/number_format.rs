@@ -1,17 +1,17 @@
-//! How numbers and their units are written for people: on the terminal, in `summary.md`, in recordings.
+//! Formatting of numbers with their units for the terminal, `summary.md` and recordings.
 //!
-//! Measured values have a resolution, three digits after the point; what was given in a scenario is written as it was
-//! given, without the noise of binary fractions.
+//! Measured values have three digits after the point. Values from a scenario are written as they were given, without the
+//! noise of binary fractions.
 
 use scenarios::Range;
 
-/// Digits of a given number that are shown at most.
+/// Largest number of digits of a value from a scenario.
 const SIGNIFICANT_DIGITS: usize = 7;
-/// Units of what is counted.
+/// Units of counts.
 const COUNTED: [&str; 3] = ["crashes", "numbers", "vehicles"];
 
-/// A measured value in `unit`, without the unit: three digits after the point; what would show as zero without being it
-/// is shown by its power of ten. Counts are whole.
+/// A measured value in `unit`, without the unit: three digits after the point, or scientific notation if it would be
+/// rounded to zero. Counts are whole numbers.
 pub fn number(value: f64, unit: &str) -> String {
     if COUNTED.contains(&unit) && value.fract() == 0.0 {
         format!("{value:.0}")
@@ -38,7 +38,7 @@ pub fn signed_quantity(value: f64, unit: &str) -> String {
     with_unit(&signed(value, unit), unit)
 }
 
-/// A value from a scenario: at most seven digits, and only those that it needs.
+/// A value from a scenario: at most seven significant digits, without trailing zeros.
 pub fn given(value: f64) -> String {
     let rounded = format!("{value:.*e}", SIGNIFICANT_DIGITS - 1);
     rounded.parse::<f64>().unwrap_or(value).to_string()
@@ -54,7 +54,7 @@ pub fn given_range(range: Range, unit: &str) -> String {
     with_unit(&format!("[{}, {}]", given(range.min), given(range.max)), unit)
 }
 
-/// A number in `unit`, where that is more than the dash of what has no dimension.
+/// Appends the unit, unless it is empty or `-` (dimensionless).
 fn with_unit(number: &str, unit: &str) -> String {
     if unit.is_empty() || unit == "-" { number.to_owned() } else { format!("{number} {unit}") }
 }
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn units_stand_behind_numbers_and_a_dash_is_no_unit() {
+    fn units_follow_numbers_and_a_dash_is_not_a_unit() {
         assert_eq!(quantity(0.1, "-"), "0.100");
         assert_eq!(quantity(0.1, "m/s"), "0.100 m/s");
         assert_eq!(quantity(2.0, "crashes"), "2 crashes");
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn given_values_show_neither_binary_noise_nor_needless_digits() {
+    fn given_values_have_neither_binary_noise_nor_trailing_zeros() {
         assert_eq!(given(0.1 + 0.2), "0.3");
         assert_eq!(given(9750.0), "9750");
         assert_eq!(given(f64::INFINITY), "inf");

@@ -1,4 +1,4 @@
-//! What the user sees while a job runs, on standard error: a moving line on a terminal, plain lines elsewhere.
+//! Progress on standard error: a spinner on a terminal, plain lines elsewhere.
 
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use scenarios::Iteration;
 use crate::console;
 use crate::jobs::Job;
 
-/// Tells how far a job has come.
+/// Progress of one job.
 pub struct Progress {
     display: Display,
     iterations: usize,
@@ -36,39 +36,39 @@ impl Progress {
         Self { display, iterations: 0, duration_s: 0.0 }
     }
 
-    /// The planner begins.
+    /// Planning begins.
     pub fn planning(&mut self) {
         self.begin("planning".into());
     }
 
-    /// The planner has done one more iteration.
+    /// The planner has finished another iteration.
     pub fn planned(&mut self, iteration: &Iteration) {
         self.iterations += 1;
         self.update(|this| format!("planning: iteration {}, objective {:.3}", this.iterations, iteration.objective));
     }
 
-    /// The simulator begins on a flight of this duration, s.
+    /// Simulation of a flight of this duration begins, s.
     pub fn flying(&mut self, duration_s: f64) {
         self.duration_s = duration_s;
         self.begin(format!("flying {duration_s:.1} s"));
     }
 
-    /// The simulator has come to this time, s.
+    /// The simulation has reached this time, s.
     pub fn flown(&mut self, t_s: f64) {
         self.update(|this| format!("flying: {t_s:.0} s of {:.1} s", this.duration_s));
     }
 
-    /// The judge begins.
+    /// Judging begins.
     pub fn judging(&mut self) {
         self.begin("judging".into());
     }
 
-    /// A recording begins.
+    /// Writing of a recording begins.
     pub fn recording(&mut self, file_name: &str) {
         self.begin(format!("recording {file_name}"));
     }
 
-    /// So many flights of a sweep are done; away from a terminal every tenth of them is told.
+    /// `done` of `total` flights of a sweep are finished. Without a terminal only every tenth part is printed.
     pub fn swept(&mut self, done: usize, total: usize) {
         let message = format!("{done} of {total} flights");
         match &self.display {
@@ -78,14 +78,14 @@ impl Progress {
         }
     }
 
-    /// The job is done; its line makes way for the result.
+    /// The job is finished: removes the spinner, so that the result can be printed.
     pub fn finish(self) {
         if let Display::Bar(bar) = self.display {
             bar.finish_and_clear();
         }
     }
 
-    /// A new stage: shown everywhere.
+    /// Shows a new stage, on a terminal and elsewhere.
     fn begin(&self, message: String) {
         match &self.display {
             Display::Nothing => {}
@@ -94,7 +94,7 @@ impl Progress {
         }
     }
 
-    /// A step within a stage: shown where it replaces the last one.
+    /// Shows a step within a stage, on a terminal only, where it replaces the last one.
     fn update(&self, message: impl FnOnce(&Self) -> String) {
         if let Display::Bar(bar) = &self.display {
             bar.set_message(message(self));

@@ -10,16 +10,16 @@ use crate::metrics::Metrics;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::verdict::{Check, Integration, Outcome, Reconstruction, Verdict};
 
-/// Version of the form of `report.json` and `summary.json`.
+/// Version of the format of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
 
-/// `report.json`: everything that was measured about one scenario and one planner.
+/// `report.json`: everything that was measured for one scenario and one planner.
 ///
-/// The same scenario, planner and seed give the same report on any number of threads, except for `timings` and the fields
+/// Equal scenario, planner and seed give an equal report on any number of threads, except for `timings` and the fields
 /// `wall_s` and `distributed_s`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Report {
-    /// Version of this form: 1.
+    /// Version of this format: 1.
     pub schema: u32,
     /// Version of the harness that wrote it.
     pub harness: String,
@@ -29,43 +29,43 @@ pub struct Report {
     pub planner: String,
     /// Seed of planning and flight.
     pub seed: u64,
-    /// The whole in one word.
+    /// The outcome of the verdict.
     pub verdict: Outcome,
     /// Does the planner call its plan solved although a check of the group `plan` failed?
     pub overclaimed: bool,
     /// Every check, in the order nodes, plan, flight.
     pub checks: Vec<Check>,
-    /// What two integrators disagree on; absent if there is no flight.
+    /// Estimate of the integration error; absent without a flight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integration: Option<Integration>,
-    /// Where the margins went, if it was asked for.
+    /// Margin budgets, if they were asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waterfall: Vec<MarginBudget>,
-    /// Hashes of the flight, to tell at a glance whether two are the same to the last bit; absent if there is no flight.
+    /// Hashes of the flight, equal for flights that are equal to the last bit; absent without a flight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state_hash: Option<StateHashes>,
-    /// What the planner says.
+    /// The plan, as the planner describes it.
     pub plan: PlanSummary,
-    /// What is measured beside the checks, without a limit.
+    /// Figures without a limit.
     pub metrics: Metrics,
-    /// Time that each stage took.
+    /// Wall time of each stage.
     pub timings: Timings,
 }
 
-/// Hashes of everything that a flight log holds.
+/// Running hashes of the flight log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StateHashes {
-    /// Time from one of the running hashes to the next, s.
+    /// Time between two hashes, s.
     pub every_s: f64,
-    /// The hash until the end of each such time, 16 hexadecimal digits; the last one is that of the whole flight.
+    /// Hash of the log up to each of these times, 16 hexadecimal digits; the last one is that of the whole flight.
     pub running: Vec<String>,
 }
 
 impl StateHashes {
-    /// Time between two of them, s.
+    /// Time between two hashes, s.
     const EVERY_S: f64 = 10.0;
 
-    /// Those of a flight.
+    /// The hashes of a flight.
     pub fn of(flight: &Flight) -> Self {
         let running = flight.running_hash(Self::EVERY_S).iter().map(StateHash::digits).collect();
         Self { every_s: Self::EVERY_S, running }
@@ -75,7 +75,7 @@ impl StateHashes {
 /// A plan without its trajectories.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PlanSummary {
-    /// What the planner says of its plan: `solved`, `not-converged`, `no-plan`, or `unstated`. The judge does not ask.
+    /// Status that the planner gives: `solved`, `not-converged`, `no-plan`, or `unstated`. It does not influence the verdict.
     #[schemars(with = "String")]
     pub status: PlanStatus,
     /// Why the status is not `solved`.
@@ -91,32 +91,32 @@ pub struct PlanSummary {
     pub flight_time_s: Option<f64>,
     /// Value of the planner's objective, in the planner's unit (for time-optimal planners s).
     pub objective: Option<f64>,
-    /// What the plan did not give and was reconstructed, and how well.
+    /// What the plan lacked and was reconstructed, with the error of the reconstruction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reconstruction: Option<Reconstruction>,
-    /// What the plan foresees, in time.
+    /// Events of the plan, in the order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventSummary>,
-    /// Ways that were tried and not taken.
+    /// Alternatives that the planner discarded.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<AlternativeSummary>,
 }
 
-/// An instant that a plan foresees.
+/// An event of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EventSummary {
-    /// When, s.
+    /// Time, s.
     pub at_s: f64,
-    /// What.
+    /// Description.
     pub what: String,
 }
 
-/// A way that was tried and not taken, without its path.
+/// An alternative that the planner discarded, without its path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct AlternativeSummary {
-    /// Which way.
+    /// Its name.
     pub name: String,
-    /// What the planner says of it.
+    /// Status that the planner gives.
     #[schemars(with = "String")]
     pub status: PlanStatus,
     /// Value of the planner's objective.
@@ -134,12 +134,12 @@ pub struct Timings {
     pub judging_s: f64,
     /// Writing the recordings.
     pub recording_s: f64,
-    /// Of a planner in the loop, how long single answers took.
+    /// Wall times of the replans of an in-loop planner.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub replans: Option<ReplanTimes>,
 }
 
-/// How long the answers of a planner in the loop took on this machine.
+/// Wall times of the replans of an in-loop planner on this machine.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ReplanTimes {
     /// Mean, s.
@@ -153,7 +153,7 @@ pub struct ReplanTimes {
 }
 
 impl ReplanTimes {
-    /// Of all answers of a flight; `None` if there were none.
+    /// Of all replans of a flight; `None` if there were none.
     pub fn of(log: &PlanningLog) -> Option<Self> {
         let mut walls_s: Vec<f64> = log.replans.iter().map(|replan| replan.wall_s).collect();
         walls_s.sort_by(f64::total_cmp);
@@ -164,14 +164,14 @@ impl ReplanTimes {
 }
 
 impl Timings {
-    /// All stages together, s.
+    /// Sum of all stages, s.
     pub fn total_s(&self) -> f64 {
         self.planning_s + self.flying_s + self.judging_s + self.recording_s
     }
 }
 
 impl Report {
-    /// The report on a plan that was judged.
+    /// The report on a judged plan.
     pub fn new(
         answer: &CompletedPlan,
         flight: Option<&Flight>,

@@ -1,6 +1,6 @@
 //! Planned and flown paths as TUM files, one pose per line: `timestamp tx ty tz qx qy qz qw`.
 //!
-//! Made for evo: `evo_ape tum uav-1.planned.tum uav-1.flown.tum` gives what `report.json` says under `ape`.
+//! For evo: `evo_ape tum uav-1.planned.tum uav-1.flown.tum` gives the figures that `report.json` has under `ape`.
 
 use std::fs;
 use std::io::{self, Write};
@@ -20,15 +20,15 @@ pub fn write(flight: &Flight, folder: &Path) -> Result<(), Error> {
     let folder = folder.join(FOLDER);
     output::create_folder(&folder)?;
     for log in &flight.vehicles {
-        for (what, poses) in [("planned", planned(log, flight)), ("flown", flown(log, flight))] {
-            let path = folder.join(format!("{}.{what}.tum", log.vehicle));
+        for (kind, poses) in [("planned", planned(log, flight)), ("flown", flown(log, flight))] {
+            let path = folder.join(format!("{}.{kind}.tum", log.vehicle));
             output::write_file(&path, |writer| poses.iter().try_for_each(|pose| line(pose, writer)))?;
         }
     }
     Ok(())
 }
 
-/// Removes what an earlier run has left.
+/// Removes the files of an earlier run.
 pub fn remove_stale(folder: &Path) -> Result<(), Error> {
     let path = folder.join(FOLDER);
     match fs::remove_dir_all(&path) {

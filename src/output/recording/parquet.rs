@@ -1,7 +1,6 @@
-//! The whole flight log as a Parquet file, every number to its last bit: for `harness diverge`, pandas, and the like.
+//! The whole flight log as a Parquet file, without rounding: for `harness diverge`, pandas, and other tools.
 //!
-//! One row per vehicle and step, in groups of rows of one vehicle: however long a flight, one group at a time is in memory
-//! beside it.
+//! One row per vehicle and step, in row groups of one vehicle each, so that only one group is in memory beside the flight.
 
 mod columns;
 
@@ -27,7 +26,7 @@ use crate::error::Error;
 /// Writes `flight.parquet`.
 pub struct Parquet;
 
-/// A flight log as it was read back.
+/// A flight log that was read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// Name of the scenario.
@@ -43,12 +42,12 @@ pub struct Table {
 pub struct VehicleTable {
     /// Its name.
     pub vehicle: String,
-    /// In the order of time, one number per column.
+    /// One row per step, in the order of time; one number per column.
     pub rows: Vec<Vec<f64>>,
 }
 
-/// Most rows of a group: some megabytes.
-const ROWS: usize = 1 << 14;
+/// Largest number of rows of a group: some megabytes.
+const GROUP_ROWS: usize = 1 << 14;
 /// Key of the scenario's name in the file's metadata.
 const SCENARIO: &str = "scenario";
 /// The column with the vehicle's name.
@@ -60,7 +59,7 @@ impl Recorder for Parquet {
     }
 
     fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        let nothing = Flight {
+        let empty = Flight {
             step_s: 0.0,
             plan_end_s: 0.0,
             vehicles: Vec::new(),
@@ -68,7 +67,7 @@ impl Recorder for Parquet {
             planning: None,
             wall_s: 0.0,
         };
-        write(&run.scenario.name, run.flight.unwrap_or(&nothing), path)
+        write(&run.scenario.name, run.flight.unwrap_or(&empty), path)
     }
 }
 
@@ -82,8 +81,8 @@ pub fn write(scenario: &str, flight: &Flight, path: &Path) -> Result<(), Box<dyn
     let schema = Arc::new(parse_message_type(&schema)?);
     let mut writer = SerializedFileWriter::new(File::create(path)?, schema, Arc::new(properties))?;
     for log in &flight.vehicles {
-        for first in (0..log.samples.len()).step_by(ROWS) {
-            write_group(&mut writer, log, first..(first + ROWS).min(log.samples.len()), names.len())?;
+        for first in (0..log.samples.len()).step_by(GROUP_ROWS) {
+            write_group(&mut writer, log, first..(first + GROUP_ROWS).min(log.samples.len()), names.len())?;
         }
     }
     writer.close()?;
@@ -115,7 +114,11 @@ fn write_group(
     Ok(())
 }
 
-/// Reads a log that this file wrote.
+/// Reads a log that [`write`] wrote.
+///
+/// # Errors
+///
+/// [`Error::Results`] if the file cannot be read or is not such a log.
 pub fn read(path: &Path) -> Result<Table, Error> {
     read_table(path).map_err(|reason| Error::results(path, reason.to_string()))
 }

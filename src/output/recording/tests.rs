@@ -1,4 +1,4 @@
-//! A recording is there completely, or not at all.
+//! Recordings are written atomically.
 
 use std::error::Error;
 use std::fs;
@@ -11,12 +11,12 @@ use scenarios::{
 use super::{Recorder, Run, record};
 use crate::verdict::{Outcome, Verdict};
 
-/// Writes a line, and then fails if it is told to.
-struct Scribe {
+/// Writes a line, then fails if `fails`.
+struct LineRecorder {
     fails: bool,
 }
 
-impl Recorder for Scribe {
+impl Recorder for LineRecorder {
     fn file_name(&self) -> &'static str {
         "flight.txt"
     }
@@ -27,8 +27,8 @@ impl Recorder for Scribe {
     }
 }
 
-/// Calls `look` with a run in which nothing happens.
-fn with_run(look: impl FnOnce(&Run<'_>)) {
+/// Calls `test` with an empty run.
+fn with_run(test: impl FnOnce(&Run<'_>)) {
     let axis = Range::new(0.0, 1.0);
     let scenario = Scenario {
         name: "nothing".to_owned(),
@@ -44,28 +44,28 @@ fn with_run(look: impl FnOnce(&Run<'_>)) {
     };
     let plan = Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };
-    look(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[] });
+    test(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[] });
 }
 
 #[test]
-fn a_recorder_that_fails_half_way_leaves_the_old_recording_and_nothing_else() {
+fn a_failed_recorder_leaves_the_old_recording_and_no_temporary_file() {
     let folder = tempfile::tempdir().unwrap();
     with_run(|run| {
         fs::write(folder.path().join("flight.txt"), "old").unwrap();
-        let error = record(&Scribe { fails: true }, run, folder.path()).unwrap_err();
+        let error = record(&LineRecorder { fails: true }, run, folder.path()).unwrap_err();
         assert!(error.to_string().contains("flight.txt") && error.to_string().contains("disk full"), "{error}");
         assert_eq!(fs::read_to_string(folder.path().join("flight.txt")).unwrap(), "old");
-        record(&Scribe { fails: false }, run, folder.path()).unwrap();
+        record(&LineRecorder { fails: false }, run, folder.path()).unwrap();
         assert_eq!(fs::read_to_string(folder.path().join("flight.txt")).unwrap(), "nothing");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     });
 }
 
 #[test]
-fn a_folder_that_is_missing_is_an_error_that_names_the_file() {
+fn the_error_of_a_missing_folder_names_the_file() {
     let folder = tempfile::tempdir().unwrap();
     with_run(|run| {
-        let error = record(&Scribe { fails: false }, run, &folder.path().join("missing")).unwrap_err();
+        let error = record(&LineRecorder { fails: false }, run, &folder.path().join("missing")).unwrap_err();
         assert!(error.to_string().contains("missing/flight.txt"), "{error}");
         #[cfg(feature = "rrd")]
         assert!(record(&super::rrd::Rrd, run, &folder.path().join("missing")).is_err());

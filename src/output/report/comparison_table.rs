@@ -1,4 +1,4 @@
-//! A comparison of two runs, on the terminal and as part of a page.
+//! A comparison of two runs as a table, for the terminal and for `summary.md`.
 
 use anstyle::{AnsiColor, Style};
 use comfy_table::{Cell, Color};
@@ -6,10 +6,10 @@ use comfy_table::{Cell, Color};
 use super::table;
 use crate::campaign::comparison::{Comparison, Difference, Severity};
 
-/// Rows that are shown; the others are counted.
-const MOST_ROWS: usize = 200;
+/// Largest number of rows; the others are counted.
+const MAX_ROWS: usize = 200;
 
-/// As a table, with a line that counts.
+/// For the terminal: a table, and a line with counts.
 pub fn text(comparison: &Comparison) -> String {
     let color = if comparison.is_good() { AnsiColor::Green } else { AnsiColor::Red };
     let style = Style::new().bold().fg_color(Some(color.into()));
@@ -19,7 +19,7 @@ pub fn text(comparison: &Comparison) -> String {
     }
     let mut table = table::with_header(&["", "result", "what", "old", "new", "change"], &[3, 4]);
     table.enforce_styling();
-    for difference in comparison.differences.iter().take(MOST_ROWS) {
+    for difference in comparison.differences.iter().take(MAX_ROWS) {
         let Difference { rating, what, old, new, change, .. } = difference;
         let (word, color) = rated(*rating);
         table.add_row([
@@ -31,12 +31,12 @@ pub fn text(comparison: &Comparison) -> String {
             Cell::new(change),
         ]);
     }
-    let more = comparison.differences.len().saturating_sub(MOST_ROWS);
+    let more = comparison.differences.len().saturating_sub(MAX_ROWS);
     let more = if more > 0 { format!("\n{more} more") } else { String::new() };
     format!("{}{more}\n{counts}", table.trim_fmt())
 }
 
-/// As a section of a page.
+/// A section of `summary.md`.
 pub fn markdown(comparison: &Comparison) -> String {
     let mut lines = vec![format!("## Against the baseline: {}", comparison.counts_line()), String::new()];
     if !comparison.differences.is_empty() {
@@ -47,7 +47,7 @@ pub fn markdown(comparison: &Comparison) -> String {
         let Difference { rating, what, old, new, change, .. } = difference;
         format!("| {} | {} | {what} | {old} | {new} | {change} |", rated(*rating).0, result(difference))
     };
-    lines.extend(comparison.differences.iter().take(MOST_ROWS).map(row));
+    lines.extend(comparison.differences.iter().take(MAX_ROWS).map(row));
     lines.join("\n") + "\n"
 }
 

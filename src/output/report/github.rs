@@ -1,4 +1,4 @@
-//! What GitHub shows of a run: annotations on the lines of scenario files, and the job's summary page.
+//! GitHub Actions: annotations on lines of scenario files, and the job summary.
 
 use std::env;
 use std::fs::OpenOptions;
@@ -79,7 +79,7 @@ pub fn add_to_job_summary(page: &str) -> Result<(), Error> {
     };
     let append = || {
         let mut file = OpenOptions::new().create(true).append(true).open(&path)?;
-        writeln!(file, "{}", super::markdown::cut(page, MAX_SUMMARY_BYTES))
+        writeln!(file, "{}", super::markdown::truncate(page, MAX_SUMMARY_BYTES))
     };
     append().map_err(|reason: std::io::Error| Error::Write { path: path.clone(), reason: reason.into() })
 }

@@ -1,4 +1,4 @@
-//! A verdict in one line.
+//! Verdicts and checks in one line.
 
 use scenarios::PlanStatus;
 
@@ -6,10 +6,10 @@ use crate::number_format::{given_quantity, quantity, signed_quantity};
 use crate::report::Report;
 use crate::verdict::{Check, KEY_CHECKS, Outcome, Status};
 
-/// Failed checks that the line names; the others are counted.
+/// Number of failed checks that are named; the others are counted.
 const FAILURES_NAMED: usize = 3;
 
-/// What stands behind the word: the smallest margins of a pass, the checks that failed, or why there is no plan.
+/// The reason of a verdict: the smallest margins, the failed checks, or why there is no plan.
 pub(super) fn reason(report: &Report) -> String {
     match report.verdict {
         Outcome::Pass => smallest_margins(report),
@@ -18,18 +18,18 @@ pub(super) fn reason(report: &Report) -> String {
     }
 }
 
-/// Said only if the planner calls a plan solved that is none.
+/// A note if the planner reports `solved` for a plan that fails checks of the group `plan`.
 pub(super) fn overclaim(report: &Report) -> Option<String> {
     let is_false = report.overclaimed && report.plan.status == PlanStatus::Solved;
     is_false.then(|| "the planner calls this plan solved, but it fails checks of the group `plan`".to_owned())
 }
 
-/// The checks that decided against the plan.
+/// Failed and undecided checks that decide.
 pub(super) fn failed(report: &Report) -> impl Iterator<Item = &Check> {
     report.checks.iter().filter(|check| check.is_bad() && !check.advisory)
 }
 
-/// Advisory checks that failed: shown, not deciding.
+/// Failed and undecided advisory checks.
 pub(super) fn warnings(report: &Report) -> impl Iterator<Item = &Check> {
     report.checks.iter().filter(|check| check.is_bad() && check.advisory)
 }
@@ -58,14 +58,14 @@ fn failures(report: &Report) -> String {
     format!("{} of {asked} checks failed: {}{rest}", failed.len(), first.join("; "))
 }
 
-/// The end of a text, indented; nothing if it is blank.
+/// The last lines of a text, indented; empty if it is blank.
 pub(super) fn last_lines(text: &str, count: usize) -> String {
     let lines: Vec<&str> = text.trim_end().lines().collect();
     let shown = &lines[lines.len().saturating_sub(count)..];
     shown.iter().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
 }
 
-/// Value, limit, place and remark of a check, for a reader who has nothing else before them.
+/// A check with value, limit, margin, place and reason, readable on its own.
 pub(super) fn sentence(check: &Check) -> String {
     let value = check.value.map(|value| format!("measured {}", quantity(value, &check.unit)));
     let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));

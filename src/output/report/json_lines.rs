@@ -1,4 +1,4 @@
-//! A run as a stream of JSON objects, one per line, for tools that read along.
+//! A run as a stream of JSON objects, one per line, for tools.
 
 use serde::Serialize;
 
@@ -13,23 +13,23 @@ use crate::report::Report;
 pub enum Event<'a> {
     /// A file that could not be run.
     Refused {
-        /// Which, and why.
+        /// The file and its faults.
         #[serde(flatten)]
         file: &'a RefusedFile,
     },
-    /// A job is done: all of its `report.json`.
+    /// A job is finished.
     Report {
-        /// What was found.
+        /// The contents of its `report.json`.
         report: &'a Report,
     },
-    /// Everything is done.
+    /// All jobs are finished.
     Summary {
         /// The contents of `summary.json`.
         summary: &'a Summary,
         /// Exit code of the process.
         exit_code: u8,
     },
-    /// What a comparison with an earlier run found.
+    /// A comparison with an earlier run or a baseline.
     Comparison {
         /// Every difference.
         comparison: &'a crate::campaign::comparison::Comparison,

@@ -1,4 +1,4 @@
-//! `junit.xml`: one suite per scenario and planner, one case per check, for the test view of a CI server.
+//! `junit.xml`: one suite per scenario and planner, one case per check, for CI servers.
 
 use std::time::Duration;
 
@@ -50,7 +50,7 @@ fn status(report: &Report, check: &Check) -> TestCaseStatus {
     match check.status {
         Status::Pass => TestCaseStatus::success(),
         Status::Skip => skipped(check.reason.clone().unwrap_or_default()),
-        // one error says it; thirty failures would say no more
+        // The error of the case `plan` says it all.
         Status::Fail | Status::Undecided if report.verdict == Outcome::NoPlan => skipped("there is no plan".into()),
         Status::Fail | Status::Undecided if check.advisory => {
             skipped(format!("advisory, does not decide: {}", headline::line(check)))
@@ -72,9 +72,9 @@ fn against_baseline(losses: &[&Difference]) -> TestCaseStatus {
     status
 }
 
-fn skipped(why: String) -> TestCaseStatus {
+fn skipped(reason: String) -> TestCaseStatus {
     let mut status = TestCaseStatus::skipped();
-    status.set_message(why);
+    status.set_message(reason);
     status
 }
 

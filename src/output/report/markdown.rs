@@ -1,17 +1,17 @@
-//! `summary.md`: the run as a page, for a pull request or a build log. What went wrong comes first.
+//! `summary.md`: the run as a page, for a pull request or a build log. Failures come first.
 
 use super::{Summary, SummaryRun, headline};
 use crate::number_format::{given_quantity, quantity, signed_quantity};
 use crate::report::Report;
 use crate::verdict::{Check, Outcome};
 
-/// Failed jobs whose checks are listed one by one.
-const MOST_DETAILS: usize = 20;
+/// Largest number of failed jobs whose checks are listed.
+const MAX_DETAILS: usize = 20;
 
 /// The whole page.
 ///
-/// - `reports`: of the same jobs as in the summary
-/// - `has_links`: do scenarios lead to their reports, which lie beside the page?
+/// - `reports`: of the jobs in the summary
+/// - `has_links`: link scenarios to their reports, which are in folders beside the page?
 pub(super) fn page(summary: &Summary, reports: &[Report], has_links: bool) -> String {
     let mut lines = vec![format!("# {}", summary.counts_line()), String::new()];
     if !summary.refused.is_empty() {
@@ -29,20 +29,20 @@ pub(super) fn page(summary: &Summary, reports: &[Report], has_links: bool) -> St
         lines.push(String::new());
     }
     let failed: Vec<&Report> = reports.iter().filter(|report| report.verdict == Outcome::Fail).collect();
-    lines.extend(failed.iter().take(MOST_DETAILS).flat_map(|report| details(report)));
-    if failed.len() > MOST_DETAILS {
-        lines.push(format!("{} more failed; their checks are in `report.json`.", failed.len() - MOST_DETAILS));
+    lines.extend(failed.iter().take(MAX_DETAILS).flat_map(|report| details(report)));
+    if failed.len() > MAX_DETAILS {
+        lines.push(format!("{} more failed; their checks are in `report.json`.", failed.len() - MAX_DETAILS));
     }
     lines.join("\n")
 }
 
-/// The page up to `most` bytes, ended after a line, with a note if anything is missing.
-pub(super) fn cut(page: &str, most: usize) -> String {
-    if page.len() <= most {
+/// The page truncated after a whole line to `max_bytes`, with a note if anything is missing.
+pub(super) fn truncate(page: &str, max_bytes: usize) -> String {
+    if page.len() <= max_bytes {
         return page.to_owned();
     }
-    const NOTE: &str = "\n\nCut here, at the size that is allowed; all of it is in `summary.md`.\n";
-    let kept = &page[..page.floor_char_boundary(most.saturating_sub(NOTE.len()))];
+    const NOTE: &str = "\n\nTruncated to the allowed size; the whole page is in `summary.md`.\n";
+    let kept = &page[..page.floor_char_boundary(max_bytes.saturating_sub(NOTE.len()))];
     let kept = kept.rfind('\n').map_or("", |end| &kept[..end]);
     format!("{kept}{NOTE}")
 }
@@ -56,7 +56,7 @@ fn row(run: &SummaryRun, has_links: bool) -> String {
     format!("| {verdict} | {scenario} | {planner} | {seed} | {flight_time} | {why} |")
 }
 
-/// The failed checks of one job.
+/// A table of the failed checks of one job.
 fn details(report: &Report) -> Vec<String> {
     let title = format!("## {} · {}", report.scenario, report.planner);
     let header =
@@ -75,21 +75,21 @@ fn check_row(check: &Check) -> String {
     format!("| `{}` | {value} | {limit} | {margin} | {} |", check.name, cell(&remarks.join("; ")))
 }
 
-/// Text that stays in its cell.
+/// Escapes what would end a table cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::cut;
+    use super::truncate;
 
     #[test]
-    fn a_page_that_is_too_long_ends_after_a_whole_line_and_says_so() {
+    fn a_page_that_is_too_long_is_truncated_after_a_whole_line_with_a_note() {
         let page = "äöü line\n".repeat(1000);
-        let short = cut(&page, 500);
+        let short = truncate(&page, 500);
         assert!(short.len() <= 500, "{} bytes", short.len());
-        assert!(short.starts_with("äöü line\n") && short.contains("line\n\nCut here"), "{short}");
-        assert_eq!(cut(&page, page.len()), page);
+        assert!(short.starts_with("äöü line\n") && short.contains("line\n\nTruncated"), "{short}");
+        assert_eq!(truncate(&page, page.len()), page);
     }
 }

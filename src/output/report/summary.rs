@@ -1,4 +1,4 @@
-//! The whole run in one file: `summary.json`, and `summary.md` from it.
+//! The summary of all jobs: `summary.json`, and `summary.md` from it.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,9 +11,9 @@ use crate::verdict::Outcome;
 /// Every job of a run, and every file that could not be run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Version of this form: 1.
+    /// Version of this format: 1.
     pub schema: u32,
-    /// One per job, in the order in which they were run.
+    /// One entry per job, in the order of the run.
     pub runs: Vec<SummaryRun>,
     /// Files that could not be run.
     pub refused: Vec<RefusedFile>,
@@ -31,13 +31,13 @@ pub struct SummaryRun {
     pub planner: String,
     /// Seed of planning and flight.
     pub seed: u64,
-    /// The whole in one word.
+    /// The outcome of the verdict.
     pub verdict: Outcome,
-    /// The verdict's reason in one line: smallest margins, failed checks, or why there is no plan.
+    /// The reason of the verdict: smallest margins, failed checks, or why there is no plan.
     pub reason: String,
-    /// Names of the checks that decided against the plan.
+    /// Names of the deciding checks that failed or are undecided.
     pub failed: Vec<String>,
-    /// Names of advisory checks that failed.
+    /// Names of the advisory checks that failed or are undecided.
     pub warnings: Vec<String>,
     /// Does the planner call its plan solved although a check of the group `plan` failed?
     pub overclaimed: bool,
@@ -54,7 +54,7 @@ pub struct SummaryRun {
 pub struct RefusedFile {
     /// The file.
     pub file: String,
-    /// What is wrong, one line per fault, with line and column where there are any.
+    /// Its faults, one per line, with line and column where they are known.
     pub faults: Vec<String>,
 }
 
@@ -93,12 +93,12 @@ impl Summary {
         &self.refused[self.refused.len() - 1]
     }
 
-    /// How many jobs ended in this way.
+    /// Number of jobs with this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.runs.iter().filter(|run| run.verdict == outcome).count()
     }
 
-    /// `3 passed, 1 failed, 0 without a plan, 1 file refused`, without what is zero (except for the first).
+    /// `3 passed, 1 failed, 1 refused as bad input`: zeros are left out, except for the first.
     pub fn counts_line(&self) -> String {
         let counts = [
             (self.count(Outcome::Fail), "failed"),
@@ -134,7 +134,7 @@ impl Summary {
         markdown::page(self, reports, true)
     }
 
-    /// [`markdown`](Self::markdown) for a place where the result folder is out of reach.
+    /// [`markdown`](Self::markdown) for a page from which the result folder cannot be reached.
     pub fn markdown_without_links(&self, reports: &[Report]) -> String {
         markdown::page(self, reports, false)
     }
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_input_outweighs_bad_verdicts_and_these_outweigh_good_ones() {
+    fn bad_input_takes_precedence_over_failures_and_failures_over_passes() {
         use Outcome::{Fail, NoPlan, Pass};
         assert_eq!(summary(&[Pass, Pass], 0).exit(), Exit::Passed);
         assert_eq!(summary(&[Pass, Fail], 0).exit(), Exit::Failed);
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn counts_name_what_there_is() {
+    fn counts_leave_out_zeros() {
         assert_eq!(summary(&[Outcome::Pass], 0).counts_line(), "1 passed");
         assert_eq!(summary(&[Outcome::Fail], 2).counts_line(), "0 passed, 1 failed, 2 refused as bad input");
     }

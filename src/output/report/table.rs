@@ -1,15 +1,15 @@
-//! The look of every table on the terminal.
+//! The style of all tables on the terminal.
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, TableComponent, Width, presets};
 
-/// Width away from a terminal, characters.
+/// Width of tables that are not printed to a terminal, characters.
 const PAGE_WIDTH: u16 = 120;
-/// Narrowest last column, characters: on a terminal that is too narrow for it, lines run over the edge.
-const NARROWEST_TEXT: u16 = 24;
+/// Smallest width of the last column, characters; on a narrower terminal lines overflow.
+const MIN_TEXT_WIDTH: u16 = 24;
 
-/// An empty table with a line under its header, as wide as the terminal at most. Only its last column is wrapped.
+/// An empty table with a line below its header, at most as wide as the terminal. Only the last column is wrapped.
 ///
-/// - `numbers`: columns that are set flush right
+/// - `numbers`: columns that are right-aligned
 pub fn with_header(header: &[&str], numbers: &[usize]) -> Table {
     let mut table = Table::new();
     table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
@@ -20,7 +20,7 @@ pub fn with_header(header: &[&str], numbers: &[usize]) -> Table {
     }
     for (index, column) in table.column_iter_mut().enumerate() {
         let is_last = index + 1 == header.len();
-        let narrowest = ColumnConstraint::LowerBoundary(Width::Fixed(NARROWEST_TEXT));
+        let narrowest = ColumnConstraint::LowerBoundary(Width::Fixed(MIN_TEXT_WIDTH));
         column.set_constraint(if is_last { narrowest } else { ColumnConstraint::ContentWidth });
         column.set_padding((0, if is_last { 0 } else { 1 }));
         if numbers.contains(&index) {

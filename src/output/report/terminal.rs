@@ -1,6 +1,6 @@
-//! Results on the terminal: a table of checks, the plan in one line, the verdict in one line.
+//! Results for the terminal: a table of checks, plan and verdict in one line each.
 //!
-//! Text carries its colours; whoever prints it strips them where they are not wanted.
+//! The text contains ANSI colours, which [`console::print`](crate::console::print) strips where they are not supported.
 
 use std::path::Path;
 
@@ -13,12 +13,12 @@ use crate::number_format::{number, quantity, signed, signed_quantity};
 use crate::report::Report;
 use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, Status};
 
-/// Lines of an outside planner's log that are shown when it made no plan.
+/// Number of lines of an external planner's log that are shown if there is no plan.
 const LOG_LINES: usize = 20;
 
 /// Everything about one job.
 ///
-/// - `log`: what an outside planner wrote to its standard error; its end is shown if there is no plan
+/// - `log`: standard error of an external planner; its end is shown if there is no plan
 pub fn report(report: &Report, log: Option<&str>) -> String {
     if report.verdict == Outcome::NoPlan {
         return no_plan(report, log);
@@ -42,7 +42,7 @@ pub fn report(report: &Report, log: Option<&str>) -> String {
     format!("{}\n", lines.join("\n"))
 }
 
-/// Every check has failed for the same reason: that one is told, with the planner's last words.
+/// Without a plan every check has failed for the same reason, which is shown with the end of the planner's log.
 fn no_plan(report: &Report, log: Option<&str>) -> String {
     let verdict = verdict_line(report.verdict, &report.scenario, &report.planner);
     let said = log.map(|log| headline::last_lines(log, LOG_LINES)).filter(|said| !said.is_empty());
@@ -50,7 +50,7 @@ fn no_plan(report: &Report, log: Option<&str>) -> String {
     format!("{}\n{said}{verdict}  {}\n", plan_line(report), headline::reason(report))
 }
 
-/// The whole run: of several jobs those that did not pass once more, how many passed, and where the files are.
+/// The whole run: the jobs that did not pass (if there are several jobs), counts, and the result folder.
 pub fn summary(summary: &Summary, out: &Path) -> String {
     let bad: Vec<&SummaryRun> = summary.runs.iter().filter(|run| run.verdict != Outcome::Pass).collect();
     let repeated = if summary.runs.len() > 1 { bad.as_slice() } else { &[] };
@@ -99,7 +99,7 @@ fn status(check: &Check) -> (&'static str, Color) {
     }
 }
 
-/// What was not asked, one line per reason.
+/// Skipped checks, one line per reason.
 fn skipped(report: &Report) -> Vec<String> {
     let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
     for check in report.checks.iter().filter(|check| check.status == Status::Skip) {
@@ -138,7 +138,7 @@ fn flight_line(report: &Report) -> Option<String> {
     Some(format!("flight: {}", std::iter::once(simulated).chain(known).collect::<Vec<_>>().join("; ")))
 }
 
-/// What two integrators disagree on.
+/// The integration-error estimate.
 fn integration_line(Integration { method, disagreement_m, .. }: &Integration) -> String {
     let how = match method {
         Method::Replay => "in windows, by a replay of its log",

@@ -1,4 +1,4 @@
-//! Times, and flights that nobody would like to draw.
+//! Timestamps.
 
 use foxglove::messages::Timestamp;
 

@@ -1,4 +1,4 @@
-//! What a flight log holds, as columns of numbers: in the order of cause and effect within a step.
+//! The columns of a flight log: in the order of cause and effect within a step.
 
 use sim::{Actuation, Commanded, Flight, VehicleLog};
 
@@ -60,7 +60,7 @@ const LOAD: [&str; 16] = [
     "reference_load_z_m",
 ];
 
-/// Names of the columns of a flight: those of its vehicles' family.
+/// Names of the columns of a flight, which depend on its controls and loads.
 pub fn columns(flight: &Flight) -> Vec<&'static str> {
     let first = flight.vehicles.iter().find_map(|log| log.samples.first());
     let controls: &[&str] = match first.map(|sample| &sample.actuation) {
@@ -72,7 +72,7 @@ pub fn columns(flight: &Flight) -> Vec<&'static str> {
     [&COMMON[..], &REFERENCE_VELOCITY, controls, load].concat()
 }
 
-/// The numbers of one step in the order of the columns; NaN for what the log lacks.
+/// The numbers of one step in the order of the columns; NaN for missing ones.
 pub fn values(log: &VehicleLog, step: usize, width: usize) -> Vec<f64> {
     let sample = &log.samples[step];
     let mut row = vec![sample.t_s];

@@ -1,6 +1,6 @@
-//! A layout written entity by entity: rerun's builders know neither camera nor axis ranges nor the play state.
+//! A layout written entity by entity: rerun's builders lack camera, axis ranges and play state.
 //!
-//! The entities and their meaning: `re_sdk::blueprint` writes the same ones.
+//! The entities are those that `re_sdk::blueprint` writes.
 
 use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::external::re_sdk_types::blueprint::archetypes as archetype;
@@ -16,7 +16,7 @@ use super::{APPLICATION, Logged, SIM_TIME};
 
 type Error = Box<dyn std::error::Error + Send + Sync>;
 
-/// What a view shows.
+/// Kinds of views.
 #[derive(Clone, Copy, Debug)]
 pub enum ViewClass {
     /// Space.
@@ -43,14 +43,14 @@ impl ViewClass {
     }
 }
 
-/// A view or a container, as its parent refers to it.
+/// A view or a container, for its parent to refer to.
 #[derive(Clone, Debug)]
 pub struct Part {
     path: String,
     id: Uuid,
 }
 
-/// A layout in the making.
+/// A layout under construction.
 pub struct Blueprint {
     stream: RecordingStream,
     messages: MemorySinkStorage,
@@ -78,7 +78,7 @@ impl Blueprint {
         Ok(part)
     }
 
-    /// Sets the property `name` of a view, the name being the archetype's.
+    /// Sets a property of a view; `name` is that of the archetype.
     pub fn property(&self, view: &Part, name: &str, value: &dyn AsComponents) -> Logged {
         Ok(self.stream.log(format!("{}/{name}", view.path), value)?)
     }
@@ -88,28 +88,28 @@ impl Blueprint {
         self.property(view, "ScalarAxis", &archetype::ScalarAxis::new().with_range(Range1D::new(min, max)))
     }
 
-    /// Fixes the horizontal axis of a time series view, s: without it a playing viewer shows some seconds only.
+    /// Fixes the horizontal axis of a time series view, s: otherwise a playing viewer shows only a few seconds.
     pub fn times(&self, view: &Part, start_s: f64, end_s: f64) -> Logged {
         let [start, end] = [start_s, end_s].map(|t_s| TimeRangeBoundary::Absolute(((1e9 * t_s) as i64).into()));
         let range = component::TimeRange(TimeRange { start, end });
         self.property(view, "TimeAxis", &archetype::TimeAxis::new().with_view_range(range))
     }
 
-    /// Parts above each other, with their shares of the height.
+    /// Parts above each other, with their relative heights.
     pub fn rows(&self, name: &str, parts: &[(Part, f32)]) -> Result<Part, Error> {
         let shares = parts.iter().map(|(_, share)| component::RowShare(Float32(*share)));
         let kind = archetype::ContainerBlueprint::new(component::ContainerKind::Vertical).with_row_shares(shares);
         self.container(kind, name, &parts.iter().map(|(part, _)| part.clone()).collect::<Vec<_>>())
     }
 
-    /// Parts side by side, with their shares of the width.
+    /// Parts side by side, with their relative widths.
     pub fn columns(&self, name: &str, parts: &[(Part, f32)]) -> Result<Part, Error> {
         let shares = parts.iter().map(|(_, share)| component::ColumnShare(Float32(*share)));
         let kind = archetype::ContainerBlueprint::new(component::ContainerKind::Horizontal).with_col_shares(shares);
         self.container(kind, name, &parts.iter().map(|(part, _)| part.clone()).collect::<Vec<_>>())
     }
 
-    /// Parts behind each other; the first is in front.
+    /// Parts as tabs; the first is active.
     pub fn tabs(&self, name: &str, parts: &[Part]) -> Result<Part, Error> {
         let mut kind = archetype::ContainerBlueprint::new(component::ContainerKind::Tabs);
         if let Some(first) = parts.first() {
@@ -118,8 +118,8 @@ impl Blueprint {
         self.container(kind, name, parts)
     }
 
-    /// Makes `root` the whole window and sends the layout along with the recording `to`, which plays from its start,
-    /// `playback_speed` times as fast as it happened.
+    /// Makes `root` the whole window and sends the layout with the recording `to`, which plays from its start at
+    /// `playback_speed` times real time.
     pub fn send(self, root: &Part, playback_speed: f64, to: &RecordingStream) -> Logged {
         let viewport = archetype::ViewportBlueprint::new()
             .with_root_container(component::RootContainer(root.id.into()))
@@ -149,7 +149,7 @@ impl Blueprint {
         Ok(part)
     }
 
-    /// The next part; ids count up, so that the same layout has the same ids.
+    /// The next part. Ids count up, so that equal layouts have equal ids.
     fn part(&self, kind: &str) -> Part {
         self.parts.set(self.parts.get() + 1);
         let id = Uuid::from_u128(self.parts.get());

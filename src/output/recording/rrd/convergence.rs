@@ -1,4 +1,4 @@
-//! How the planner converged: series on the timeline `planner_iter`, and the same as a table that is always in view.
+//! Convergence of the planner: series on the timeline `planner_iter`, and the same as a table.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use crate::output::scene::{Paint, colours};
 /// Timeline of the planner's iterations.
 pub const PLANNER_ITER: &str = "planner_iter";
 
-/// One series: its group, its name, its value.
+/// A series: group, name, value.
 type Series = (&'static str, &'static str, fn(&Iteration) -> f64);
 
 const SERIES: [Series; 7] = [
@@ -34,7 +34,7 @@ pub const GROUPS: [(&str, &str); 4] = [
     ("effort", "Interior-point iterations (timeline planner_iter)"),
 ];
 
-/// Logs the planner's history; nothing if it keeps none.
+/// Logs the planner's history, if it has one.
 pub fn log(stream: &RecordingStream, plan: &Plan) -> Logged {
     if plan.history.is_empty() {
         return Ok(());
@@ -74,7 +74,7 @@ fn table(plan: &Plan) -> String {
     text
 }
 
-/// Decades; what is zero to rounding stays on the picture.
+/// Values below 1e-12 are clipped, so that a zero stays in the plot.
 fn log10(value: f64) -> f64 {
     value.max(1e-12).log10()
 }

@@ -1,4 +1,4 @@
-//! What a written recording must be: complete, in place, small, honest about extremes, and there for failed runs too.
+//! Recordings are complete, small, keep extremes, and are written for failed runs too.
 
 mod synthetic;
 
@@ -20,7 +20,7 @@ fn recorded(run: &Run<'_>) -> (tempfile::TempDir, u64) {
     let folder = tempfile::tempdir().unwrap();
     let path = record(&Rrd, run, folder.path()).unwrap();
     assert_eq!(path, folder.path().join("flight.rrd"));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "something else was left behind");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "other files were left");
     let size = fs::metadata(path).unwrap().len();
     (folder, size)
 }
@@ -52,7 +52,7 @@ fn scalars(store: &ChunkStore, entity: &str) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn everything_that_was_asked_for_is_in_the_recording() {
+fn the_recording_holds_every_part_of_the_scene() {
     let made_up = Synthetic::new(3, 60.0);
     let (folder, _) = recorded(&made_up.run());
     let entities = entities(&read(folder.path()));
@@ -130,7 +130,7 @@ fn a_run_without_a_plan_is_recorded_with_its_world_and_its_verdict() {
 }
 
 #[test]
-fn no_number_is_too_bad_to_be_recorded() {
+fn logs_with_nan_and_infinity_are_recorded() {
     let mut made_up = Synthetic::new(4, 20.0);
     for (vehicle, bad) in [(0, f64::NAN), (1, f64::INFINITY)] {
         for sample in &mut made_up.flight.vehicles[vehicle].samples[500..] {
@@ -154,7 +154,7 @@ fn no_number_is_too_bad_to_be_recorded() {
 }
 
 #[test]
-fn the_same_run_has_the_same_id_and_another_result_has_another() {
+fn equal_runs_have_equal_ids_and_different_results_different_ones() {
     let (one, mut other) = (Synthetic::new(2, 20.0), Synthetic::new(2, 20.0));
     assert_eq!(recording_id(&one.run()), recording_id(&other.run()));
     other.flight.vehicles[1].samples[100].position_m[2] += 1e-9;
@@ -163,7 +163,7 @@ fn the_same_run_has_the_same_id_and_another_result_has_another() {
 
 #[test]
 #[ignore = "needs the rerun viewer on the PATH: pip install rerun-sdk==0.36.3"]
-fn the_viewer_finds_nothing_to_complain_about() {
+fn the_viewer_verifies_the_recording() {
     let (folder, _) = recorded(&Synthetic::new(7, 60.0).run());
     let verified =
         Command::new("rerun").args(["rrd", "verify"]).arg(folder.path().join("flight.rrd")).output().unwrap();
