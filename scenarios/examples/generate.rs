@@ -1,6 +1,6 @@
 //! Writes the scenario files of the large fleets: `cargo run --release -p scenarios --example generate -- scenarios/fixed-wing`
 //!
-//! What is random comes from streams with fixed seeds, so that the same files come out every time.
+//! Random numbers come from streams with fixed seeds, so that the files are reproducible.
 
 #[path = "generate/circle.rs"]
 mod circle;

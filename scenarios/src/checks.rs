@@ -1,49 +1,49 @@
-//! Every check that a verdict may hold, declared once: its name, its unit, where its limit stands, whom it is put to.
+//! The checks of a verdict, declared once: name, unit, source of the limit, families.
 
 use std::fmt;
 
 use crate::Family::{self, FixedWing, Multirotor, SlungLoad};
 
-/// What a check looks at.
+/// The object of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// The plan at the planner's own nodes: what its constraints saw.
+    /// The plan at the planner's nodes, where its constraints apply.
     Nodes,
-    /// The plan as a continuous motion between the nodes.
+    /// The plan as a continuous motion.
     Plan,
-    /// What the simulated vehicles did.
+    /// The simulated flight.
     Flight,
 }
 
-/// Where the limit of a check stands in a scenario file.
+/// The source of the limit of a check in a scenario file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LimitField {
-    /// In one of these fields; the first that the file has.
+    /// The first of these fields that the file gives.
     Fields(&'static [&'static str]),
-    /// In the obstacles concerned.
+    /// The obstacle concerned.
     Obstacles,
-    /// In the limits of the vehicle's model (the planning limits for `nodes.*`), or in the map.
+    /// The limits of the vehicle's model (the planning limits for `nodes.*`), or the map.
     ModelLimits,
-    /// In the vehicle's goal, or in the tolerance `verdict.goal_m`.
+    /// The goal of the vehicle, or the tolerance `verdict.goal_m`.
     Goal,
-    /// In the gate concerned.
+    /// The gate concerned.
     Gates,
-    /// Nowhere: the limit belongs to the harness.
+    /// None: the limit is fixed.
     None,
 }
 
 /// The declaration of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CheckSpec {
-    /// What it looks at.
+    /// The object of the check.
     pub group: Group,
-    /// Its full name, group included: `flight.separation`.
+    /// Full name, with the group: `flight.separation`.
     pub name: &'static str,
-    /// Unit of value, limit and margin. Checks of several quantities (`-`) report the unit of the decisive one.
+    /// Unit of value, limit and margin; `-` for checks of several quantities, which report the unit of the worst one.
     pub unit: &'static str,
-    /// Where its limit stands.
+    /// The source of its limit.
     pub limit: LimitField,
-    /// The families to whose vehicles it is put.
+    /// The families that it applies to.
     pub families: &'static [Family],
     /// What it measures, in one sentence.
     pub description: &'static str,
@@ -52,7 +52,7 @@ pub struct CheckSpec {
 const ALL: &[Family] = &Family::ALL;
 const HOVERING: &[Family] = &[SlungLoad, Multirotor];
 const LOADS: &[Family] = &[SlungLoad];
-/// Skipped for fixed wings with the reason, so that a reader of their reports learns that it exists.
+/// Skipped, with the reason, for fixed wings.
 const LOADS_NAMED: &[Family] = &[FixedWing, SlungLoad];
 
 const SEPARATION: LimitField = LimitField::Fields(&["fleet.separation_m"]);
@@ -97,7 +97,7 @@ const fn flight(
     CheckSpec { group: Group::Flight, ..nodes(name, unit, limit, families, description) }
 }
 
-/// Every check, in the order in which a verdict lists them.
+/// Every check, in the order of a verdict.
 #[rustfmt::skip]
 pub const CHECKS: &[CheckSpec] = {
     use LimitField::{Gates, Goal, ModelLimits, None, Obstacles};
@@ -105,68 +105,68 @@ pub const CHECKS: &[CheckSpec] = {
         nodes("nodes.separation", "m", SEPARATION, ALL, "Smallest distance between two vehicles at the planner's nodes."),
         nodes("nodes.clearance", "m", Obstacles, ALL, "Smallest distance to an obstacle at the planner's nodes."),
         nodes("nodes.envelope", "m", ENVELOPE, LOADS, "Smallest distance of the envelope circle to an obstacle at the planner's nodes."),
-        nodes("nodes.state_limits", "-", ModelLimits, ALL, "The state that uses most of its planning limits at the nodes."),
-        nodes("nodes.control_limits", "-", ModelLimits, ALL, "The control that uses most of its planning limits at the nodes."),
+        nodes("nodes.state_limits", "-", ModelLimits, ALL, "State closest to or furthest beyond its planning limits at the nodes."),
+        nodes("nodes.control_limits", "-", ModelLimits, ALL, "Control closest to or furthest beyond its planning limits at the nodes."),
         nodes("nodes.goal", "m", Goal, ALL, "Distance of the last node from the goal."),
-        nodes("nodes.gates", "m", Gates, LOADS, "Depth inside the windows of the gate that is passed least deeply, at the nodes."),
+        nodes("nodes.gates", "m", Gates, LOADS, "Smallest depth inside the windows of a gate, at the nodes."),
         plan("plan.finite", "numbers", None, ALL, "Number of values in the plan that are not finite."),
         plan("plan.complete", "vehicles", None, ALL, "Number of vehicles whose trajectory is missing, malformed, or does not begin at the start."),
         plan("plan.separation", "m", SEPARATION, ALL, "Smallest distance between two vehicles over continuous time."),
         plan("plan.clearance", "m", Obstacles, ALL, "Smallest distance to an obstacle over continuous time."),
         plan("plan.envelope", "m", ENVELOPE, LOADS, "Smallest distance of the envelope circle to an obstacle over continuous time."),
-        plan("plan.state_limits", "-", ModelLimits, ALL, "The state that uses most of its physical limits between the nodes."),
-        plan("plan.control_limits", "-", ModelLimits, ALL, "The control that uses most of its physical limits between the nodes."),
-        plan("plan.dynamics", "m", DYNAMICS, ALL, "Largest distance between a node and where the controls lead from the node before it."),
-        plan("plan.rollout", "m", ROLLOUT, ALL, "Distance from the plan's end when its controls are flown from the start, open loop."),
-        plan("plan.goal", "m", Goal, ALL, "Distance of the planned motion's end from the goal."),
-        plan("plan.rest", "m/s", REST, HOVERING, "Speed relative to the goal at the plan's end."),
+        plan("plan.state_limits", "-", ModelLimits, ALL, "State closest to or furthest beyond its physical limits, over continuous time."),
+        plan("plan.control_limits", "-", ModelLimits, ALL, "Control closest to or furthest beyond its physical limits, over continuous time."),
+        plan("plan.dynamics", "m", DYNAMICS, ALL, "Largest distance between a node and the position to which the controls lead from the previous node."),
+        plan("plan.rollout", "m", ROLLOUT, ALL, "Distance from the end of the plan when its controls are flown open loop from the start."),
+        plan("plan.goal", "m", Goal, ALL, "Distance of the end of the planned motion from the goal."),
+        plan("plan.rest", "m/s", REST, HOVERING, "Speed relative to the goal at the end of the plan."),
         plan("plan.arrival", "s", ARRIVAL, ALL, "Time between the first and the last planned arrival."),
         plan("plan.duration", "s", DURATION, ALL, "Planned flight time."),
         plan("plan.tension", "N", ModelLimits, LOADS, "Highest mean tension of the planned cable over 20 ms."),
-        plan("plan.slack", "m", DYNAMICS, LOADS, "Largest difference between the cable's length and its planned state, taut or slack."),
-        plan("plan.swing", "deg", ModelLimits, LOADS, "The planned cable angle that uses most of its limits."),
-        plan("plan.gates", "m", Gates, LOADS, "Depth inside the windows of the gate that is passed least deeply, over continuous time."),
+        plan("plan.slack", "m", DYNAMICS, LOADS, "Largest violation of the cable length by the planned motion, taut or slack."),
+        plan("plan.swing", "deg", ModelLimits, LOADS, "Planned cable angle closest to or furthest beyond its limits."),
+        plan("plan.gates", "m", Gates, LOADS, "Smallest depth inside the windows of a gate, over continuous time."),
         flight("flight.finite", "numbers", None, ALL, "Number of values in the flight log that are not finite."),
         flight("flight.complete", "vehicles", None, ALL, "Number of vehicles whose log is missing, has gaps, or follows another plan."),
         flight("flight.crash", "crashes", Obstacles, ALL, "Number of contacts with obstacles, the ground or other vehicles."),
-        flight("flight.conditions", "vehicles", None, ALL, "Number of vehicles whose logged air and noise are not the scenario's."),
+        flight("flight.conditions", "vehicles", None, ALL, "Number of vehicles whose logged wind and noise are not those of the scenario."),
         flight("flight.separation", "m", SEPARATION, ALL, "Smallest distance between two vehicles in flight, over continuous time."),
         flight("flight.clearance", "m", Obstacles, ALL, "Smallest distance to an obstacle in flight, over continuous time."),
         flight("flight.envelope", "m", ENVELOPE, LOADS, "Smallest distance of the envelope circle to an obstacle in flight."),
-        flight("flight.state_limits", "-", ModelLimits, ALL, "The flown state that uses most of its physical limits."),
-        flight("flight.control_limits", "-", ModelLimits, ALL, "The applied control that uses most of its physical limits."),
-        flight("flight.dynamics", "m", None, ALL, "Largest distance between the log and what a second integrator makes of its controls and air."),
+        flight("flight.state_limits", "-", ModelLimits, ALL, "Flown state closest to or furthest beyond its physical limits."),
+        flight("flight.control_limits", "-", ModelLimits, ALL, "Applied control closest to or furthest beyond its physical limits."),
+        flight("flight.dynamics", "m", None, ALL, "Largest distance between the logged motion and its reintegration from the logged controls and wind."),
         flight("flight.goal", "m", Goal, ALL, "Distance from the goal on arrival."),
         flight("flight.rest", "m/s", REST, HOVERING, "Speed relative to the goal on arrival."),
         flight("flight.arrival", "s", ARRIVAL, ALL, "Time between the first and the last flown arrival."),
         flight("flight.duration", "s", DURATION, ALL, "Time until the last vehicle has arrived."),
-        flight("flight.tracking_rms", "m", TRACKING_RMS, ALL, "Root mean square of the distance from the plan, of the worst vehicle."),
-        flight("flight.tracking_max", "m", TRACKING_MAX, ALL, "Largest distance from the plan."),
-        flight("flight.saturation", "-", SATURATION, ALL, "Fraction of the steps in which the command was cut off at a limit, of the worst vehicle."),
+        flight("flight.tracking_rms", "m", TRACKING_RMS, ALL, "Root mean square of the tracking error, of the worst vehicle."),
+        flight("flight.tracking_max", "m", TRACKING_MAX, ALL, "Largest tracking error."),
+        flight("flight.saturation", "-", SATURATION, ALL, "Fraction of the time steps with a saturated command, of the worst vehicle."),
         flight("flight.tension", "N", ModelLimits, LOADS_NAMED, "Highest mean tension of the flown cable over 20 ms."),
-        flight("flight.slack", "s", SWITCHES, LOADS_NAMED, "Largest difference between planned and flown switches of the cable."),
-        flight("flight.swing", "deg", ModelLimits, LOADS_NAMED, "The flown cable angle that uses most of its limits."),
-        flight("flight.gates", "m", Gates, LOADS, "Depth inside the windows of the gate that is passed least deeply in flight."),
+        flight("flight.slack", "s", SWITCHES, LOADS_NAMED, "Largest time difference between planned and flown switches of the cable."),
+        flight("flight.swing", "deg", ModelLimits, LOADS_NAMED, "Flown cable angle closest to or furthest beyond its limits."),
+        flight("flight.gates", "m", Gates, LOADS, "Smallest depth inside the windows of a gate in flight."),
     ]
 };
 
-/// The declaration of the check of this full name.
+/// The check with the full name `name`.
 pub fn check_spec(name: &str) -> Option<&'static CheckSpec> {
     CHECKS.iter().find(|check| check.name == name)
 }
 
-/// The checks of a verdict on vehicles of this family, in its order.
+/// The checks that apply to a family, in the order of a verdict.
 pub fn checks_of(family: Family) -> impl Iterator<Item = &'static CheckSpec> {
     CHECKS.iter().filter(move |check| check.families.contains(&family))
 }
 
-/// The names of [`checks_of`] a family.
+/// The names of the checks that apply to a family, in the order of a verdict.
 pub fn check_names(family: Family) -> impl Iterator<Item = &'static str> {
     checks_of(family).map(|check| check.name)
 }
 
 impl CheckSpec {
-    /// The name without its group: `separation` of `flight.separation`.
+    /// The name without the group: `separation` of `flight.separation`.
     pub fn quantity(&self) -> &'static str {
         self.name.split_once('.').map_or(self.name, |(_, quantity)| quantity)
     }

@@ -1,4 +1,4 @@
-//! The fixed-wing point mass: state, control, limits.
+//! The fixed-wing point-mass model: parameters, limits, state, control.
 //!
 //! Wang, Xu, Long (2020), eq. 2: state (x, y, h, V, χ, γ), control the load factors (n_x, n_y, n_z).
 
@@ -17,21 +17,21 @@ pub(crate) use family::FAMILY;
 pub use import::{PartialTrajectory, states_from_velocities};
 pub use trajectory::{CSV_COLUMNS, Trajectory};
 
-/// A fixed-wing aircraft as a point mass that is steered by load factors.
+/// A fixed-wing aircraft as a point mass controlled by load factors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
-    /// Nominal mass, kg. Forces are computed with it, whatever the true mass is.
+    /// Nominal mass, kg. Forces are computed from it even if the true mass differs.
     pub mass_kg: f64,
-    /// Radius of the sphere that encloses the airframe, for contacts, m.
+    /// Radius of the sphere that encloses the airframe, for collisions, m.
     pub body_radius_m: f64,
-    /// Physical limits, by which the flight is judged.
+    /// Physical limits, applied to the flight.
     pub limits: Limits,
-    /// Limits inside the physical ones, to which a planner keeps, so that a tracker has authority left.
+    /// Limits for planners, inside the physical ones to leave control authority to the tracker.
     pub planning_limits: Limits,
 }
 
-/// Box limits of state and control. In the simulator speed means airspeed, and load factors act in the air frame.
+/// Box limits of state and control. In the simulator, speed is airspeed and load factors act in the air frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
@@ -67,7 +67,7 @@ pub struct State {
     pub z_m: f64,
     /// Speed V, m/s.
     pub speed_mps: f64,
-    /// Heading χ, counterclockwise from x (east), rad; not wrapped, so that it is continuous along a trajectory.
+    /// Heading χ, counterclockwise from x (east), rad; not wrapped, and continuous along a trajectory.
     pub heading_rad: f64,
     /// Flight-path angle γ, rad.
     pub flight_path_rad: f64,

@@ -1,8 +1,8 @@
-//! The quadrotor that carries a load on a cable: parameters, limits, state, control.
+//! The quadrotor with a slung load: parameters, limits, state, control.
 //!
-//! Kang, Huang, Wen (2020): a rigid body with four rotors, a point load, and between them a massless cable that hangs at
-//! the quadrotor's centre of mass and can only pull. Positions and velocities are Cartesian here, where the paper uses
-//! cable angles: they name every place of the load, the one above the quadrotor included.
+//! Model of Kang, Huang, Wen (2020): a rigid body with four rotors, a point load, and a massless cable, attached to the
+//! centre of mass of the quadrotor, that can only pull. Positions and velocities are Cartesian, unlike the cable angles of
+//! the paper, so that every position of the load is regular, including above the quadrotor.
 
 mod family;
 mod import;
@@ -22,13 +22,13 @@ pub use trajectory::{CSV_COLUMNS, Trajectory};
 
 /// A quadrotor with a slung load.
 ///
-/// Body axes: x forward, y left, z up, the rotors' thrust along z. With the thrusts F_1 ... F_4 the torques about them are
+/// Body axes: x forward, y left, z up, with the thrust of the rotors along z. The thrusts F_1 ... F_4 cause the torques
 ///
 /// ```text
 /// τ_x = L (-F_1 + F_2 + F_3 - F_4),   τ_y = L (-F_1 - F_2 + F_3 + F_4),   τ_z = k (F_1 - F_2 + F_3 - F_4)
 /// ```
 ///
-/// (Kang, Huang, Wen 2020, eq. 5, whose order is yaw, pitch, roll.)
+/// about these axes (Kang, Huang, Wen 2020, eq. 5, in the order yaw, pitch, roll).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
@@ -36,30 +36,30 @@ pub struct Model {
     pub mass_kg: f64,
     /// Moments of inertia about the body axes x, y, z, kg m².
     pub inertia_kgm2: [f64; 3],
-    /// Lever arm L of the rotors about the body's x and y axes, m.
+    /// Lever arm L of the rotors about the body axes x and y, m.
     pub arm_m: f64,
-    /// Torque about the body's z axis for each newton of a rotor's thrust, k, m.
+    /// Ratio k of a rotor's torque about the body axis z to its thrust, m.
     pub torque_per_thrust_m: f64,
-    /// Radius of a propeller r_p, m: the body's disc has the radius L + r_p.
+    /// Radius of a propeller r_p, m. The body is a disc of radius L + r_p.
     pub propeller_radius_m: f64,
     /// Nominal mass of the load m_L, kg.
     pub load_mass_kg: f64,
-    /// Radius of the ball that encloses the load, m.
+    /// Radius of the sphere that encloses the load, m.
     pub load_radius_m: f64,
     /// Length of the taut cable l_0, m.
     pub cable_length_m: f64,
-    /// Drag area of the quadrotor (drag coefficient times area), m²: what moving air does to it. Planners know none.
+    /// Drag area of the quadrotor (drag coefficient times area), m². Planning models have no drag.
     #[serde(default)]
     pub drag_area_m2: f64,
     /// Drag area of the load, m².
     #[serde(default)]
     pub load_drag_area_m2: f64,
-    /// Time constant with which a rotor's thrust follows its command, s. Absent: at once.
+    /// Time constant of the rotor thrust, s. Absent: the thrust follows its command immediately.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotor_time_constant_s: Option<f64>,
-    /// Physical limits, by which the flight is judged.
+    /// Physical limits, applied to the flight.
     pub limits: Limits,
-    /// Limits inside the physical ones, to which a planner keeps, so that a tracker has authority left.
+    /// Limits for planners, inside the physical ones to leave control authority to the tracker.
     pub planning_limits: Limits,
 }
 
@@ -73,17 +73,17 @@ pub struct Limits {
     pub attitude_deg: Range,
     /// Cable angles α and β, deg: the load is at ρ (-cos α sin β, sin α, -cos α cos β) from the quadrotor.
     pub cable_deg: Range,
-    /// Largest tension of the cable, N: what it and its hooks bear.
+    /// Maximum tension that the cable and its attachments bear, N.
     pub tension_n: f64,
 }
 
 impl Model {
-    /// Radius of the disc that the body is taken for, r_2 = L + r_p, m.
+    /// Radius of the disc that represents the body, r_2 = L + r_p, m.
     pub fn body_radius_m(&self) -> f64 {
         self.arm_m + self.propeller_radius_m
     }
 
-    /// Thrust of each rotor that holds quadrotor and load still, N.
+    /// Thrust of each rotor in hover with the load, N.
     pub fn hover_thrust_n(&self) -> f64 {
         (self.mass_kg + self.load_mass_kg) * GRAVITY_MPS2 / 4.0
     }

@@ -25,7 +25,7 @@ pub struct VerdictLimits {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_mps: Option<f64>,
     /// Maximum defect of an interval of the plan: distance between its end and the end that its controls lead to from its
-    /// beginning, by the nonlinear equations of motion, m. Default: 1 m, 0.01 m.
+    /// beginning, by the nonlinear equations of motion, m. Default: 1 m, 0.01 m, 1 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamics_m: Option<f64>,
     /// Maximum distance from the end of the plan when its controls are flown open loop from the start, m. Default: 5 m; not
@@ -38,7 +38,7 @@ pub struct VerdictLimits {
     pub saturation: Option<f64>,
     /// Minimum distance of the planned envelope circle from every obstacle, m. The envelope is an unbounded vertical
     /// cylinder around the quadrotor, with the radius of its body or the horizontal reach of its load, whichever is larger.
-    /// In flight the envelope must only not touch an obstacle. Absent: only the true shapes are checked.
+    /// In flight the minimum is 0 m. Absent: the envelope is not checked, only the true shapes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub envelope_m: Option<f64>,
     /// Maximum difference between the planned and the flown time at which a cable becomes taut or slack, s. A switch without

@@ -1,4 +1,4 @@
-//! Text that is no scenario: each issue is named with field, line, column, what was found and what was expected.
+//! Text that is not a valid scenario: each issue has field, line, column, found and expected value.
 
 mod minimal;
 
@@ -12,7 +12,7 @@ fn the_minimal_scenario_is_valid() {
 }
 
 #[test]
-fn text_that_is_no_toml_is_reported_with_its_place() {
+fn toml_syntax_errors_are_reported_with_their_place() {
     assert_issue("radius_m = 50", "radius_m = ", ("TOML syntax", 10, 12), "", "");
     assert_issue("[fleet]", "[fleet", ("TOML syntax", 44, 7), "unclosed table", "`]`");
     assert_issue("goal_m = 5\n", "goal_m = 5\ngoal_m = 6\n", ("TOML syntax", 70, 1), "duplicate key", "");
@@ -26,19 +26,19 @@ fn all_syntax_errors_are_reported_together() {
 }
 
 #[test]
-fn an_unknown_key_is_refused_and_the_nearest_one_suggested() {
+fn an_unknown_key_is_rejected_with_a_suggestion() {
     assert_issue("margin_m = 1", "margins_m = 1", ("planner.margins_m", 50, 1), "an unknown key", "margin_m");
     let remedy = &issues("margin_m = 1", "margins_m = 1")[0].issue.remedy;
     assert!(remedy.starts_with("did you mean `margin_m`: Distance that the planner adds"), "{remedy}");
 }
 
 #[test]
-fn a_misspelt_key_that_must_be_there_is_one_issue() {
+fn a_misspelt_required_key_is_one_issue() {
     assert_issue("mass_kg", "mass", ("models.fixed-wing.glider.mass", 13, 1), "an unknown key", "mass_kg");
 }
 
 #[test]
-fn an_unknown_key_that_resembles_nothing_is_refused() {
+fn an_unknown_key_without_similar_names_is_rejected() {
     assert_issue("[fleet]", "[fleet]\ncolour = 1", ("fleet.colour", 45, 1), "an unknown key", "simultaneous_arrival");
 }
 
@@ -51,7 +51,7 @@ fn a_missing_key_is_reported_at_its_table_with_its_documentation() {
 }
 
 #[test]
-fn values_of_the_wrong_kind_are_reported() {
+fn values_of_the_wrong_type_are_reported() {
     assert_issue("radius_m = 50", "radius_m = '50'", ("world.cylinders[0].radius_m", 10, 12), "text", "a number");
     assert_issue("intervals = 20", "intervals = 2.5", ("planner.intervals", 49, 13), "2.5", "a whole number");
     assert_issue("intervals = 20", "intervals = -2", ("planner.intervals", 49, 13), "-2", "0 or more");
@@ -77,7 +77,7 @@ fn values_of_the_wrong_kind_are_reported() {
 }
 
 #[test]
-fn a_choice_that_does_not_exist_is_refused_and_the_nearest_one_suggested() {
+fn an_unknown_choice_is_rejected_with_a_suggestion() {
     let misspelt = "name = \"any\"\ntranscription = \"shoting\"";
     assert_issue(
         "name = \"any\"",
@@ -90,7 +90,7 @@ fn a_choice_that_does_not_exist_is_refused_and_the_nearest_one_suggested() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_are_refused_wherever_they_stand() {
+fn numbers_that_are_not_finite_are_rejected_everywhere() {
     assert_issue("radius_m = 50", "radius_m = nan", ("world.cylinders[0].radius_m", 10, 12), "nan", "a finite number");
     assert_issue("[1, 0, 0]", "[1, -inf, 0]", ("simulation.wind.mean_mps[1]", 61, 25), "-inf", "a finite number");
     assert_issue("step_s = 0.01", "step_s = 1e999", ("simulation.step_s", 57, 10), "1e999", "a finite number");
@@ -113,14 +113,14 @@ fn issues_of_every_kind_are_reported_together_in_the_order_of_the_file() {
 }
 
 #[test]
-fn a_line_for_every_issue_names_file_line_and_column() {
+fn each_issue_has_a_line_with_file_line_and_column() {
     let error = load_changed("radius_m = 50", "radius_m = -50").unwrap_err();
     let expected = "minimal.toml:10:12: world.cylinders[0].radius_m: found -50, expected a number greater than 0";
     assert_eq!(error.lines(), [expected]);
 }
 
 #[test]
-fn a_person_is_shown_the_place_in_the_file() {
+fn the_rendered_report_shows_the_place_in_the_file() {
     let error = load_changed("margin_m = 1", "margins_m = 1").unwrap_err();
     let mut page = String::new();
     miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor())
@@ -137,13 +137,13 @@ fn a_person_is_shown_the_place_in_the_file() {
 }
 
 #[test]
-fn a_file_that_can_not_be_read_is_named() {
+fn an_unreadable_file_is_named() {
     let error = scenarios::load(std::path::Path::new("no/such/file.toml")).unwrap_err();
     assert!(error.to_string().starts_with("no/such/file.toml: "), "{error}");
 }
 
 #[test]
-fn a_later_finding_points_into_the_file_as_well() {
+fn later_issues_are_located_in_the_file() {
     let source = scenarios::ScenarioFile::new("minimal.toml", TEXT);
     let issue = scenarios::Issue::new("planner.name", "\"any\"", "the name of a planner");
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Scenarios of multirotors: what makes no sense is refused, with its place.
+//! Validation of multirotor scenarios.
 
 use scenarios::{Scenario, parse};
 
@@ -42,29 +42,29 @@ planning = { period_s = 0.25, deadline_s = 0.1 }
 "#;
 
 fn scenario() -> Scenario {
-    parse("quad.toml", TEXT).expect("a good scenario")
+    parse("quad.toml", TEXT).expect("a valid scenario")
 }
 
-/// The single issue of the changed text: field, what was found, what was expected.
+/// Asserts that the changed text has a single issue with this field, found and expected value.
 #[track_caller]
 fn assert_issue(old: &str, new: &str, field: &str, found: &str, expected: &str) {
     assert!(TEXT.contains(old), "{old}");
-    let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
+    let error = parse("quad.toml", &TEXT.replace(old, new)).expect_err("the change should be rejected");
     let [issue] = error.issues() else { panic!("expected one issue, found {:#?}", error.issues()) };
     assert_eq!(issue.issue.field, field, "{issue}");
     assert!(issue.issue.found.contains(found) && issue.issue.expected.contains(expected), "{issue}");
 }
 
 #[test]
-fn a_vehicle_has_to_see_far_enough_to_stop() {
-    // 1.5 m to brake, 3 m/s for 0.35 s, 0.5 m/s of the cart for 1.35 s, and the body: 3.575 m.
+fn the_sensor_range_must_suffice_to_stop() {
+    // 1.5 m to brake, 3 m/s for 0.35 s, 0.5 m/s of the cart for 1.35 s, and the body radius: 3.575 m.
     let field = "models.multirotor.quad.sensor_range_m";
     assert_issue("sensor_range_m = 6", "sensor_range_m = 3.57", field, "3.57", "3.575 m or more");
     assert!(parse("quad.toml", &TEXT.replace("sensor_range_m = 6", "sensor_range_m = 3.58")).is_ok());
 }
 
 #[test]
-fn bodies_need_room_at_their_ends() {
+fn the_whole_body_must_be_clear_at_start_and_goal() {
     assert_issue("x_m = 0, y_m = 0", "x_m = 3.2, y_m = 0", "vehicles[0].start", "0.300 m from `box`", "0.35 m");
     assert_issue("x_m = 0, y_m = 0", "x_m = -3.8, y_m = 0", "vehicles[0].start.x_m", "-3.8", "0.35 m, the body");
     assert_issue("x_m = 0, y_m = 0", "x_m = 6, y_m = -2.5", "vehicles[0].start", "0.000 m from `cart`", "0.35 m");
@@ -73,7 +73,7 @@ fn bodies_need_room_at_their_ends() {
 }
 
 #[test]
-fn what_is_hidden_and_what_moves_has_to_make_sense() {
+fn hidden_and_moving_obstacles_are_validated() {
     assert_issue("hidden = [\"box\"]", "hidden = [\"bux\"]", "world.hidden[0]", "bux", "the name of a cylinder");
     assert_issue("hidden = [\"box\"]", "hidden = [\"cart\"]", "world.hidden[0]", "cart", "the name of a cylinder");
     assert_issue("[[6, -3], [6, 3]]", "[[6, -3]]", "world.moving[0].path_m", "1 corners", "two corners");
@@ -81,7 +81,7 @@ fn what_is_hidden_and_what_moves_has_to_make_sense() {
 }
 
 #[test]
-fn a_quadrotor_needs_its_airframe_and_recorded_times_their_record() {
+fn a_quadrotor_needs_an_airframe_and_recorded_planning_needs_times() {
     let field = "models.multirotor.quad.airframe";
     assert_issue("plant = \"point-mass\"", "plant = \"quadrotor\"", field, "nothing", "a table");
     let field = "simulation.planning.recorded_s";
@@ -89,15 +89,15 @@ fn a_quadrotor_needs_its_airframe_and_recorded_times_their_record() {
 }
 
 #[test]
-fn a_briefing_tells_what_is_known_beforehand_and_nothing_that_disturbs() {
+fn the_planner_view_has_no_unknown_obstacles_and_no_disturbances() {
     let mut scenario = scenario();
     scenario.simulation.sensors.position_noise_m = 0.1;
     scenario.simulation.mismatch.mass_ratio = 1.1;
-    let planner_view = scenario.planner_view();
-    assert_eq!(planner_view.world.obstacle_names().count(), 0);
-    assert!(planner_view.world.hidden.is_empty());
-    assert_eq!(planner_view.simulation.sensors, scenarios::Sensors::default());
-    assert_eq!(planner_view.simulation.mismatch, scenarios::Mismatch::default());
+    let view = scenario.planner_view();
+    assert_eq!(view.world.obstacle_names().count(), 0);
+    assert!(view.world.hidden.is_empty());
+    assert_eq!(view.simulation.sensors, scenarios::Sensors::default());
+    assert_eq!(view.simulation.mismatch, scenarios::Mismatch::default());
     scenario.world.hidden.clear();
     assert_eq!(scenario.planner_view().world.obstacle_names().collect::<Vec<_>>(), ["box"]);
     assert!(scenario.is_planar());

@@ -1,4 +1,4 @@
-//! The scenario files of this folder.
+//! The shipped scenario files.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn every_shipped_scenario_loads() {
 }
 
 #[test]
-fn a_scenario_written_as_toml_loads_as_the_same() {
+fn a_scenario_written_as_toml_loads_unchanged() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let copies = tempfile::tempdir().unwrap();
     for file in scenarios::find(&[folder]).unwrap() {

@@ -1,4 +1,4 @@
-//! Scenarios of slung loads: what makes no sense is refused, with its place.
+//! Validation of slung-load scenarios.
 
 const TEXT: &str = r#"name = "slung"
 description = "A load round a box."
@@ -50,11 +50,11 @@ sensors = { attitude_noise_deg = 0.1 }
 mismatch = { load_mass_ratio = 1.05 }
 "#;
 
-/// The single issue of the changed text: field, what was found, what was expected.
+/// Asserts that the changed text has a single issue with this field, found and expected value.
 #[track_caller]
 fn assert_issue(old: &str, new: &str, field: &str, found: &str, expected: &str) {
     assert!(TEXT.contains(old), "no `{old}`");
-    let error = scenarios::parse("slung.toml", &TEXT.replace(old, new)).expect_err("the change should be refused");
+    let error = scenarios::parse("slung.toml", &TEXT.replace(old, new)).expect_err("the change should be rejected");
     let [issue] = error.issues() else { panic!("expected one issue, found {:#?}", error.issues()) };
     assert_eq!(issue.issue.field, field, "{issue}");
     assert!(issue.issue.found.contains(found) && issue.issue.expected.contains(expected), "{issue}");
@@ -62,7 +62,7 @@ fn assert_issue(old: &str, new: &str, field: &str, found: &str, expected: &str) 
 }
 
 #[test]
-fn the_scenario_is_valid_and_has_its_familys_limits() {
+fn the_scenario_is_valid_and_has_the_limits_of_its_family() {
     let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
     assert_eq!(scenario.family(), scenarios::Family::SlungLoad);
     assert_eq!((scenario.limits().tracking_max_m, scenario.limits().switch_s), (0.05, 0.02));
@@ -72,7 +72,7 @@ fn the_scenario_is_valid_and_has_its_familys_limits() {
 }
 
 #[test]
-fn obstacles_are_convex_with_names_of_their_own() {
+fn obstacles_are_convex_and_have_unique_names() {
     let dented = "[[0, 2], [1, 2], [0.1, 2.1], [0, 3]]";
     assert_issue("[[0, 2], [1, 2], [0, 3]]", dented, "world.prisms[0].corners_m", "4 corners", "convex polygon");
     assert_issue("\"wedge\"", "\"box\"", "world.prisms[0].name", "box", "world.boxes has the same");
@@ -86,13 +86,13 @@ fn complementarity_has_no_phases() {
     let both = format!("{phases}, formulation = \"complementarity\"");
     assert_issue(phases, &both, cable, "phases", "none");
     let alone = TEXT.replace(phases, "formulation = \"complementarity\"");
-    let scenario = scenarios::parse("slung.toml", &alone).expect("a formulation of its own");
+    let scenario = scenarios::parse("slung.toml", &alone).expect("a valid formulation");
     let settings = scenario.planner.collocation.expect("settings of the collocation");
     assert_eq!(settings.formulation, Some(scenarios::Formulation::Complementarity));
 }
 
 #[test]
-fn gates_have_windows_with_faces_in_order() {
+fn gate_windows_have_ordered_faces() {
     let scenario = scenarios::parse("slung.toml", TEXT).unwrap();
     assert_eq!(scenario.world.gates[0].load.z_m, Some(scenarios::Range::new(1.2, 2.0)));
     assert_issue("z_m = [1.2, 2]", "z_m = [2, 1.2]", "world.gates[0].load.z_m", "[2, 1.2]", "min below max");
@@ -100,7 +100,7 @@ fn gates_have_windows_with_faces_in_order() {
 }
 
 #[test]
-fn the_load_is_on_its_cable_above_the_ground_and_outside_obstacles() {
+fn the_load_is_within_the_cable_length_above_the_ground_and_outside_obstacles() {
     let start = "load = { x_m = -2, y_m = 0, z_m = 0.03 }";
     assert_issue(
         start,
@@ -120,7 +120,7 @@ fn the_load_is_on_its_cable_above_the_ground_and_outside_obstacles() {
 }
 
 #[test]
-fn models_can_hover_and_rotors_do_not_pull_down() {
+fn models_can_hover_and_rotors_cannot_pull_down() {
     let planning = "models.slung-load.quad.planning_limits.thrust_n";
     assert_issue("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "contains 3.728 N");
     let limits = "models.slung-load.quad.limits.thrust_n";
@@ -142,7 +142,7 @@ fn models_can_hover_and_rotors_do_not_pull_down() {
 }
 
 #[test]
-fn a_slung_load_flies_alone_among_flat_obstacles() {
+fn a_slung_load_flies_alone_among_boxes_and_prisms() {
     let two = "[[vehicles]]\nname = \"other\"\nmodel = \"quad\"\nstart = { x_m = 2, y_m = 3, z_m = 1 }\n\
                goal = { x_m = 2, y_m = -3, z_m = 1 }\n\n[planner]";
     assert_issue("[planner]", two, "vehicles", "2 of them", "fly alone");
@@ -152,7 +152,7 @@ fn a_slung_load_flies_alone_among_flat_obstacles() {
 }
 
 #[test]
-fn disturbances_and_options_have_their_ranges() {
+fn disturbances_and_options_are_in_range() {
     assert_issue("duration_s = 1,", "duration_s = 0,", "simulation.wind.pulses[0].duration_s", "0", "greater than 0");
     assert_issue(
         "attitude_noise_deg = 0.1",
@@ -173,7 +173,7 @@ fn disturbances_and_options_have_their_ranges() {
 }
 
 #[test]
-fn a_flight_that_is_planned_for_may_be_flown() {
+fn the_flight_time_is_within_the_simulated_duration() {
     for time in ["1e6", "601", "1e-6"] {
         let options = format!("flight_time_s = {time}, ");
         assert_issue("flight_time_s = 4, ", &options, "planner.collocation.flight_time_s", " s", "max_duration_s");

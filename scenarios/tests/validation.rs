@@ -1,4 +1,4 @@
-//! Scenarios that are well formed but make no sense: one test per rule, each with field, line and column.
+//! Validation rules for well-formed scenarios: one test per rule, with field, line and column.
 
 mod minimal;
 
@@ -8,7 +8,7 @@ const LIMITS: &str = "models.fixed-wing.glider.limits";
 const PLANNING: &str = "models.fixed-wing.glider.planning_limits";
 
 #[test]
-fn the_name_is_that_of_the_file_and_well_formed() {
+fn the_name_is_well_formed_and_that_of_the_file() {
     assert_issue("\"minimal\"", "\"maximal\"", ("name", 1, 8), "maximal", "\"minimal\", as the file is named");
     for name in ["Bad Name", "", "-x", "a_b"] {
         let text = TEXT.replace("\"minimal\"", &format!("\"{name}\""));
@@ -20,14 +20,14 @@ fn the_name_is_that_of_the_file_and_well_formed() {
 }
 
 #[test]
-fn ranges_run_from_small_to_large() {
+fn ranges_are_ordered() {
     let ordered = "min below max";
     assert_issue("y_m = [-500, 500]", "y_m = [500, -500]", ("world.map.y_m", 5, 36), "[500, -500]", ordered);
     assert_issue("n_x = [-0.4, 0.4]", "n_x = [0.4, 0.4]", (&format!("{LIMITS}.n_x"), 20, 7), "[0.4, 0.4]", ordered);
 }
 
 #[test]
-fn obstacles_have_names_of_their_own_and_a_size() {
+fn obstacles_have_unique_names_and_a_size() {
     assert_issue("radius_m = 50", "radius_m = 0", ("world.cylinders[0].radius_m", 10, 12), "0", "greater than 0");
     assert_issue("\"pillar\"", "\"a,b\"", ("world.cylinders[0].name", 8, 8), "a,b", "letters, digits");
     let twice = "radius_m = 50\n\n[[world.cylinders]]\nname = \"pillar\"\ncenter_m = [0, 300]\nradius_m = 50";
@@ -56,7 +56,7 @@ fn models_have_mass_and_size() {
 }
 
 #[test]
-fn limits_are_those_of_a_fixed_wing() {
+fn fixed_wing_limits_exclude_hover_and_vertical_flight() {
     assert_issue(
         "speed_mps = [20, 50]",
         "speed_mps = [0, 50]",
@@ -92,7 +92,7 @@ fn planning_limits_lie_inside_the_physical_ones() {
 }
 
 #[test]
-fn a_fleet_has_vehicles_with_names_of_their_own_and_known_models() {
+fn vehicles_have_unique_names_and_known_models() {
     let (head, rest) = TEXT.split_once("[[vehicles]]").unwrap();
     let tail = &rest[rest.find("[fleet]").unwrap()..];
     let error = scenarios::parse("minimal.toml", &format!("vehicles = []\n{head}{tail}")).unwrap_err();
@@ -126,7 +126,7 @@ fn starts_and_goals_are_on_the_map() {
 }
 
 #[test]
-fn starts_and_goals_keep_the_planning_limits() {
+fn starts_and_goals_are_within_the_planning_limits() {
     let start = "x_m = -900, y_m = 200, z_m = 400, speed_mps = 35";
     let with = |new| format!("x_m = -900, y_m = 200, {new}");
     assert_issue(start, &with("z_m = 550, speed_mps = 35"), ("vehicles[1].start.z_m", 41, 40), "550", "[300, 500]");
@@ -221,7 +221,7 @@ fn options_of_the_planner_are_in_range() {
 }
 
 #[test]
-fn the_simulation_is_possible() {
+fn simulation_settings_are_in_range() {
     let positive = "greater than 0";
     assert_issue("step_s = 0.01", "step_s = 0", ("simulation.step_s", 57, 10), "0", positive);
     assert_issue("step_s = 0.01", "step_s = 0.2", ("simulation.step_s", 57, 10), "0.2", "at most 0.1");
@@ -254,7 +254,7 @@ fn the_simulation_is_possible() {
 }
 
 #[test]
-fn the_verdict_has_limits_and_knows_its_checks() {
+fn verdict_limits_are_positive_and_checks_are_known() {
     let positive = "greater than 0";
     assert_issue("tracking_max_m = 5", "tracking_max_m = 0", ("verdict.tracking_max_m", 66, 18), "0", positive);
     assert_issue("tracking_rms_m = 2", "tracking_rms_m = 0", ("verdict.tracking_rms_m", 67, 18), "0", positive);

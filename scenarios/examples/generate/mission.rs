@@ -1,21 +1,21 @@
-//! A mission as text.
+//! A mission, and its scenario file.
 
 use std::fmt::Write;
 
-/// Speed at both ends, m/s: paper.
+/// Speed at start and goal, m/s (paper).
 pub const SPEED_MPS: f64 = 35.0;
 
-/// One vehicle's way: starts and goals with their headings.
+/// Start and goal of one vehicle, with headings.
 #[derive(Clone, Copy)]
-pub struct Way {
+pub struct Route {
     pub start_m: [f64; 2],
     pub start_heading_deg: f64,
     pub goal_m: [f64; 2],
     pub goal_heading_deg: f64,
 }
 
-impl Way {
-    /// Straight from start to goal.
+impl Route {
+    /// The straight route from start to goal.
     pub fn straight(start_m: [f64; 2], goal_m: [f64; 2]) -> Self {
         let heading_deg = (goal_m[1] - start_m[1]).atan2(goal_m[0] - start_m[0]).to_degrees();
         Self { start_m, start_heading_deg: heading_deg, goal_m, goal_heading_deg: heading_deg }
@@ -25,27 +25,27 @@ impl Way {
         distance_m(self.start_m, self.goal_m)
     }
 
-    /// Position after a share of the straight line.
-    pub fn at(&self, share: f64) -> [f64; 2] {
-        std::array::from_fn(|axis| self.start_m[axis] + share * (self.goal_m[axis] - self.start_m[axis]))
+    /// Position at a fraction of the straight line.
+    pub fn at(&self, fraction: f64) -> [f64; 2] {
+        std::array::from_fn(|axis| self.start_m[axis] + fraction * (self.goal_m[axis] - self.start_m[axis]))
     }
 }
 
-/// What differs from file to file.
+/// What differs between the files.
 pub struct Mission {
     pub name: String,
     pub description: String,
     pub tags: &'static str,
-    /// Comment lines at the head of the file: which numbers are whose.
+    /// Comment lines at the head of the file: the sources of the numbers.
     pub sources: &'static str,
-    /// Half width of the map, or its limits in x and in y, m.
+    /// Limits of the map in x and y, m.
     pub map_m: [[f64; 2]; 2],
     /// Centre and radius, m.
     pub cylinders: Vec<([f64; 2], f64)>,
     pub separation_m: f64,
     pub separation_source: &'static str,
     pub simultaneous_arrival: bool,
-    pub ways: Vec<Way>,
+    pub routes: Vec<Route>,
     /// Lines of `[planner]` after its name.
     pub planner: &'static str,
 }
@@ -54,7 +54,7 @@ impl Mission {
     pub fn to_toml(&self) -> String {
         let mut text = String::from("#:schema ../../schema/scenario.json\n");
         for line in self.sources.lines() {
-            writeln!(text, "# {line}").expect("a string takes everything");
+            writeln!(text, "# {line}").expect("writing to a string cannot fail");
         }
         let [x, y] = self.map_m;
         write!(
@@ -62,7 +62,7 @@ impl Mission {
             "\nname = \"{}\"\ndescription = \"{}\"\ntags = {}\n\n[world.map] # ours\nx_m = [{}, {}]\ny_m = [{}, {}]\nz_m = [0, 1000]\n",
             self.name, self.description, self.tags, x[0], x[1], y[0], y[1]
         )
-        .expect("a string takes everything");
+        .expect("writing to a string cannot fail");
         for (index, (center_m, radius_m)) in self.cylinders.iter().enumerate() {
             write!(
                 text,
@@ -71,7 +71,7 @@ impl Mission {
                 center_m[0],
                 center_m[1]
             )
-            .expect("a string takes everything");
+            .expect("writing to a string cannot fail");
         }
         text.push_str(MODEL);
         write!(
@@ -79,18 +79,18 @@ impl Mission {
             "\n[fleet]\nseparation_m = {} # {}\nsimultaneous_arrival = {}\n",
             self.separation_m, self.separation_source, self.simultaneous_arrival
         )
-        .expect("a string takes everything");
-        for (index, way) in self.ways.iter().enumerate() {
+        .expect("writing to a string cannot fail");
+        for (index, route) in self.routes.iter().enumerate() {
             write!(
                 text,
                 "\n[[vehicles]]\nname = \"uav-{}\"\nmodel = \"scout\"\nstart = {}\ngoal = {}\n",
                 index + 1,
-                waypoint(way.start_m, way.start_heading_deg),
-                waypoint(way.goal_m, way.goal_heading_deg)
+                waypoint(route.start_m, route.start_heading_deg),
+                waypoint(route.goal_m, route.goal_heading_deg)
             )
-            .expect("a string takes everything");
+            .expect("writing to a string cannot fail");
         }
-        write!(text, "\n[planner]\nname = \"fleet-scp\"\n{}", self.planner).expect("a string takes everything");
+        write!(text, "\n[planner]\nname = \"fleet-scp\"\n{}", self.planner).expect("writing to a string cannot fail");
         text
     }
 }
@@ -108,15 +108,16 @@ pub fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Nobody has a conflict so soon after the start, or so late before the goal, that it could not be flown out of, s.
-const QUIET_S: f64 = 20.0;
+/// Duration without conflicts after the start and before the goal, s, so that every conflict can be resolved.
+const CONFLICT_FREE_S: f64 = 20.0;
 
-/// Do two straight flights keep twice the separation near both their ends?
-pub fn starts_and_ends_apart(a: &Way, b: &Way, separation_m: f64) -> bool {
+/// Whether two straight flights keep twice the separation near their starts and goals.
+pub fn starts_and_ends_apart(a: &Route, b: &Route, separation_m: f64) -> bool {
     let steps = 20;
     (0..=steps).all(|step| {
-        let share = |way: &Way| QUIET_S * SPEED_MPS / way.length_m() * f64::from(step) / f64::from(steps);
-        let (of_a, of_b) = (share(a), share(b));
+        let fraction =
+            |route: &Route| CONFLICT_FREE_S * SPEED_MPS / route.length_m() * f64::from(step) / f64::from(steps);
+        let (of_a, of_b) = (fraction(a), fraction(b));
         let [after_start, before_goal] =
             [[of_a, of_b], [1.0 - of_a, 1.0 - of_b]].map(|[a_at, b_at]| distance_m(a.at(a_at), b.at(b_at)));
         after_start > 2.0 * separation_m && before_goal > 2.0 * separation_m
@@ -125,10 +126,10 @@ pub fn starts_and_ends_apart(a: &Way, b: &Way, separation_m: f64) -> bool {
 
 const MODEL: &str = "
 [models.fixed-wing.scout]
-mass_kg = 20 # ours: the paper's point mass needs none
+mass_kg = 20 # ours: the paper's point-mass model has no mass
 body_radius_m = 1.5 # ours
 
-# Physical limits, ours: room for a tracker around the planning limits.
+# Physical limits (ours): margin for the tracker around the planning limits.
 [models.fixed-wing.scout.limits]
 altitude_m = [280, 520]
 speed_mps = [22, 50]

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use super::{Control, State};
 use crate::{Family, Interpolation, TrajectoryNodes};
 
-/// Columns of a fixed-wing plan: time, state and control, one row per vehicle and node. World frame, SI, radians.
+/// Columns of a written fixed-wing plan: time, state and control, one row per vehicle and node. World frame, SI, radians.
 pub const CSV_COLUMNS: [&str; 11] =
     ["vehicle", "t_s", "x_m", "y_m", "z_m", "speed_mps", "heading_rad", "flight_path_rad", "n_x", "n_y", "n_z"];
 
@@ -13,7 +13,7 @@ pub const CSV_COLUMNS: [&str; 11] =
 pub struct Trajectory {
     /// Name of the vehicle.
     pub vehicle: String,
-    /// Controls between the nodes.
+    /// Interpolation of the controls between the nodes.
     pub interpolation: Interpolation,
     /// Times of the nodes, s, increasing from 0.
     pub times_s: Vec<f64>,

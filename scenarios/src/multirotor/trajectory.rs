@@ -3,10 +3,10 @@ use serde::{Deserialize, Serialize};
 use crate::in_loop::Node;
 use crate::{Family, TrajectoryNodes};
 
-/// Columns of a multirotor's plan: time and state, one row per vehicle and node. World frame, SI.
+/// Columns of a written multirotor plan: time and state, one row per vehicle and node. World frame, SI.
 pub const CSV_COLUMNS: [&str; 8] = ["vehicle", "t_s", "x_m", "y_m", "z_m", "vx_mps", "vy_mps", "vz_mps"];
 
-/// Motion of a multirotor. World frame.
+/// State of a multirotor. World frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
@@ -19,14 +19,14 @@ pub struct State {
 /// The planned motion of a multirotor, given at nodes.
 ///
 /// Between two nodes it is the cubic with their positions and velocities. Its acceleration is linear in time, so that a
-/// double integrator under a constant acceleration, or one that runs linearly from node to node, is met exactly; the
-/// accelerations need not be told. Two nodes may share a time where a planner in the loop changed its mind.
+/// double integrator with constant or linear acceleration between the nodes is represented exactly, without accelerations
+/// at the nodes. Two nodes may share a time where an in-loop planner replaced its reference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectory {
     /// Name of the vehicle.
     pub vehicle: String,
-    /// Times of the nodes, s, from 0, in order.
+    /// Times of the nodes, s, from 0, non-decreasing.
     pub times_s: Vec<f64>,
     /// States at the nodes.
     pub states: Vec<State>,
@@ -43,7 +43,7 @@ impl Trajectory {
         }
     }
 
-    /// Its nodes.
+    /// The nodes.
     pub fn nodes(&self) -> Vec<Node> {
         let node = |(&t_s, state): (&f64, &State)| Node {
             t_s,

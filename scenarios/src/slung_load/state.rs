@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{LoadPoint, Waypoint};
 
-/// Motion of the quadrotor and of its load. World frame ENU; body axes x forward, y left, z up.
+/// State of the quadrotor and its load. World frame ENU; body axes x forward, y left, z up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
@@ -29,18 +29,18 @@ pub struct Control {
     pub thrust_n: [f64; 4],
 }
 
-/// What the cable does.
+/// State of the cable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cable {
-    /// Stretched to its length: it holds the distance, and pulls.
+    /// At its full length, under tension.
     Taut,
-    /// Shorter than its length: it does nothing, and the load falls freely or rests on the ground.
+    /// Without tension; the load falls freely or rests on the ground.
     Slack,
 }
 
 impl State {
-    /// Level, at a waypoint of a vehicle with a cable of this length, m.
+    /// The level state at a waypoint, for a cable of length `cable_length_m`.
     pub fn at(waypoint: &Waypoint, cable_length_m: f64) -> Self {
         let position_m = waypoint.position_m();
         let [x, y, z] = position_m;
@@ -55,7 +55,7 @@ impl State {
         }
     }
 
-    /// The 18 numbers in the order of the fields.
+    /// The 18 components, in the order of the fields.
     pub fn to_array(self) -> [f64; 18] {
         let parts = [
             self.position_m,
@@ -68,7 +68,7 @@ impl State {
         std::array::from_fn(|i| parts[i / 3][i % 3])
     }
 
-    /// From the 18 numbers in the order of the fields.
+    /// From the 18 components, in the order of the fields.
     pub fn from_array(numbers: [f64; 18]) -> Self {
         let part = |index: usize| std::array::from_fn(|axis| numbers[3 * index + axis]);
         Self {
@@ -81,12 +81,12 @@ impl State {
         }
     }
 
-    /// From the quadrotor to the load, m.
+    /// Vector from the quadrotor to the load, m.
     pub fn cable_m(&self) -> [f64; 3] {
         std::array::from_fn(|axis| self.load_position_m[axis] - self.position_m[axis])
     }
 
-    /// Distance between the cable's ends ρ, m.
+    /// Distance ρ between the ends of the cable, m.
     pub fn cable_length_m(&self) -> f64 {
         self.cable_m().iter().map(|x| x * x).sum::<f64>().sqrt()
     }

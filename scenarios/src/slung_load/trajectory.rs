@@ -3,8 +3,8 @@ use serde::{Deserialize, Serialize};
 use super::{Cable, Control, State};
 use crate::{Family, Interpolation, TrajectoryNodes};
 
-/// Columns of a slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI, radians;
-/// `cable` is `taut` or `slack`, from this node to the next.
+/// Columns of a written slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI,
+/// radians. `cable` is `taut` or `slack` from this node to the next.
 pub const CSV_COLUMNS: [&str; 25] = [
     "vehicle",
     "t_s",
@@ -35,30 +35,30 @@ pub const CSV_COLUMNS: [&str; 25] = [
 
 /// The planned motion of a quadrotor with a load, given at nodes.
 ///
-/// Two nodes may share a time: before and after the impact with which a slack cable becomes taut.
+/// Two nodes may share a time, before and after the impact in which a slack cable becomes taut.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectory {
     /// Name of the vehicle.
     pub vehicle: String,
-    /// Controls between the nodes.
+    /// Interpolation of the controls between the nodes.
     pub interpolation: Interpolation,
-    /// Times of the nodes, s, from 0, never decreasing.
+    /// Times of the nodes, s, from 0, non-decreasing.
     pub times_s: Vec<f64>,
     /// States at the nodes.
     pub states: Vec<State>,
     /// Controls at the nodes.
     pub controls: Vec<Control>,
-    /// What the cable does from each node to the next; the last one's says what it does after the end.
+    /// State of the cable from each node to the next; that of the last node applies after the end.
     pub cable: Vec<Cable>,
-    /// The nodes at which the planner's own constraints stood, by index, where the trajectory is sampled more densely than
-    /// that: `nodes.*` looks at these. Empty: all of them.
+    /// Indices of the nodes at which the planner imposed its constraints, if the trajectory is sampled more densely. The
+    /// checks `nodes.*` apply to these. Empty: all nodes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub planner_nodes: Vec<usize>,
 }
 
 impl Trajectory {
-    /// The nodes at which the planner's own constraints stood, by index.
+    /// Indices of the nodes at which the planner imposed its constraints.
     pub fn planner_nodes(&self) -> Vec<usize> {
         let count = self.times_s.len();
         match self.planner_nodes.as_slice() {

@@ -1,8 +1,8 @@
-//! Damaged copies of an input: what a broken disk, a careless editor or a half-written program leaves.
+//! Randomly damaged copies of an input.
 
 use rand::Rng;
 
-/// Words that are numbers to some, and signs that mean something elsewhere.
+/// Words and symbols that have a meaning in some format.
 const WORDS: [&str; 14] = [
     "nan",
     "NaN",
@@ -20,8 +20,8 @@ const WORDS: [&str; 14] = [
     "[[vehicles]]",
 ];
 
-/// `count` copies of `text`, each with one to four of: a byte changed, a piece cut out, a piece doubled, a word put in.
-/// The same on every call.
+/// `count` copies of `text`, each with one to four changes: a byte replaced, a piece removed, a piece duplicated, or a word
+/// inserted. The same on every call.
 pub fn copies_of(text: &str, count: usize) -> impl Iterator<Item = String> + '_ {
     let mut rng = scenarios::stream(0, "damage");
     (0..count).map(move |_| {

@@ -1,8 +1,8 @@
-//! The smallest scenario that uses every part, and what loading says about a changed copy of it.
+//! A minimal scenario that uses every table, and assertions about changed copies of it.
 
 use scenarios::{LoadError, LocatedIssue, Scenario};
 
-/// Valid; each test changes one place. Lines are counted from 1.
+/// A valid scenario. Lines are counted from 1.
 pub const TEXT: &str = r#"name = "minimal"
 description = "Two gliders pass one pillar."
 
