@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use divan::Bencher;
 use harness::campaign::bench::ipm::TOLERANCE;
 use harness::campaign::bench::subproblems::{self, Subproblem};
-use planners::convex::{self, Backend, InteriorPoint, Settings, Solvers};
+use planners::convex::{self, Backend, BatchSolver, InteriorPoint, Settings};
 
 fn main() {
     divan::main();
@@ -59,7 +59,7 @@ fn block(bencher: Bencher, subproblem: Named) {
 /// Four subproblems in one pass: divide by four.
 #[divan::bench(args = full_size())]
 fn block_x4(bencher: Bencher, Named(subproblem): Named) {
-    let solvers = Solvers::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
+    let solvers = BatchSolver::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
     bencher.bench_local(|| solvers.solve_all(&subproblem.together));
 }
 

@@ -1,17 +1,17 @@
-//! The customised interior-point method for the convex subproblems of sequential convex programming.
+//! Customised interior-point method for the convex subproblems of sequential convex programming.
 //!
-//! A subproblem is an elastic linear programme over stages (Wang, Xu, Long 2020, P2 and P4, eq. 21, 22):
+//! A subproblem is an elastic linear program over stages (Wang, Xu, Long 2020, P2 and P4, eq. 21, 22):
 //!
 //! ```text
 //! min  q θ + μ Σ |E z - d| + μ Σ max(F z - g, 0)     s.t.  lo <= z <= hi,      z = (w_0, ..., w_K, θ)
 //! ```
 //!
-//! - the hard box is the trust region (A_tr);
-//! - the elastic equalities E (A_eq) link neighbouring stages, w_k -> w_{k+1}, or pin single variables;
-//! - the elastic inequalities F (A_in) are bounds of single variables and planes of single stages;
-//! - θ is the one variable that all stages share.
+//! - the hard bounds are the trust region (A_tr);
+//! - the elastic equalities E (A_eq) couple neighbouring stages, w_k -> w_{k+1}, or fix single variables;
+//! - the elastic inequalities F (A_in) are bounds of single variables and halfspaces in one or two neighbouring stages;
+//! - θ is the only variable that all stages share.
 //!
-//! Slacks make it smooth, each with a dual of its own. With p, n, t, β >= 0 and multipliers y, λ, v:
+//! With elastic slacks p, n, β >= 0, slacks t >= 0 and multipliers y, λ, v, the optimality conditions are:
 //!
 //! ```text
 //! E z - d = p - n        p ⟂ μ - y,  n ⟂ μ + y            |y| <= μ
@@ -20,37 +20,38 @@
 //! q e_θ + E^T y + F^T λ + v_u - v_l = 0
 //! ```
 //!
-//! This is the paper's P4 with its slacks taken out by hand: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p and
+//! This is the paper's P4 with the elastic slacks eliminated: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p and
 //! multipliers λ_2 = (μ + y)/2, λ_3 = (μ - y)/2, so that 4 D_2 D_3/(D_2 + D_3) = 1/(p/(μ - y) + n/(μ + y)); and
-//! s_4 = t, λ_4 = λ, s_5 = β, λ_5 = μ - λ. Products, and therefore iterates, are the same; the linear system is smaller.
+//! s_4 = t, λ_4 = λ, s_5 = β, λ_5 = μ - λ. The products, and therefore the iterates, are the same; the linear system is
+//! smaller.
 //!
 //! No vehicle is named here.
 
 mod backend;
 #[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod batch;
+mod batch_solver;
 #[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod block;
-mod boxed;
 mod certificate;
 mod clarabel;
+mod complementarity;
+mod convergence;
+mod feasibility;
 mod interior_point;
 #[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod iterate;
 #[expect(clippy::needless_range_loop, reason = "matrices are read by index, as in the formulas")]
 mod kernels;
-mod many;
 mod newton;
-mod paper;
+mod newton_solver;
 mod program;
-mod progress;
+mod reference_methods;
 mod solution;
-mod ties;
-
-use crate::lanes;
 
 pub use self::backend::Backend;
+pub(crate) use self::clarabel::settings as clarabel_settings;
 pub use self::clarabel::solve as solve_with_clarabel;
-pub use many::{InteriorPoint, Solvers, solve_all};
-pub use program::{LINK, Link, Pin, Plane, Program, STAGE};
+pub use batch_solver::{BatchSolver, InteriorPoint};
+pub use program::{DYNAMICS_ROWS, DynamicsConstraint, FixedVariable, HalfspaceConstraint, Program, STAGE_LEN};
 pub use solution::{Settings, Solution, Status};

@@ -8,7 +8,6 @@
 pub mod convex;
 pub mod free_space;
 pub mod horizon;
-mod lanes;
 pub mod multirotor;
 pub mod nlp;
 mod open_list;
@@ -17,6 +16,7 @@ pub mod pseudospectral;
 pub mod roadmap;
 pub mod scp;
 pub mod search;
+mod simd;
 pub mod slung;
 
 use std::sync::LazyLock;

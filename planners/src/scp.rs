@@ -1,5 +1,5 @@
 //! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): every vehicle's problem is linearised about
-//! its last trajectory, the others' trajectories frozen, and solved as an elastic linear programme.
+//! its last trajectory, the others' trajectories frozen, and solved as an elastic linear program.
 
 mod avoidance;
 pub mod coupled;

@@ -9,7 +9,7 @@ use planners::pseudospectral::{Mesh, MultiphaseSystem, Transcription};
 use planners::scp::parallel::plan_and_inspect;
 use planners::slung;
 
-/// Allocations of a second solve of the same programme that ends after `max_iterations`.
+/// Allocations of a second solve of the same program that ends after `max_iterations`.
 fn allocations(program: &Program, max_iterations: usize) -> u64 {
     let mut solver = InteriorPoint::new(Settings { max_iterations, ..Settings::default() });
     solver.solve(program);
@@ -39,12 +39,12 @@ fn iterations_of_the_nonlinear_method_allocate_nothing() {
     let route = &slung::candidate_routes(&problem)[0];
     let guess = slung::Guess::new(&problem, route, system.coordinates());
     let phases: Vec<(usize, usize)> = problem.phases.iter().map(|_| (4, 3)).collect();
-    let mut programme = Transcription::new(&system, Mesh::uniform(&phases));
-    let start = nlp::Start::Cold(programme.variables_from(&|phase, share, node| guess.write(phase, share, node)));
+    let mut program = Transcription::new(&system, Mesh::uniform(&phases));
+    let start = nlp::Start::Cold(program.variables_from(&|phase, share, node| guess.write(phase, share, node)));
     let mut count = |max_iterations: usize| {
         let settings = nlp::Settings { max_iterations, ..nlp::Settings::default() };
-        let mut method = nlp::InteriorPoint::new(&programme, settings);
-        let mut solve = || assert_eq!(method.solve(&mut programme, &start).status, nlp::Status::IterationLimit);
+        let mut method = nlp::InteriorPoint::new(&program, settings);
+        let mut solve = || assert_eq!(method.solve(&mut program, &start).status, nlp::Status::IterationLimit);
         solve();
         allocation_counter::measure(solve).count_total
     };

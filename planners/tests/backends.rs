@@ -75,7 +75,7 @@ fn the_whole_kkt_matrix_agrees_on_small_subproblems() {
 fn one_solver_serves_programmes_one_after_the_other() {
     let programs = subproblems("tests/scenarios/pair.toml", 8);
     let mut solver = InteriorPoint::with_backend(Settings::default(), Backend::SparseLdl);
-    let same_shape = programs.iter().filter(|program| program.planes.len() == programs[0].planes.len());
+    let same_shape = programs.iter().filter(|program| program.halfspaces.len() == programs[0].halfspaces.len());
     for program in same_shape {
         let fresh = InteriorPoint::with_backend(Settings::default(), Backend::SparseLdl).solve(program);
         let reused = solver.solve(program);

@@ -2,21 +2,22 @@
 
 use nalgebra::{SMatrix, SVector};
 use planners::convex::{
-    InteriorPoint, LINK, Link, Pin, Plane, Program, STAGE, Settings, Solution, Status, solve_with_clarabel,
+    DYNAMICS_ROWS, DynamicsConstraint, FixedVariable, HalfspaceConstraint, InteriorPoint, Program, STAGE_LEN, Settings,
+    Solution, Status, solve_with_clarabel,
 };
 use rand::{Rng, RngExt};
 
 const INTERVALS: usize = 8;
 
-/// A random programme around a point that satisfies its links.
+/// A random program around a point that satisfies its dynamics.
 fn program(rng: &mut impl Rng) -> Program {
     let mut uniform = || rng.random_range(-1.0..1.0);
-    let links = (0..INTERVALS).map(|_| Link {
+    let dynamics = (0..INTERVALS).map(|_| DynamicsConstraint {
         left: SMatrix::from_fn(|i, j| 0.3 * uniform() - if i == j { 1.0 } else { 0.0 }),
         right: SMatrix::from_fn(|i, j| {
             if i == j {
                 1.0
-            } else if j < LINK {
+            } else if j < DYNAMICS_ROWS {
                 0.0
             } else {
                 0.2 * uniform()
@@ -25,24 +26,29 @@ fn program(rng: &mut impl Rng) -> Program {
         theta: SVector::from_fn(|_, _| uniform()),
         rhs: SVector::from_fn(|_, _| 0.1 * uniform()),
     });
-    let links: Vec<Link> = links.collect();
-    let n = STAGE * (INTERVALS + 1) + 1;
-    let pins = (0..LINK).map(|index| Pin { index, value: 0.1 * uniform() }).collect();
-    let mut planes = Vec::new();
+    let dynamics: Vec<DynamicsConstraint> = dynamics.collect();
+    let n = STAGE_LEN * (INTERVALS + 1) + 1;
+    let fixed_variables = (0..DYNAMICS_ROWS).map(|index| FixedVariable { index, value: 0.1 * uniform() }).collect();
+    let mut halfspaces = Vec::new();
     for stage in 0..=INTERVALS {
-        planes.push(Plane { stage, here: [uniform(), uniform()], next: [0.0; 2], bound: 0.3 * uniform() });
+        halfspaces.push(HalfspaceConstraint {
+            stage,
+            current: [uniform(), uniform()],
+            next: [0.0; 2],
+            bound: 0.3 * uniform(),
+        });
         if stage < INTERVALS {
             let (here, next) = ([uniform(), uniform()], [uniform(), uniform()]);
-            planes.push(Plane { stage, here, next, bound: 0.3 * uniform() });
+            halfspaces.push(HalfspaceConstraint { stage, current, next, bound: 0.3 * uniform() });
         }
     }
     Program {
         theta_cost: 1.0,
         offset: 0.0,
         penalty: 100.0,
-        links,
-        pins,
-        planes,
+        dynamics,
+        fixed_variables,
+        halfspaces,
         box_lower: vec![-2.0; n],
         box_upper: vec![2.0; n],
         soft_lower: vec![-1.0; n],
@@ -71,10 +77,15 @@ fn random_programmes_agree_with_clarabel() {
 #[test]
 fn contradicting_rows_are_absorbed_by_the_slacks() {
     let mut program = program(&mut scenarios::stream(1, "contradiction"));
-    let first = program.pins[0];
-    program.pins.push(Pin { value: first.value + 0.5, ..first });
-    program.planes.push(Plane { stage: INTERVALS, here: [1.0, 0.0], next: [0.0; 2], bound: -0.8 });
-    program.planes.push(Plane { stage: INTERVALS, here: [-1.0, 0.0], next: [0.0; 2], bound: -0.8 });
+    let first = program.fixed_variables[0];
+    program.fixed_variables.push(FixedVariable { value: first.value + 0.5, ..first });
+    program.halfspaces.push(HalfspaceConstraint { stage: INTERVALS, current: [1.0, 0.0], next: [0.0; 2], bound: -0.8 });
+    program.halfspaces.push(HalfspaceConstraint {
+        stage: INTERVALS,
+        current: [-1.0, 0.0],
+        next: [0.0; 2],
+        bound: -0.8,
+    });
     assert_agrees_with_clarabel(&program, "contradiction");
     assert!(solve(&program).objective > 0.5 * program.penalty);
 }
@@ -82,8 +93,8 @@ fn contradicting_rows_are_absorbed_by_the_slacks() {
 #[test]
 fn duplicate_rows_do_not_matter() {
     let mut program = program(&mut scenarios::stream(2, "duplicates"));
-    program.pins.extend(program.pins.clone());
-    program.planes = program.planes.iter().flat_map(|plane| [*plane; 3]).collect();
+    program.fixed_variables.extend(program.fixed_variables.clone());
+    program.halfspaces = program.halfspaces.iter().flat_map(|halfspace| [*halfspace; 3]).collect();
     assert_agrees_with_clarabel(&program, "duplicates");
 }
 
@@ -102,9 +113,9 @@ fn empty_box_and_nan_are_refused() {
     let good = program(&mut scenarios::stream(4, "refused"));
     let spoil: [fn(&mut Program); 5] = [
         |program| program.box_upper[3] = program.box_lower[3],
-        |program| program.links[2].left[(1, 1)] = f64::NAN,
-        |program| program.links[0].rhs[0] = f64::INFINITY,
-        |program| program.planes[0].bound = f64::NAN,
+        |program| program.dynamics[2].left[(1, 1)] = f64::NAN,
+        |program| program.dynamics[0].rhs[0] = f64::INFINITY,
+        |program| program.halfspaces[0].bound = f64::NAN,
         |program| program.soft_lower[7] = f64::NEG_INFINITY,
     ];
     for (i, spoil) in spoil.into_iter().enumerate() {
@@ -118,9 +129,9 @@ fn empty_box_and_nan_are_refused() {
 fn scales_far_apart_end_with_an_honest_status() {
     for (exponent, seed) in [(-9, 5), (-5, 6), (5, 7), (9, 8)] {
         let mut program = program(&mut scenarios::stream(seed, "scales"));
-        for link in &mut program.links {
-            link.left *= 10_f64.powi(exponent);
-            link.right *= 10_f64.powi(exponent);
+        for constraint in &mut program.dynamics {
+            constraint.left *= 10_f64.powi(exponent);
+            constraint.right *= 10_f64.powi(exponent);
         }
         let solution = solve(&program);
         assert_ne!(solution.status, Status::Refused);

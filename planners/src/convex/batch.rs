@@ -1,68 +1,68 @@
-//! Up to four programmes of one shape side by side, one per lane.
+//! Up to four programs of one shape, one per lane.
 
 use super::kernels::Matrix;
-use super::lanes::{Lanes, Mask, Vector, WIDTH};
-use super::program::{LINK, Plane, Program, STAGE};
+use super::program::{DYNAMICS_ROWS, HalfspaceConstraint, Program, STAGE_LEN};
+use crate::simd::{Lanes, Mask, Simd4, WIDTH};
 
-/// Programmes side by side. Planes may differ in number: a lane that has fewer in a stage than its neighbours has empty
-/// ones there, which count for nothing.
+/// The data of four programs, one per lane. The number of halfspaces may differ: a lane with fewer halfspaces in a stage
+/// than another has absent ones there, which have no effect.
 #[derive(Clone, Debug)]
-pub struct Batch<S: Vector> {
-    /// The machine's instructions.
+pub struct Batch<S: Simd4> {
+    /// Vector instructions of the processor.
     pub simd: S,
     /// q.
     pub theta_cost: Lanes<S>,
     /// μ.
     pub penalty: Lanes<S>,
-    /// Links, K of them.
-    pub links: Vec<Link<S>>,
-    /// Pins: index into z, and value.
-    pub pins: Vec<(usize, Lanes<S>)>,
-    /// Planes in ascending order of the stage.
-    pub planes: Vec<PlaneRow<S>>,
-    /// First plane of every stage, and the end of the last.
-    pub first_plane: Vec<usize>,
+    /// Dynamics constraints, length K.
+    pub dynamics: Vec<DynamicsConstraint<S>>,
+    /// Fixed variables: index into z, and value.
+    pub fixed_variables: Vec<(usize, Lanes<S>)>,
+    /// Halfspaces, sorted by stage.
+    pub halfspaces: Vec<HalfspaceRow<S>>,
+    /// Index of the first halfspace of every stage, and the total number.
+    pub first_halfspace: Vec<usize>,
     /// Bounds of every variable.
     pub bounds: Vec<Bounds<S>>,
-    /// Number of complementary pairs of every lane.
+    /// Number of complementarity products of every lane.
     pub pairs: Lanes<S>,
 }
 
 /// `left w_k + right w_{k+1} + theta θ = rhs`.
 #[derive(Clone, Debug)]
-pub struct Link<S: Vector> {
+pub struct DynamicsConstraint<S: Simd4> {
     /// Coefficients of w_k.
-    pub left: Matrix<S, LINK, STAGE>,
+    pub left: Matrix<S, DYNAMICS_ROWS, STAGE_LEN>,
     /// Coefficients of w_{k+1}.
-    pub right: Matrix<S, LINK, STAGE>,
+    pub right: Matrix<S, DYNAMICS_ROWS, STAGE_LEN>,
     /// Coefficients of θ.
-    pub theta: [Lanes<S>; LINK],
+    pub theta: [Lanes<S>; DYNAMICS_ROWS],
     /// Right-hand side.
-    pub rhs: [Lanes<S>; LINK],
+    pub rhs: [Lanes<S>; DYNAMICS_ROWS],
 }
 
-/// `here · (w_k[0], w_k[1]) + next · (w_{k+1}[0], w_{k+1}[1]) <= bound`.
+/// `current · (w_k[0], w_k[1]) + next · (w_{k+1}[0], w_{k+1}[1]) <= bound`.
 #[derive(Clone, Copy, Debug)]
-pub struct PlaneRow<S: Vector> {
+pub struct HalfspaceRow<S: Simd4> {
     /// Index into z of w_k[0].
-    pub here_at: usize,
+    pub current_index: usize,
     /// Index into z of w_{k+1}[0]; of w_k[0] in the last stage, where `next` is zero.
-    pub next_at: usize,
+    pub next_index: usize,
     /// Coefficients of stage k.
-    pub here: [Lanes<S>; 2],
+    pub current: [Lanes<S>; 2],
     /// Coefficients of stage k + 1.
     pub next: [Lanes<S>; 2],
     /// Right-hand side.
     pub bound: Lanes<S>,
     /// Has any lane a coefficient in stage k + 1?
     pub spans: bool,
-    /// 1 where the lane has this plane, 0 where it is empty.
+    /// 1 in lanes that have this halfspace, 0 where it is absent.
     pub present: Lanes<S>,
 }
 
 /// Bounds of one variable.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounds<S: Vector> {
+pub struct Bounds<S: Simd4> {
     /// Hard lower bound.
     pub box_lower: Lanes<S>,
     /// Hard upper bound.
@@ -73,26 +73,26 @@ pub struct Bounds<S: Vector> {
     pub soft_upper: Lanes<S>,
 }
 
-impl<S: Vector> Batch<S> {
-    /// Nothing yet.
+impl<S: Simd4> Batch<S> {
+    /// An empty batch.
     pub fn new(simd: S) -> Self {
         let zero = Lanes::splat(simd, 0.0);
         Self {
             simd,
             theta_cost: zero,
             penalty: zero,
-            links: Vec::new(),
-            pins: Vec::new(),
-            planes: Vec::new(),
-            first_plane: Vec::new(),
+            dynamics: Vec::new(),
+            fixed_variables: Vec::new(),
+            halfspaces: Vec::new(),
+            first_halfspace: Vec::new(),
             bounds: Vec::new(),
             pairs: zero,
         }
     }
 
-    /// Number K of links.
+    /// Number K of intervals.
     pub fn intervals(&self) -> usize {
-        self.links.len()
+        self.dynamics.len()
     }
 
     /// Length of z.
@@ -100,16 +100,18 @@ impl<S: Vector> Batch<S> {
         self.bounds.len()
     }
 
-    /// Takes one programme per lane; they agree in the number of links and in the indices of their pins.
+    /// Sets one program per lane; all must have the [same shape](Program::has_shape_of).
     pub fn set(&mut self, programs: [&Program; WIDTH]) {
         let simd = self.simd;
         let lanes = |value: &dyn Fn(&Program) -> f64| Lanes::new(simd, programs.map(value));
         self.theta_cost = lanes(&|program| program.theta_cost);
         self.penalty = lanes(&|program| program.penalty);
         self.pairs = lanes(&|program| 2.0 * (program.len() + program.equalities() + program.inequalities()) as f64);
-        self.pins.clear();
-        let pins = programs[0].pins.iter().enumerate();
-        self.pins.extend(pins.map(|(i, pin)| (pin.index, lanes(&|program| program.pins[i].value))));
+        self.fixed_variables.clear();
+        let fixed_variables = programs[0].fixed_variables.iter().enumerate();
+        self.fixed_variables.extend(
+            fixed_variables.map(|(i, fixed)| (fixed.index, lanes(&|program| program.fixed_variables[i].value))),
+        );
         self.bounds.clear();
         self.bounds.extend((0..programs[0].len()).map(|i| Bounds {
             box_lower: lanes(&|program| program.box_lower[i]),
@@ -117,82 +119,87 @@ impl<S: Vector> Batch<S> {
             soft_lower: lanes(&|program| program.soft_lower[i]),
             soft_upper: lanes(&|program| program.soft_upper[i]),
         }));
-        self.set_links(programs);
-        self.set_planes(programs);
+        self.set_dynamics(programs);
+        self.set_halfspaces(programs);
     }
 
-    fn set_links(&mut self, programs: [&Program; WIDTH]) {
+    fn set_dynamics(&mut self, programs: [&Program; WIDTH]) {
         let simd = self.simd;
         let zero = Lanes::splat(simd, 0.0);
-        let empty =
-            Link { left: [[zero; STAGE]; LINK], right: [[zero; STAGE]; LINK], theta: [zero; LINK], rhs: [zero; LINK] };
-        self.links.resize(programs[0].intervals(), empty);
-        for (k, link) in self.links.iter_mut().enumerate() {
-            let [a, b, c, d] = programs.map(|program| &program.links[k]);
-            for i in 0..LINK {
-                for j in 0..STAGE {
+        let empty = DynamicsConstraint {
+            left: [[zero; STAGE_LEN]; DYNAMICS_ROWS],
+            right: [[zero; STAGE_LEN]; DYNAMICS_ROWS],
+            theta: [zero; DYNAMICS_ROWS],
+            rhs: [zero; DYNAMICS_ROWS],
+        };
+        self.dynamics.resize(programs[0].intervals(), empty);
+        for (k, constraint) in self.dynamics.iter_mut().enumerate() {
+            let [a, b, c, d] = programs.map(|program| &program.dynamics[k]);
+            for i in 0..DYNAMICS_ROWS {
+                for j in 0..STAGE_LEN {
                     let at = (i, j);
-                    link.left[i][j] = Lanes::new(simd, [a.left[at], b.left[at], c.left[at], d.left[at]]);
-                    link.right[i][j] = Lanes::new(simd, [a.right[at], b.right[at], c.right[at], d.right[at]]);
+                    constraint.left[i][j] = Lanes::new(simd, [a.left[at], b.left[at], c.left[at], d.left[at]]);
+                    constraint.right[i][j] = Lanes::new(simd, [a.right[at], b.right[at], c.right[at], d.right[at]]);
                 }
-                link.theta[i] = Lanes::new(simd, [a.theta[i], b.theta[i], c.theta[i], d.theta[i]]);
-                link.rhs[i] = Lanes::new(simd, [a.rhs[i], b.rhs[i], c.rhs[i], d.rhs[i]]);
+                constraint.theta[i] = Lanes::new(simd, [a.theta[i], b.theta[i], c.theta[i], d.theta[i]]);
+                constraint.rhs[i] = Lanes::new(simd, [a.rhs[i], b.rhs[i], c.rhs[i], d.rhs[i]]);
             }
         }
     }
 
-    fn set_planes(&mut self, programs: [&Program; WIDTH]) {
+    fn set_halfspaces(&mut self, programs: [&Program; WIDTH]) {
         let stages = programs[0].intervals() + 1;
-        let mut rest = programs.map(|program| program.planes.as_slice());
-        self.planes.clear();
-        self.first_plane.clear();
+        let mut rest = programs.map(|program| program.halfspaces.as_slice());
+        self.halfspaces.clear();
+        self.first_halfspace.clear();
         for stage in 0..stages {
-            self.first_plane.push(self.planes.len());
-            let own = rest.map(|planes| planes.iter().take_while(|plane| plane.stage == stage).count());
+            self.first_halfspace.push(self.halfspaces.len());
+            let own = rest.map(|halfspaces| halfspaces.iter().take_while(|halfspace| halfspace.stage == stage).count());
             for i in 0..own.into_iter().max().unwrap_or(0) {
-                let planes = std::array::from_fn(|lane| (i < own[lane]).then(|| &rest[lane][i]));
-                self.planes.push(PlaneRow::new(self.simd, stage, stages, planes));
+                let halfspaces = std::array::from_fn(|lane| (i < own[lane]).then(|| &rest[lane][i]));
+                self.halfspaces.push(HalfspaceRow::new(self.simd, stage, stages, halfspaces));
             }
             rest = std::array::from_fn(|lane| &rest[lane][own[lane]..]);
         }
-        self.first_plane.push(self.planes.len());
+        self.first_halfspace.push(self.halfspaces.len());
     }
 }
 
-impl<S: Vector> PlaneRow<S> {
-    fn new(simd: S, stage: usize, stages: usize, planes: [Option<&Plane>; WIDTH]) -> Self {
-        let lanes =
-            |value: &dyn Fn(&Plane) -> f64, empty: f64| Lanes::new(simd, planes.map(|p| p.map_or(empty, value)));
+impl<S: Simd4> HalfspaceRow<S> {
+    fn new(simd: S, stage: usize, stages: usize, halfspaces: [Option<&HalfspaceConstraint>; WIDTH]) -> Self {
+        let lanes = |value: &dyn Fn(&HalfspaceConstraint) -> f64, absent: f64| {
+            Lanes::new(simd, halfspaces.map(|p| p.map_or(absent, value)))
+        };
         Self {
-            here_at: STAGE * stage,
-            next_at: STAGE * (stage + 1).min(stages - 1),
-            here: [lanes(&|plane| plane.here[0], 0.0), lanes(&|plane| plane.here[1], 0.0)],
-            next: [lanes(&|plane| plane.next[0], 0.0), lanes(&|plane| plane.next[1], 0.0)],
-            bound: lanes(&|plane| plane.bound, 1.0),
-            spans: planes.into_iter().flatten().any(Plane::spans_two_stages),
+            current_index: STAGE_LEN * stage,
+            next_index: STAGE_LEN * (stage + 1).min(stages - 1),
+            current: [lanes(&|halfspace| halfspace.current[0], 0.0), lanes(&|halfspace| halfspace.current[1], 0.0)],
+            next: [lanes(&|halfspace| halfspace.next[0], 0.0), lanes(&|halfspace| halfspace.next[1], 0.0)],
+            bound: lanes(&|halfspace| halfspace.bound, 1.0),
+            spans: halfspaces.into_iter().flatten().any(HalfspaceConstraint::spans_two_stages),
             present: lanes(&|_| 1.0, 0.0),
         }
     }
 
-    /// Which lanes have this plane?
+    /// Lanes that have this halfspace.
     #[inline(always)]
     pub fn is_present(&self) -> Mask<S> {
         self.present.is_above(self.present.like(0.5))
     }
 
-    /// `here · w_k + next · w_{k+1}`.
+    /// `current · w_k + next · w_{k+1}`.
     #[inline(always)]
     pub fn value(&self, z: &[Lanes<S>]) -> Lanes<S> {
-        let here = self.here[0] * z[self.here_at] + self.here[1] * z[self.here_at + 1];
-        here + (self.next[0] * z[self.next_at] + self.next[1] * z[self.next_at + 1])
+        let current = self.current[0] * z[self.current_index] + self.current[1] * z[self.current_index + 1];
+        current + (self.next[0] * z[self.next_index] + self.next[1] * z[self.next_index + 1])
     }
 
-    /// Adds the row times `multiplier` to `out`.
+    /// `out +=` the row times `multiplier`.
     #[inline(always)]
     pub fn add(&self, multiplier: Lanes<S>, out: &mut [Lanes<S>]) {
         for i in 0..2 {
-            out[self.here_at + i] += self.here[i] * multiplier;
-            out[self.next_at + i] += self.next[i] * multiplier;
+            out[self.current_index + i] += self.current[i] * multiplier;
+            out[self.next_index + i] += self.next[i] * multiplier;
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The Newton system by a block sweep over the stages.
+//! Block factorisation of the Newton system over the stages, in square-root form.
 //!
 //! ```text
 //! [ H    E^T ] [dz]   [r_z]
-//! [ E   -Ω   ] [dy] = [r_y]          H = diag + planes,  Ω = diag
+//! [ E   -Ω   ] [dy] = [r_y]          H = diagonal + halfspaces,  Ω = diagonal
 //! ```
 //!
 //! In the order w_0, y_0, w_1, y_1, ..., w_K, with θ as the border, the matrix is block tridiagonal (9 x 9 and 6 x 6
@@ -15,125 +15,127 @@
 //! P_{k+1} = H_{k+1} + U_k^T U_k
 //! ```
 //!
-//! T_k couples w_k to the first two variables of w_{k+1}, through planes that span both stages: with them the rows of
-//! stage k are [G_k, T_k], and what the reflections leave below joins H_{k+1}.
+//! T_k couples w_k to the first two variables of w_{k+1} through halfspaces that span both stages: the rows of stage k are
+//! then [G_k, T_k], and the rows that the reflections leave below them are added to H_{k+1}.
 //!
-//! The triangles G and M are made from the square roots of the terms by orthogonal transformations, not from their
-//! sums: near the solution weights spread over more than twenty orders of magnitude, and a soft direction (a load
-//! factor between its bounds) would drown in the rounding of a stiff one (an equation of motion).
+//! The triangles G and M are computed from the square roots of the terms by orthogonal transformations, not from the sums
+//! of the terms. Near the solution the weights spread over more than twenty orders of magnitude, and the curvature of a soft
+//! direction (a variable between its bounds) would be lost in the rounding of a stiff one (a dynamics row).
 //!
-//! O(K 9^3) per factorisation, no index arrays, no allocation.
+//! O(K 9^3) operations per factorisation, without index arrays and without allocation.
 
-use super::batch::{Batch, Link, PlaneRow};
+use super::batch::{Batch, DynamicsConstraint, HalfspaceRow};
 use super::kernels::{Matrix, SquareRoot, add_transposed_product, subtract_product, subtract_transposed_product};
-use super::lanes::{Lanes, Vector};
-use super::program::{LINK, STAGE};
+use super::program::{DYNAMICS_ROWS, STAGE_LEN};
+use crate::simd::{Lanes, Simd4};
 
-/// Rows of planes that are reflected at once.
-const PLANES_AT_ONCE: usize = 4;
+/// Number of halfspace rows that are reflected at once.
+const HALFSPACE_BLOCK: usize = 4;
 
-/// Variables of a stage in which planes live, and those of a plane together with the stage after it.
-const NEXT: usize = 2;
-const SPAN: usize = 4;
+/// Number of variables of one stage in which halfspaces have coefficients.
+const COUPLED: usize = 2;
+
+/// The same for two neighbouring stages.
+const SPANNED: usize = 2 * COUPLED;
 
 /// The matrix of the Newton system, apart from E.
 #[derive(Clone, Debug)]
-pub struct Weights<S: Vector> {
-    /// Diagonal of H from boxes, elastic bounds and pins; length of z.
+pub struct Weights<S: Simd4> {
+    /// Diagonal of H from the trust region, elastic bounds and fixed variables; length of z.
     pub diagonal: Vec<Lanes<S>>,
-    /// Weight 1/ω of every plane.
-    pub planes: Vec<Lanes<S>>,
-    /// Ω of the link rows.
-    pub links: Vec<Lanes<S>>,
+    /// Weight 1/ω of every halfspace.
+    pub halfspaces: Vec<Lanes<S>>,
+    /// Ω of the dynamics rows.
+    pub dynamics: Vec<Lanes<S>>,
 }
 
-/// A right-hand side, or a solution: C columns at once.
+/// A right-hand side or a solution, C columns at once.
 #[derive(Clone, Debug)]
-pub struct Columns<S: Vector, const C: usize> {
+pub struct Columns<S: Simd4, const C: usize> {
     /// r_z or dz, θ last.
     pub z: Vec<[Lanes<S>; C]>,
-    /// r_y or dy of the link rows.
+    /// r_y or dy of the dynamics rows.
     pub y: Vec<[Lanes<S>; C]>,
 }
 
-/// Factors of the block sweep, and the response to the border.
+/// Factors of the block tridiagonal matrix, and its solution for the border.
 #[derive(Clone, Debug)]
-pub struct BlockSystem<S: Vector> {
+pub struct BlockSystem<S: Simd4> {
     stages: Vec<StageFactor<S>>,
-    /// Solution for the border column.
+    /// Solution for the border column θ.
     border: Columns<S, 1>,
     border_pivot: Lanes<S>,
 }
 
-/// Factors of stage k and of the link after it.
+/// Factors of stage k and of the dynamics constraint after it.
 #[derive(Clone, Debug)]
-struct StageFactor<S: Vector> {
+struct StageFactor<S: Simd4> {
     /// G_k.
-    g: SquareRoot<S, STAGE>,
+    g: SquareRoot<S, STAGE_LEN>,
     /// T_k.
-    t: Matrix<S, STAGE, NEXT>,
-    /// Does any plane of this stage reach the next?
+    t: Matrix<S, STAGE_LEN, COUPLED>,
+    /// Does any halfspace of this stage have coefficients in the next?
     spans: bool,
     /// V_k.
-    v: Matrix<S, STAGE, LINK>,
+    v: Matrix<S, STAGE_LEN, DYNAMICS_ROWS>,
     /// M_k.
-    m: SquareRoot<S, LINK>,
+    m: SquareRoot<S, DYNAMICS_ROWS>,
     /// U_k.
-    u: Matrix<S, LINK, STAGE>,
+    u: Matrix<S, DYNAMICS_ROWS, STAGE_LEN>,
 }
 
-impl<S: Vector, const C: usize> Columns<S, C> {
-    /// Room for programmes of `intervals` links.
+impl<S: Simd4, const C: usize> Columns<S, C> {
+    /// Zeros for programs of `intervals` intervals.
     pub fn zero(simd: S, intervals: usize) -> Self {
         let zero = [Lanes::splat(simd, 0.0); C];
-        Self { z: vec![zero; STAGE * (intervals + 1) + 1], y: vec![zero; LINK * intervals] }
+        Self { z: vec![zero; STAGE_LEN * (intervals + 1) + 1], y: vec![zero; DYNAMICS_ROWS * intervals] }
     }
 
-    /// Number K of links that there is room for.
+    /// Number K of intervals.
     pub fn intervals(&self) -> usize {
-        self.y.len() / LINK
+        self.y.len() / DYNAMICS_ROWS
     }
 }
 
-impl<S: Vector> BlockSystem<S> {
-    /// Room for programmes of `intervals` links.
+impl<S: Simd4> BlockSystem<S> {
+    /// Zeros for programs of `intervals` intervals.
     pub fn new(simd: S, intervals: usize) -> Self {
         let zero = Lanes::splat(simd, 0.0);
         let stage = StageFactor {
             g: SquareRoot::zero(simd),
-            t: [[zero; NEXT]; STAGE],
+            t: [[zero; COUPLED]; STAGE_LEN],
             spans: false,
-            v: [[zero; LINK]; STAGE],
+            v: [[zero; DYNAMICS_ROWS]; STAGE_LEN],
             m: SquareRoot::zero(simd),
-            u: [[zero; STAGE]; LINK],
+            u: [[zero; STAGE_LEN]; DYNAMICS_ROWS],
         };
         Self { stages: vec![stage; intervals + 1], border: Columns::zero(simd, intervals), border_pivot: zero }
     }
 
-    /// Factors the matrix that `batch` and `weights` give, without its border.
+    /// Factors the matrix that `batch` and `weights` define, without its border.
     #[inline(always)]
     pub fn factor(&mut self, batch: &Batch<S>, weights: &Weights<S>) {
         let zero = Lanes::splat(batch.simd, 0.0);
-        let (diagonals, _) = weights.diagonal.as_chunks::<STAGE>();
-        let (ω, _) = weights.links.as_chunks::<LINK>();
-        // what the planes of the stage before leave to this one, and its U
-        let mut carried = [[zero; NEXT]; NEXT];
-        let mut u = [[zero; STAGE]; LINK];
+        let (diagonals, _) = weights.diagonal.as_chunks::<STAGE_LEN>();
+        let (ω, _) = weights.dynamics.as_chunks::<DYNAMICS_ROWS>();
+        // rows that the halfspaces of the previous stage leave to this one, and its U
+        let mut carried = [[zero; COUPLED]; COUPLED];
+        let mut u = [[zero; STAGE_LEN]; DYNAMICS_ROWS];
         for (k, factor) in self.stages.iter_mut().enumerate() {
-            let own = batch.first_plane[k]..batch.first_plane[k + 1];
-            let planes = plane_triangle(carried, &batch.planes[own.clone()], &weights.planes[own]);
-            factor.set_stage(&diagonals[k], &u, &planes, &mut carried);
-            if let Some(link) = batch.links.get(k) {
-                factor.set_link(link, &ω[k]);
+            let own = batch.first_halfspace[k]..batch.first_halfspace[k + 1];
+            let halfspaces = halfspace_root(carried, &batch.halfspaces[own.clone()], &weights.halfspaces[own]);
+            factor.set_stage(&diagonals[k], &u, &halfspaces, &mut carried);
+            if let Some(constraint) = batch.dynamics.get(k) {
+                factor.set_dynamics(constraint, &ω[k]);
                 u = factor.u;
             }
         }
     }
 
-    /// Solves for the border and for one right-hand side together; `rhs` becomes the solution.
+    /// Solves for the border and for one right-hand side together; `rhs` is overwritten with the solution.
     ///
     /// - `θ_weight`: weight of θ in H
-    /// - `both`: room for two columns
+    /// - `both`: work space of two columns
     #[inline(always)]
     pub fn solve_with_border(
         &mut self,
@@ -146,11 +148,11 @@ impl<S: Vector> BlockSystem<S> {
         for (both, rhs) in both.z.iter_mut().zip(&rhs.z) {
             *both = [zero, rhs[0]];
         }
-        let columns = batch.links.iter().flat_map(|link| &link.theta).zip(&rhs.y);
+        let columns = batch.dynamics.iter().flat_map(|constraint| &constraint.theta).zip(&rhs.y);
         for (both, (θ, rhs)) in both.y.iter_mut().zip(columns) {
             *both = [*θ, rhs[0]];
         }
-        self.sweep(both);
+        self.substitute(both);
         for (both, (rhs, border)) in both.z.iter().zip(rhs.z.iter_mut().zip(&mut self.border.z)) {
             ([border[0]], [rhs[0]]) = ([both[0]], [both[1]]);
         }
@@ -161,10 +163,10 @@ impl<S: Vector> BlockSystem<S> {
         self.subtract_border(batch, rhs);
     }
 
-    /// Solves for one right-hand side, in place.
+    /// Solves for one right-hand side, in place, after [`BlockSystem::solve_with_border`].
     #[inline(always)]
     pub fn solve(&self, batch: &Batch<S>, rhs: &mut Columns<S, 1>) {
-        self.sweep(rhs);
+        self.substitute(rhs);
         self.subtract_border(batch, rhs);
     }
 
@@ -183,20 +185,20 @@ impl<S: Vector> BlockSystem<S> {
 
     /// Forward and backward substitution over the stages, without the border.
     #[inline(always)]
-    fn sweep<const C: usize>(&self, rhs: &mut Columns<S, C>) {
-        let (stages, _) = rhs.z.as_chunks_mut::<STAGE>();
-        let (links, _) = rhs.y.as_chunks_mut::<LINK>();
-        let last = links.len();
+    fn substitute<const C: usize>(&self, rhs: &mut Columns<S, C>) {
+        let (stages, _) = rhs.z.as_chunks_mut::<STAGE_LEN>();
+        let (dynamics, _) = rhs.y.as_chunks_mut::<DYNAMICS_ROWS>();
+        let last = dynamics.len();
         let mut next = stages[0];
         for (k, factor) in self.stages[..last].iter().enumerate() {
             let mut w = next;
             next = stages[k + 1];
             factor.g.solve_transposed(&mut w);
-            subtract_transposed_product(&mut links[k], &factor.v, &w);
-            factor.m.solve_transposed(&mut links[k]);
-            add_transposed_product(&mut next, &factor.u, &links[k]);
+            subtract_transposed_product(&mut dynamics[k], &factor.v, &w);
+            factor.m.solve_transposed(&mut dynamics[k]);
+            add_transposed_product(&mut next, &factor.u, &dynamics[k]);
             if factor.spans {
-                let coupled: &mut Matrix<S, NEXT, C> = next.first_chunk_mut().expect("a stage is longer");
+                let coupled: &mut Matrix<S, COUPLED, C> = next.first_chunk_mut().expect("a stage has more variables");
                 subtract_transposed_product(coupled, &factor.t, &w);
             }
             stages[k] = w;
@@ -205,7 +207,7 @@ impl<S: Vector> BlockSystem<S> {
         self.stages[last].g.solve(&mut next);
         stages[last] = next;
         for (k, factor) in self.stages[..last].iter().enumerate().rev() {
-            let (w, y) = (&mut stages[k], &mut links[k]);
+            let (w, y) = (&mut stages[k], &mut dynamics[k]);
             subtract_product(y, &factor.u, &next);
             for value in y.as_flattened_mut() {
                 *value = -*value;
@@ -213,7 +215,7 @@ impl<S: Vector> BlockSystem<S> {
             factor.m.solve(y);
             subtract_product(w, &factor.v, y);
             if factor.spans {
-                subtract_product(w, &factor.t, next.first_chunk().expect("a stage is longer"));
+                subtract_product(w, &factor.t, next.first_chunk().expect("a stage has more variables"));
             }
             factor.g.solve(w);
             next = *w;
@@ -221,66 +223,67 @@ impl<S: Vector> BlockSystem<S> {
     }
 }
 
-impl<S: Vector> StageFactor<S> {
-    /// G and T, from the diagonal, the stage before (`u`) and the planes; `carried` becomes what they leave to the next.
+impl<S: Simd4> StageFactor<S> {
+    /// Computes G and T from the diagonal, U of the previous stage (`u`) and the halfspaces. `carried` is set to the rows that
+    /// these leave to the next stage.
     #[inline(always)]
     fn set_stage(
         &mut self,
-        diagonal: &[Lanes<S>; STAGE],
-        u: &Matrix<S, LINK, STAGE>,
-        planes: &PlaneTriangle<S>,
-        carried: &mut Matrix<S, NEXT, NEXT>,
+        diagonal: &[Lanes<S>; STAGE_LEN],
+        u: &Matrix<S, DYNAMICS_ROWS, STAGE_LEN>,
+        halfspaces: &HalfspaceRoot<S>,
+        carried: &mut Matrix<S, COUPLED, COUPLED>,
     ) {
         let zero = diagonal[0].like(0.0);
-        let mut rows = [[zero; STAGE]; LINK + NEXT];
-        rows[..LINK].copy_from_slice(u);
-        for (i, row) in rows[LINK..].iter_mut().enumerate() {
-            let plane = planes.root.row(i);
-            (row[0], row[1]) = (plane[0], plane[1]);
+        let mut rows = [[zero; STAGE_LEN]; DYNAMICS_ROWS + COUPLED];
+        rows[..DYNAMICS_ROWS].copy_from_slice(u);
+        for (i, row) in rows[DYNAMICS_ROWS..].iter_mut().enumerate() {
+            let halfspace = halfspaces.root.row(i);
+            (row[0], row[1]) = (halfspace[0], halfspace[1]);
         }
         self.g.set_diagonal(diagonal);
-        self.spans = planes.span;
-        if planes.span {
-            self.t = [[zero; NEXT]; STAGE];
-            let mut tail = [[zero; NEXT]; LINK + NEXT];
-            for (i, row) in tail[LINK..].iter_mut().enumerate() {
-                let plane = planes.root.row(i);
-                (row[0], row[1]) = (plane[2], plane[3]);
+        self.spans = halfspaces.spans;
+        if halfspaces.spans {
+            self.t = [[zero; COUPLED]; STAGE_LEN];
+            let mut tail = [[zero; COUPLED]; DYNAMICS_ROWS + COUPLED];
+            for (i, row) in tail[DYNAMICS_ROWS..].iter_mut().enumerate() {
+                let halfspace = halfspaces.root.row(i);
+                (row[0], row[1]) = (halfspace[2], halfspace[3]);
             }
             self.g.append_with_tail(&mut rows, &mut self.t, &mut tail);
-            let mut left = SquareRoot::<S, NEXT>::zero_like(zero);
-            let mut own = [[zero; NEXT]; NEXT];
+            let mut left = SquareRoot::<S, COUPLED>::zero_like(zero);
+            let mut own = [[zero; COUPLED]; COUPLED];
             for (i, row) in own.iter_mut().enumerate() {
-                let plane = planes.root.row(NEXT + i);
-                (row[0], row[1]) = (plane[2], plane[3]);
+                let halfspace = halfspaces.root.row(COUPLED + i);
+                (row[0], row[1]) = (halfspace[2], halfspace[3]);
             }
             left.append(&mut own);
             left.append(&mut tail);
             *carried = [*left.row(0), *left.row(1)];
         } else {
             self.g.append(&mut rows);
-            *carried = [[zero; NEXT]; NEXT];
+            *carried = [[zero; COUPLED]; COUPLED];
         }
         self.g.finish();
     }
 
-    /// V, M and U, from the link after the stage.
+    /// Computes V, M and U from the dynamics constraint after the stage.
     #[inline(always)]
-    fn set_link(&mut self, link: &Link<S>, ω: &[Lanes<S>; LINK]) {
-        for i in 0..STAGE {
-            for row in 0..LINK {
-                self.v[i][row] = link.left[row][i];
+    fn set_dynamics(&mut self, constraint: &DynamicsConstraint<S>, ω: &[Lanes<S>; DYNAMICS_ROWS]) {
+        for i in 0..STAGE_LEN {
+            for row in 0..DYNAMICS_ROWS {
+                self.v[i][row] = constraint.left[row][i];
             }
         }
         self.g.solve_transposed(&mut self.v);
         self.m.set_diagonal(ω);
         self.m.append(&mut { self.v });
         self.m.finish();
-        self.u = link.right;
+        self.u = constraint.right;
         if self.spans {
             for (row, u) in self.u.iter_mut().enumerate() {
                 for (v, t) in self.v.iter().zip(&self.t) {
-                    for i in 0..NEXT {
+                    for i in 0..COUPLED {
                         u[i] -= v[row] * t[i];
                     }
                 }
@@ -290,52 +293,52 @@ impl<S: Vector> StageFactor<S> {
     }
 }
 
-/// The planes of a stage, and what the stage before left to it, as a triangle in the variables that they live in.
-struct PlaneTriangle<S: Vector> {
-    root: SquareRoot<S, SPAN>,
-    /// Does any of them reach the next stage?
-    span: bool,
+/// Square root of the halfspace terms of a stage, with the rows that the previous stage left to it.
+struct HalfspaceRoot<S: Simd4> {
+    root: SquareRoot<S, SPANNED>,
+    /// Does any of them have coefficients in the next stage?
+    spans: bool,
 }
 
 #[inline(always)]
-fn plane_triangle<S: Vector>(
-    carried: Matrix<S, NEXT, NEXT>,
-    planes: &[PlaneRow<S>],
+fn halfspace_root<S: Simd4>(
+    carried: Matrix<S, COUPLED, COUPLED>,
+    halfspaces: &[HalfspaceRow<S>],
     weights: &[Lanes<S>],
-) -> PlaneTriangle<S> {
+) -> HalfspaceRoot<S> {
     let zero = carried[0][0].like(0.0);
     let mut root = SquareRoot::zero_like(zero);
-    let mut rows = [[zero; SPAN]; PLANES_AT_ONCE];
+    let mut rows = [[zero; SPANNED]; HALFSPACE_BLOCK];
     for (row, [x, y]) in rows.iter_mut().zip(carried) {
         *row = [x, y, zero, zero];
     }
-    let mut filled = NEXT;
-    let mut span = false;
-    for (plane, &weight) in planes.iter().zip(weights) {
-        if filled == PLANES_AT_ONCE {
+    let mut filled = COUPLED;
+    let mut spans = false;
+    for (halfspace, &weight) in halfspaces.iter().zip(weights) {
+        if filled == HALFSPACE_BLOCK {
             root.append(&mut rows);
-            rows = [[zero; SPAN]; PLANES_AT_ONCE];
+            rows = [[zero; SPANNED]; HALFSPACE_BLOCK];
             filled = 0;
         }
         let weight = weight.sqrt();
-        let [a, b] = plane.here;
-        let [c, d] = plane.next;
+        let [a, b] = halfspace.current;
+        let [c, d] = halfspace.next;
         rows[filled] = [weight * a, weight * b, weight * c, weight * d];
         filled += 1;
-        span |= plane.spans;
+        spans |= halfspace.spans;
     }
     root.append(&mut rows);
-    PlaneTriangle { root, span }
+    HalfspaceRoot { root, spans }
 }
 
-/// Σ theta · y over the links.
+/// Σ theta · y over the dynamics.
 #[inline(always)]
-fn border_product<S: Vector>(batch: &Batch<S>, y: &[[Lanes<S>; 1]]) -> Lanes<S> {
-    let (links, _) = y.as_chunks::<LINK>();
+fn border_product<S: Simd4>(batch: &Batch<S>, y: &[[Lanes<S>; 1]]) -> Lanes<S> {
+    let (dynamics, _) = y.as_chunks::<DYNAMICS_ROWS>();
     let mut sum = Lanes::splat(batch.simd, 0.0);
-    for (link, y) in batch.links.iter().zip(links) {
-        for i in 0..LINK {
-            sum = link.theta[i].mul_add(y[i][0], sum);
+    for (constraint, y) in batch.dynamics.iter().zip(dynamics) {
+        for i in 0..DYNAMICS_ROWS {
+            sum = constraint.theta[i].mul_add(y[i][0], sum);
         }
     }
     sum

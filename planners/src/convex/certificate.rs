@@ -1,39 +1,39 @@
-//! What a solution is worth, from the programme's data alone.
+//! Certified optimality gap of a solution, from the program data and multipliers alone.
 
 use super::program::Program;
 
-/// Multipliers of one programme.
+/// Multipliers of one program.
 #[derive(Clone, Debug)]
 pub struct Multipliers {
-    /// y of links and pins, in [-μ, μ].
+    /// y of the dynamics constraints and fixed variables, in [-μ, μ].
     pub equalities: Vec<f64>,
-    /// λ of upper bounds, lower bounds and planes, in [0, μ].
+    /// λ of upper bounds, lower bounds and halfspaces, in [0, μ].
     pub inequalities: Vec<f64>,
 }
 
-/// Objective at `z`, and how much of it could be gained at most, relative to it or to 1 where that is larger: the
-/// distance to Lagrange's lower bound,
+/// Objective at `z`, and its distance to the Lagrangian lower bound, relative to the objective or to 1 where that is
+/// larger:
 ///
 /// ```text
-/// min over the box of  q θ + y^T (E z - d) + λ^T (F z - g)  =  -y^T d - λ^T g + Σ min(r_i lo_i, r_i hi_i),
+/// min over lo <= z <= hi of  q θ + y^T (E z - d) + λ^T (F z - g)  =  -y^T d - λ^T g + Σ min(r_i lo_i, r_i hi_i),
 /// r = q e_θ + E^T y + F^T λ
 /// ```
 ///
-/// which holds for any multipliers within their bounds.
+/// The bound holds for any multipliers within their bounds.
 pub fn certified_gap(program: &Program, z: &[f64], multipliers: &Multipliers) -> (f64, f64) {
     let Multipliers { equalities, inequalities } = multipliers;
     let mut r = vec![0.0; program.len()];
     r[program.len() - 1] = program.theta_cost;
     program.add_equality_duals(equalities, &mut r);
     program.add_inequality_duals(inequalities, &mut r);
-    let box_part: f64 = r
+    let bounds_part: f64 = r
         .iter()
         .zip(program.box_lower.iter().zip(&program.box_upper))
         .map(|(r, (lower, upper))| (r * lower).min(r * upper))
         .sum();
     let equality_part: f64 = equalities.iter().zip(program.equality_rhs()).map(|(y, d)| y * d).sum();
     let inequality_part: f64 = inequalities.iter().zip(program.inequality_rhs()).map(|(λ, g)| λ * g).sum();
-    let bound = program.offset + box_part - equality_part - inequality_part;
+    let bound = program.offset + bounds_part - equality_part - inequality_part;
     let objective = program.objective(z);
     (objective, (objective - bound) / (objective - program.offset).abs().max(1.0))
 }

@@ -1,76 +1,77 @@
-//! Mehrotra's predictor-corrector loop, on up to four programmes at once.
+//! Mehrotra's predictor-corrector loop, on up to four programs at once.
 
-use super::backend::{Backend, NewtonSystem};
+use super::backend::Backend;
 use super::batch::Batch;
 use super::certificate::certified_gap;
+use super::convergence::{ConvergenceMonitor, Progress};
+use super::feasibility::{Measures, restore_feasibility};
 use super::iterate::Iterate;
-use super::lanes::{Lanes, Vector, WIDTH};
-use super::newton::Newton;
+use super::newton::NewtonSystem;
+use super::newton_solver::NewtonSolver;
 use super::program::Program;
-use super::progress::{Progress, Watch};
 use super::solution::{Settings, Solution, Status};
-use super::ties::{Measures, tie};
+use crate::simd::{Lanes, Simd4, WIDTH};
 
-/// Share of the tolerated gap at which the path's parameter stops falling: going on would only wear out the digits.
-const CENTRE_FLOOR: f64 = 0.4;
+/// Lower bound of the centring target, as a fraction of the tolerated gap: smaller targets only lose accuracy.
+const MIN_TARGET_FRACTION: f64 = 0.4;
 
-/// Relative gap below which directions are refined.
+/// Relative gap below which directions get a step of iterative refinement.
 const REFINE_BELOW: f64 = 1e-4;
 
-/// The method with all its work vectors, which are kept from solve to solve.
+/// The method and its workspace, which is kept from solve to solve.
 #[derive(Clone, Debug)]
-pub struct Solver<S: Vector> {
+pub struct Solver<S: Simd4> {
     settings: Settings,
     batch: Batch<S>,
     at: Iterate<S>,
-    newton: Newton<S>,
-    system: NewtonSystem<S>,
+    newton: NewtonSystem<S>,
+    newton_solver: NewtonSolver<S>,
     measures: Measures<S>,
-    /// 1 for lanes that still move, 0 for those that have ended.
-    moving: Lanes<S>,
-    /// 1 for lanes whose weights are so far apart that directions want iterative refinement, 0 for the others.
-    near_the_end: Lanes<S>,
-    watches: [Watch; WIDTH],
+    /// 1 for lanes that are still iterating, 0 for those that have ended.
+    active: Lanes<S>,
+    /// 1 for lanes whose directions are refined, 0 for the others.
+    refining: Lanes<S>,
+    monitors: [ConvergenceMonitor; WIDTH],
     best: [Vec<f64>; WIDTH],
 }
 
-/// Parts of an iteration, each compiled as one piece for the machine's vector instructions.
+/// Steps of the method, each compiled as one function with the processor's vector instructions.
 #[derive(Clone, Copy, Debug)]
-enum Stage {
-    Start,
+enum Step {
+    Initialise,
     Factor,
     Predict,
     Correct,
     Refine,
-    Step,
+    Advance,
 }
 
-impl<S: Vector> Solver<S> {
-    /// Room for nothing yet.
+impl<S: Simd4> Solver<S> {
+    /// An empty workspace.
     pub fn new(simd: S, settings: Settings, backend: Backend) -> Self {
         let (batch, zero) = (Batch::new(simd), Lanes::splat(simd, 0.0));
         Self {
             at: Iterate::new(),
-            newton: Newton::new(simd),
-            system: NewtonSystem::new(simd, backend),
+            newton: NewtonSystem::new(simd),
+            newton_solver: NewtonSolver::new(simd, backend),
             measures: Measures { products: zero, objective: zero },
-            moving: zero,
-            near_the_end: zero,
-            watches: std::array::from_fn(|_| Watch::new(&settings)),
+            active: zero,
+            refining: zero,
+            monitors: std::array::from_fn(|_| ConvergenceMonitor::new(&settings)),
             best: std::array::from_fn(|_| Vec::new()),
             batch,
             settings,
         }
     }
 
-    /// Solves up to [`WIDTH`] programmes of one shape (see [`Program::has_shape_of`]); one solution each, in their order.
+    /// Solves up to [`WIDTH`] programs of one shape (see [`Program::has_shape_of`]); returns their solutions in order.
     pub fn solve(&mut self, programs: &[&Program]) -> Vec<Solution> {
         let refused: Vec<bool> = programs.iter().map(|program| !program.is_well_posed()).collect();
         let Some(first) = programs.iter().zip(&refused).find_map(|(program, refused)| (!refused).then_some(*program))
         else {
             return programs.iter().map(|program| Solution::refused(program)).collect();
         };
-        // idle lanes carry a copy of the first that can be solved
+        // lanes without a program of their own solve a copy of the first well-posed one
         let is_solved = |lane: usize| refused.get(lane) == Some(&false);
         let lanes = std::array::from_fn(|lane| if is_solved(lane) { programs[lane] } else { first });
         self.begin(lanes, std::array::from_fn(is_solved));
@@ -83,139 +84,139 @@ impl<S: Vector> Solver<S> {
 
     fn begin(&mut self, programs: [&Program; WIDTH], is_solved: [bool; WIDTH]) {
         self.batch.set(programs);
-        self.newton.fit(&self.batch);
-        self.system.begin(&self.batch, programs[0]);
-        self.moving = Lanes::new(self.batch.simd, is_solved.map(f64::from));
-        self.near_the_end = self.moving.like(0.0);
-        self.watches = std::array::from_fn(|_| Watch::new(&self.settings));
+        self.newton.resize(&self.batch);
+        self.newton_solver.begin(&self.batch, programs[0]);
+        self.active = Lanes::new(self.batch.simd, is_solved.map(f64::from));
+        self.refining = self.active.like(0.0);
+        self.monitors = std::array::from_fn(|_| ConvergenceMonitor::new(&self.settings));
         self.best.iter_mut().for_each(|best| best.resize(self.batch.len(), 0.0));
     }
 
     fn iterate(&mut self) {
-        self.run(Stage::Start);
-        self.watch(0);
+        self.run(Step::Initialise);
+        self.monitor(0);
         for iteration in 1..=self.settings.max_iterations {
-            if self.moving.to_array() == [0.0; WIDTH] {
+            if self.active.to_array() == [0.0; WIDTH] {
                 return;
             }
-            self.run(Stage::Factor);
-            self.run(Stage::Predict);
-            self.run(Stage::Correct);
-            if self.near_the_end.to_array() != [0.0; WIDTH] {
-                self.run(Stage::Refine);
+            self.run(Step::Factor);
+            self.run(Step::Predict);
+            self.run(Step::Correct);
+            if self.refining.to_array() != [0.0; WIDTH] {
+                self.run(Step::Refine);
             }
-            self.run(Stage::Step);
-            self.watch(iteration);
+            self.run(Step::Advance);
+            self.monitor(iteration);
         }
     }
 
-    /// Notes where every lane is, and stops those that have ended.
-    fn watch(&mut self, iteration: usize) {
+    /// Records the iterate of every lane and deactivates the lanes that have ended.
+    fn monitor(&mut self, iteration: usize) {
         let [products, objectives] = [self.measures.products, self.measures.objective].map(Lanes::to_array);
         for lane in 0..WIDTH {
-            if self.moving.lane(lane) == 0.0 {
+            if self.active.lane(lane) == 0.0 {
                 continue;
             }
-            let watch = &mut self.watches[lane];
+            let monitor = &mut self.monitors[lane];
             let now = Progress::new(products[lane], objectives[lane], iteration);
-            self.near_the_end.set_lane(lane, f64::from(now.gap < REFINE_BELOW));
-            if watch.is_best(now) {
+            self.refining.set_lane(lane, f64::from(now.gap < REFINE_BELOW));
+            if monitor.record(now) {
                 for (best, z) in self.best[lane].iter_mut().zip(&self.at.z) {
                     *best = z.lane(lane);
                 }
             }
-            if watch.status() != Status::IterationLimit {
-                self.moving.set_lane(lane, 0.0);
-                self.near_the_end.set_lane(lane, 0.0);
+            if monitor.status() != Status::IterationLimit {
+                self.active.set_lane(lane, 0.0);
+                self.refining.set_lane(lane, 0.0);
             }
         }
     }
 
     fn solution(&self, program: &Program, lane: usize) -> Solution {
-        let (z, watch) = (self.best[lane].clone(), &self.watches[lane]);
+        let (z, monitor) = (self.best[lane].clone(), &self.monitors[lane]);
         let (objective, gap) = certified_gap(program, &z, &self.at.multipliers(&self.batch, lane));
-        let status = match watch.status() {
-            // what the slacks say must hold without them
+        let status = match monitor.status() {
+            // the gap of the complementarity products must hold for the program data, too
             Status::Solved if gap > 2.0 * self.settings.tolerance || gap.is_nan() => Status::Stalled,
             status => status,
         };
-        Solution { status, z, objective, gap, iterations: watch.iterations() }
+        Solution { status, z, objective, gap, iterations: monitor.iterations() }
     }
 
-    fn run(&mut self, stage: Stage) {
+    fn run(&mut self, step: Step) {
         let simd = self.batch.simd;
-        simd.vectorize(Run { solver: self, stage });
+        simd.vectorize(Run { solver: self, step });
     }
 
     #[inline(always)]
-    fn start(&mut self) {
-        self.at.start(&self.batch, self.settings.start);
-        self.measures = tie(&self.batch, &mut self.at);
+    fn initialise(&mut self) {
+        self.at.start(&self.batch, self.settings.initial_barrier);
+        self.measures = restore_feasibility(&self.batch, &mut self.at);
     }
 
     #[inline(always)]
     fn factor(&mut self) {
-        self.newton.weigh(&self.batch, &mut self.at);
-        self.system.factor(&self.batch, &self.at, &self.newton.weights);
+        self.newton.compute_weights(&self.batch, &mut self.at);
+        self.newton_solver.factor(&self.batch, &self.at, &self.newton.weights);
     }
 
-    /// Affine direction (σ = 0).
+    /// Computes the affine direction (σ = 0).
     #[inline(always)]
     fn predict(&mut self) {
-        self.system.solve_first(&self.batch, &self.at, &mut self.newton);
+        self.newton_solver.solve_first(&self.batch, &self.at, &mut self.newton);
     }
 
-    /// Centred and corrected direction: σ = (μ_aff/μ)^3.
+    /// Computes the centred and corrected direction, σ = (μ_aff/μ)^3 [Mehrotra 1992].
     #[inline(always)]
     fn correct(&mut self) {
-        let [trust, rows] = self.newton.affine_tallies(&self.batch, &self.at);
-        let one = trust.products.like(1.0);
-        let α_p = trust.loss.room.max(rows.loss.force).recip().min(one);
-        let α_d = trust.loss.force.max(rows.loss.room).recip().min(one);
+        let [trust_region, rows] = self.newton.affine_summaries(&self.batch, &self.at);
+        let one = trust_region.products.like(1.0);
+        let α_p = trust_region.decrease.slack.max(rows.decrease.dual).recip().min(one);
+        let α_d = trust_region.decrease.dual.max(rows.decrease.slack).recip().min(one);
         let before = self.measures.products;
-        let after = trust.products_after(α_p, α_d) + rows.products_after(α_d, α_p);
-        let share = after.max(one.like(0.0)).over(before);
-        let floor = self.measures.objective.abs().max(one) * one.like(CENTRE_FLOOR * self.settings.tolerance);
-        let σμ = (share * share * share * before).max(floor).over(self.batch.pairs);
-        self.newton.centre(&self.batch, &mut self.at, σμ);
-        self.system.solve(&self.batch, &self.at, &mut self.newton);
+        let after = trust_region.products_after(α_p, α_d) + rows.products_after(α_d, α_p);
+        let ratio = after.max(one.like(0.0)).over(before);
+        let floor = self.measures.objective.abs().max(one) * one.like(MIN_TARGET_FRACTION * self.settings.tolerance);
+        let σμ = (ratio * ratio * ratio * before).max(floor).over(self.batch.pairs);
+        self.newton.set_centred_rhs(&self.batch, &mut self.at, σμ);
+        self.newton_solver.solve(&self.batch, &self.at, &mut self.newton);
     }
 
     #[inline(always)]
     fn refine(&mut self) {
-        let mask = self.near_the_end.is_above(self.near_the_end.like(0.5));
-        self.system.refine(&self.batch, &self.at, &mut self.newton, mask);
+        let mask = self.refining.is_above(self.refining.like(0.5));
+        self.newton_solver.refine(&self.batch, &self.at, &mut self.newton, mask);
     }
 
-    /// As far along the direction as room and forces last.
+    /// Takes the longest step for which all slacks and duals stay positive, times the boundary fraction.
     #[inline(always)]
-    fn step(&mut self) {
-        let losses = self.newton.losses(&self.batch, &self.at);
-        let (one, τ) = (losses.primal.like(1.0), losses.primal.like(self.settings.boundary_share));
-        let α_p = τ.over(losses.primal).min(one) * self.moving;
-        let α_d = τ.over(losses.dual).min(one) * self.moving;
+    fn advance(&mut self) {
+        let decrease = self.newton.max_decrease(&self.batch, &self.at);
+        let (one, τ) = (decrease.primal.like(1.0), decrease.primal.like(self.settings.boundary_fraction));
+        let α_p = τ.over(decrease.primal).min(one) * self.active;
+        let α_d = τ.over(decrease.dual).min(one) * self.active;
         self.newton.advance(&self.batch, &mut self.at, α_p, α_d);
-        self.measures = tie(&self.batch, &mut self.at);
+        self.measures = restore_feasibility(&self.batch, &mut self.at);
     }
 }
 
-struct Run<'a, S: Vector> {
+struct Run<'a, S: Simd4> {
     solver: &'a mut Solver<S>,
-    stage: Stage,
+    step: Step,
 }
 
-impl<S: Vector> pulp::WithSimd for Run<'_, S> {
+impl<S: Simd4> pulp::WithSimd for Run<'_, S> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<T: pulp::Simd>(self, _: T) {
-        match self.stage {
-            Stage::Start => self.solver.start(),
-            Stage::Factor => self.solver.factor(),
-            Stage::Predict => self.solver.predict(),
-            Stage::Correct => self.solver.correct(),
-            Stage::Refine => self.solver.refine(),
-            Stage::Step => self.solver.step(),
+        match self.step {
+            Step::Initialise => self.solver.initialise(),
+            Step::Factor => self.solver.factor(),
+            Step::Predict => self.solver.predict(),
+            Step::Correct => self.solver.correct(),
+            Step::Refine => self.solver.refine(),
+            Step::Advance => self.solver.advance(),
         }
     }
 }

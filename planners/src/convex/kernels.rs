@@ -1,38 +1,38 @@
-//! Dense kernels on small matrices of fixed size, row by row, without allocation.
+//! Dense kernels on small row-major matrices of fixed size, without allocation.
 //!
-//! Here and wherever lanes are worked on, plain loops instead of closures: a closure is a function of its own, and would
-//! be compiled without the vector instructions of the function around it.
+//! Code on lanes uses loops instead of closures: a closure is a function of its own and would be compiled without the vector
+//! instructions of the enclosing function.
 
-use super::lanes::{Lanes, Vector};
+use crate::simd::{Lanes, Simd4};
 
 /// A matrix of M rows and N columns.
 pub type Matrix<S, const M: usize, const N: usize> = [[Lanes<S>; N]; M];
 
 /// Triangular square root R of a positive definite `A = R^T R`, upper, with the reciprocals of its diagonal.
 ///
-/// It is built from square roots of the terms of A, never from A itself: weights that differ by twenty orders of
-/// magnitude differ by ten in R, which double precision still tells apart.
+/// R is computed from square roots of the terms of A, never from A itself: weights that differ by twenty orders of
+/// magnitude differ by ten in R, which double precision resolves.
 #[derive(Clone, Debug)]
-pub struct SquareRoot<S: Vector, const N: usize> {
+pub struct SquareRoot<S: Simd4, const N: usize> {
     upper: Matrix<S, N, N>,
     inverse_diagonal: [Lanes<S>; N],
 }
 
-impl<S: Vector, const N: usize> SquareRoot<S, N> {
-    /// Room for a root.
+impl<S: Simd4, const N: usize> SquareRoot<S, N> {
+    /// The root of zero.
     #[inline(always)]
     pub fn zero(simd: S) -> Self {
         let zero = Lanes::splat(simd, 0.0);
         Self { upper: [[zero; N]; N], inverse_diagonal: [zero; N] }
     }
 
-    /// Room for a root, with the instructions of `zero`, which is zero.
+    /// The root of zero, with the vector instructions of `zero`, which must be zero.
     #[inline(always)]
     pub fn zero_like(zero: Lanes<S>) -> Self {
         Self { upper: [[zero; N]; N], inverse_diagonal: [zero; N] }
     }
 
-    /// Starts over with `A = diag(diagonal)`, all >= 0.
+    /// `A <- diag(diagonal)`, all entries >= 0.
     #[inline(always)]
     pub fn set_diagonal(&mut self, diagonal: &[Lanes<S>; N]) {
         for j in 0..N {
@@ -47,14 +47,14 @@ impl<S: Vector, const N: usize> SquareRoot<S, N> {
         &self.upper[i]
     }
 
-    /// `A += rows^T rows` by Householder reflections of R with the rows below it; `rows` is used up.
+    /// `A += rows^T rows` by Householder reflections of R and the rows below it. Overwrites `rows`.
     #[inline(always)]
     pub fn append<const M: usize>(&mut self, rows: &mut Matrix<S, M, N>) {
         self.append_with_tail::<M, 0>(rows, &mut [[]; N], &mut [[]; M]);
     }
 
-    /// The same for the wider matrix [R, T] with [`rows`, `tail`] below it: what is left of `tail` belongs to the
-    /// variables of T alone.
+    /// The same for the wider matrix [R, T] with [`rows`, `tail`] below it. Afterwards `tail` holds rows in the variables of T
+    /// alone.
     #[inline(always)]
     pub fn append_with_tail<const M: usize, const W: usize>(
         &mut self,
@@ -74,7 +74,7 @@ impl<S: Vector, const N: usize> SquareRoot<S, N> {
         }
     }
 
-    /// To be called when every term of A has been added.
+    /// Completes the factorisation; to be called after the last term of A has been added.
     #[inline(always)]
     pub fn finish(&mut self) {
         for j in 0..N {
@@ -112,17 +112,17 @@ impl<S: Vector, const N: usize> SquareRoot<S, N> {
 }
 
 /// The Householder reflection that takes (a, x) to (norm, 0).
-struct Reflection<S: Vector, const M: usize> {
+struct Reflection<S: Simd4, const M: usize> {
     x: [Lanes<S>; M],
     norm: Lanes<S>,
-    /// a and 1/norm; both 1 where there is nothing to reflect, so that everything stays as it is to the last digit.
+    /// a and 1/norm; both 1 in lanes where x is zero, so that the reflection is exactly the identity there.
     a: Lanes<S>,
     inverse_norm: Lanes<S>,
     /// 1/(w norm), w = norm - a.
     inverse_w_norm: Lanes<S>,
 }
 
-impl<S: Vector, const M: usize> Reflection<S, M> {
+impl<S: Simd4, const M: usize> Reflection<S, M> {
     #[inline(always)]
     fn new<const N: usize>(a: Lanes<S>, rows: &Matrix<S, M, N>, j: usize) -> Self {
         let (zero, one) = (a.like(0.0), a.like(1.0));
@@ -144,7 +144,7 @@ impl<S: Vector, const M: usize> Reflection<S, M> {
         }
     }
 
-    /// Reflects another column: `above` in the row of a, column `k` of `rows` below it.
+    /// Reflects another column: `above` in the row of a, and column `k` of `rows` below it.
     #[inline(always)]
     fn apply<const N: usize>(&self, above: &mut Lanes<S>, rows: &mut Matrix<S, M, N>, k: usize) {
         let mut column = self.x;
@@ -160,9 +160,9 @@ impl<S: Vector, const M: usize> Reflection<S, M> {
     }
 }
 
-/// x · y in two sums, so that one addition need not wait for the one before it.
+/// x · y in two independent sums, which shortens the chain of dependent additions.
 #[inline(always)]
-fn dot<S: Vector, const M: usize>(x: &[Lanes<S>; M], y: &[Lanes<S>; M]) -> Lanes<S> {
+fn dot<S: Simd4, const M: usize>(x: &[Lanes<S>; M], y: &[Lanes<S>; M]) -> Lanes<S> {
     let (mut even, mut odd) = (x[0].like(0.0), x[0].like(0.0));
     for i in 0..M / 2 {
         even = x[2 * i].mul_add(y[2 * i], even);
@@ -176,7 +176,7 @@ fn dot<S: Vector, const M: usize>(x: &[Lanes<S>; M], y: &[Lanes<S>; M]) -> Lanes
 
 /// `out += A^T v`.
 #[inline(always)]
-pub fn add_transposed_product<S: Vector, const M: usize, const N: usize, const C: usize>(
+pub fn add_transposed_product<S: Simd4, const M: usize, const N: usize, const C: usize>(
     out: &mut Matrix<S, N, C>,
     a: &Matrix<S, M, N>,
     v: &Matrix<S, M, C>,
@@ -192,7 +192,7 @@ pub fn add_transposed_product<S: Vector, const M: usize, const N: usize, const C
 
 /// `out -= A^T v`.
 #[inline(always)]
-pub fn subtract_transposed_product<S: Vector, const M: usize, const N: usize, const C: usize>(
+pub fn subtract_transposed_product<S: Simd4, const M: usize, const N: usize, const C: usize>(
     out: &mut Matrix<S, N, C>,
     a: &Matrix<S, M, N>,
     v: &Matrix<S, M, C>,
@@ -208,7 +208,7 @@ pub fn subtract_transposed_product<S: Vector, const M: usize, const N: usize, co
 
 /// `out -= A v`, with as many columns of A as `v` has rows.
 #[inline(always)]
-pub fn subtract_product<S: Vector, const M: usize, const N: usize, const C: usize>(
+pub fn subtract_product<S: Simd4, const M: usize, const N: usize, const C: usize>(
     out: &mut Matrix<S, M, C>,
     a: &Matrix<S, M, N>,
     v: &Matrix<S, N, C>,
@@ -253,9 +253,9 @@ mod tests {
         }
     }
 
-    /// diag(ε²) + (1, 1)^T (1, 1) has the small eigenvalue ε²: formed as a matrix, ε = 1e-9 would vanish in it.
+    /// diag(ε²) + (1, 1)^T (1, 1) has the small eigenvalue ε²; in the matrix itself, ε² = 1e-18 would be rounded away.
     #[test]
-    fn soft_direction_beside_a_stiff_one_survives() {
+    fn square_root_resolves_a_soft_direction_beside_a_stiff_one() {
         let ε = 1e-9;
         let mut root = SquareRoot::<_, 2>::zero(Scalar256b);
         root.set_diagonal(&[lanes(ε * ε); 2]);
@@ -267,9 +267,9 @@ mod tests {
         assert!((x[0][0].lane(0) * ε * ε - 1.0).abs() < 1e-6, "{x:?}");
     }
 
-    /// Rows that are zero in some columns, or altogether, must leave numbers behind.
+    /// Rows that are zero in some or in all columns must not produce NaN.
     #[test]
-    fn empty_rows_change_nothing() {
+    fn zero_rows_change_nothing() {
         let mut root = SquareRoot::<_, 3>::zero(Scalar256b);
         root.append(&mut [[lanes(0.0), lanes(2.0), lanes(1.0)], [lanes(0.0); 3]]);
         let before = [0, 1, 2].map(|i| root.row(i).map(|value| value.lane(0)));

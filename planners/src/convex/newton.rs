@@ -1,201 +1,206 @@
-//! One Newton direction of the perturbed optimality conditions: what a factorisation needs, and what follows from it.
+//! The Newton system of the perturbed optimality conditions: its matrix, its right-hand sides and its solution.
 //!
-//! With targets r_c, r_d of everything that is boxed (see [`Boxed`]) and ρ = r_c/a - r_d/b, elimination leaves
+//! With the targets r_c, r_d of every [`ComplementarityPair`] and ρ = r_c/a - r_d/b, elimination leaves
 //!
 //! ```text
 //! H dz + E^T dy = r_z        H = W + F^T Ω_F^-1 F,    r_z = -ρ + F^T Ω_F^-1 ρ_F
 //! E dz - Ω_E dy = r_y        r_y = ρ_E
 //! ```
 //!
-//! with W = c/a + d/b of the trust region's boxes and Ω = c/a + d/b of the multipliers' boxes.
+//! with W = c/a + d/b of the trust region and Ω = c/a + d/b of the multipliers; E now stands for the dynamics rows, F for
+//! all other elastic rows.
 
 use super::batch::Batch;
 use super::block::{Columns, Weights};
-use super::boxed::{AffineTally, Loss};
+use super::complementarity::{Accumulator, AffineSummary, RelativeDecrease};
 use super::iterate::{Iterate, Variable};
-use super::lanes::{Lanes, Mask, Vector};
-use super::program::{LINK, STAGE};
+use super::program::{DYNAMICS_ROWS, STAGE_LEN};
+use crate::simd::{Lanes, Mask, Simd4};
 
-/// Added to every ω, so that a row that holds exactly does not swallow the digits of the others.
+/// Added to every ω of the dynamics rows: it bounds their weights, so that a row that holds exactly does not dominate the
+/// rounding of the others.
 const REGULARISATION: f64 = 1e-12;
 
-/// Newton system of one iterate, without its factors.
+/// The Newton system at one iterate, without its factors.
 #[derive(Clone, Debug)]
-pub struct Newton<S: Vector> {
-    /// Matrix of the system.
+pub struct NewtonSystem<S: Simd4> {
+    /// Weights that define the matrix.
     pub weights: Weights<S>,
     /// 1/ω of the elastic bounds, upper and lower, of every variable.
     bound_weights: Vec<[Lanes<S>; 2]>,
-    /// 1/ω of the pins.
-    pin_weights: Vec<Lanes<S>>,
-    /// Right-hand side; becomes the direction.
+    /// 1/ω of the fixed variables.
+    fixed_weights: Vec<Lanes<S>>,
+    /// Right-hand side; a solve overwrites it with the direction.
     pub step: Columns<S, 1>,
-    /// The direction's other multipliers.
+    /// Steps of the eliminated multipliers.
     pub multipliers: MultiplierSteps<S>,
 }
 
-/// Steps dλ and dy that are not in [`Columns`]: they follow from dz.
+/// Steps dλ and dy of the eliminated multipliers, which follow from dz.
 #[derive(Clone, Debug)]
-pub struct MultiplierSteps<S: Vector> {
+pub struct MultiplierSteps<S: Simd4> {
     /// Of the upper and the lower elastic bound of every variable.
     pub bounds: Vec<[Lanes<S>; 2]>,
-    /// Of the pins.
-    pub pins: Vec<Lanes<S>>,
-    /// Of the planes.
-    pub planes: Vec<Lanes<S>>,
+    /// Of the fixed variables.
+    pub fixed_variables: Vec<Lanes<S>>,
+    /// Of the halfspaces.
+    pub halfspaces: Vec<Lanes<S>>,
 }
 
-/// Losses of what is counted in the primal step, and in the dual one.
+/// Largest relative decreases of the primal and of the dual variables.
 #[derive(Clone, Copy, Debug)]
-pub struct Losses<S: Vector> {
-    /// Of z and of the slacks of elastic rows.
+pub struct MaxDecrease<S: Simd4> {
+    /// Of the distances of z to the trust region and of the elastic slacks.
     pub primal: Lanes<S>,
-    /// Of multipliers and of the duals of the trust region.
+    /// Of the distances of the multipliers to their bounds and of the trust-region duals.
     pub dual: Lanes<S>,
 }
 
-impl<S: Vector> Newton<S> {
-    /// Room for nothing yet.
+impl<S: Simd4> NewtonSystem<S> {
+    /// An empty system.
     pub fn new(simd: S) -> Self {
         Self {
-            weights: Weights { diagonal: Vec::new(), planes: Vec::new(), links: Vec::new() },
+            weights: Weights { diagonal: Vec::new(), halfspaces: Vec::new(), dynamics: Vec::new() },
             bound_weights: Vec::new(),
-            pin_weights: Vec::new(),
+            fixed_weights: Vec::new(),
             step: Columns::zero(simd, 0),
-            multipliers: MultiplierSteps { bounds: Vec::new(), pins: Vec::new(), planes: Vec::new() },
+            multipliers: MultiplierSteps { bounds: Vec::new(), fixed_variables: Vec::new(), halfspaces: Vec::new() },
         }
     }
 
-    /// Makes room for `batch`.
-    pub fn fit(&mut self, batch: &Batch<S>) {
-        let (zero, n_z, n_y) = (Lanes::splat(batch.simd, 0.0), batch.len(), LINK * batch.intervals());
+    /// Resizes all vectors for `batch`.
+    pub fn resize(&mut self, batch: &Batch<S>) {
+        let (zero, n_z, n_y) = (Lanes::splat(batch.simd, 0.0), batch.len(), DYNAMICS_ROWS * batch.intervals());
         self.weights.diagonal.resize(n_z, zero);
-        self.weights.links.resize(n_y, zero);
+        self.weights.dynamics.resize(n_y, zero);
         self.bound_weights.resize(n_z, [zero; 2]);
-        self.pin_weights.resize(batch.pins.len(), zero);
+        self.fixed_weights.resize(batch.fixed_variables.len(), zero);
         self.step.z.resize(n_z, [zero]);
         self.step.y.resize(n_y, [zero]);
         self.multipliers.bounds.resize(n_z, [zero; 2]);
-        self.multipliers.pins.resize(batch.pins.len(), zero);
-        self.multipliers.planes.resize(batch.planes.len(), zero);
+        self.multipliers.fixed_variables.resize(batch.fixed_variables.len(), zero);
+        self.multipliers.halfspaces.resize(batch.halfspaces.len(), zero);
     }
 
-    /// Forms the matrix at `at`, and the right-hand side of the affine direction: targets of zero (Mehrotra's predictor).
+    /// Computes the weights at `at` and the right-hand side of the affine direction, targets of zero (Mehrotra's predictor).
     #[inline(always)]
-    pub fn weigh(&mut self, batch: &Batch<S>, at: &mut Iterate<S>) {
+    pub fn compute_weights(&mut self, batch: &Batch<S>, at: &mut Iterate<S>) {
         let ε = Lanes::splat(batch.simd, REGULARISATION);
-        let Self { weights, bound_weights, pin_weights, step, .. } = self;
+        let Self { weights, bound_weights, fixed_weights, step, .. } = self;
         let rows = weights.diagonal.iter_mut().zip(bound_weights).zip(&mut step.z);
         for (variable, ((diagonal, weights), r_z)) in at.variables.iter_mut().zip(rows) {
-            let Variable { trust, upper, lower } = variable;
-            *weights = [upper.weigh().recip(), lower.weigh().recip()];
-            *diagonal = trust.weigh() + (weights[0] + weights[1]);
-            let bounds = upper.aim_at_zero() * weights[0] - lower.aim_at_zero() * weights[1];
-            *r_z = [bounds - trust.aim_at_zero()];
+            let Variable { trust_region, upper, lower } = variable;
+            *weights = [upper.compute_weight().recip(), lower.compute_weight().recip()];
+            *diagonal = trust_region.compute_weight() + (weights[0] + weights[1]);
+            let bounds = upper.set_zero_target() * weights[0] - lower.set_zero_target() * weights[1];
+            *r_z = [bounds - trust_region.set_zero_target()];
         }
-        let links = weights.links.iter_mut().zip(&mut step.y);
-        for (boxed, (ω, r_y)) in at.links.as_flattened_mut().iter_mut().zip(links) {
-            *ω = boxed.weigh() + ε;
-            *r_y = [boxed.aim_at_zero()];
+        let dynamics = weights.dynamics.iter_mut().zip(&mut step.y);
+        for (pair, (ω, r_y)) in at.dynamics.as_flattened_mut().iter_mut().zip(dynamics) {
+            *ω = pair.compute_weight() + ε;
+            *r_y = [pair.set_zero_target()];
         }
-        for ((boxed, weight), (index, _)) in at.pins.iter_mut().zip(pin_weights).zip(&batch.pins) {
-            *weight = boxed.weigh().recip();
+        for ((pair, weight), (index, _)) in at.fixed_variables.iter_mut().zip(fixed_weights).zip(&batch.fixed_variables)
+        {
+            *weight = pair.compute_weight().recip();
             weights.diagonal[*index] += *weight;
-            step.z[*index][0] += boxed.aim_at_zero() * *weight;
+            step.z[*index][0] += pair.set_zero_target() * *weight;
         }
-        weights.planes.clear();
-        for (boxed, plane) in at.planes.iter_mut().zip(&batch.planes) {
-            let weight = boxed.weigh().recip();
-            weights.planes.push(weight);
-            plane.add(boxed.aim_at_zero() * weight, step.z.as_flattened_mut());
+        weights.halfspaces.clear();
+        for (pair, halfspace) in at.halfspaces.iter_mut().zip(&batch.halfspaces) {
+            let weight = pair.compute_weight().recip();
+            weights.halfspaces.push(weight);
+            halfspace.add(pair.set_zero_target() * weight, step.z.as_flattened_mut());
         }
     }
 
-    /// Sets targets and right-hand side of the centred direction: products of σμ, with Mehrotra's correction for the
-    /// affine direction, which must be the present one.
+    /// Sets the targets and the right-hand side of the centred direction: products of σμ, with Mehrotra's correction for the
+    /// affine direction, which `step` must hold.
     #[inline(always)]
-    pub fn centre(&mut self, batch: &Batch<S>, at: &mut Iterate<S>, σμ: Lanes<S>) {
-        let Self { weights, bound_weights, pin_weights, step, multipliers } = self;
+    pub fn set_centred_rhs(&mut self, batch: &Batch<S>, at: &mut Iterate<S>, σμ: Lanes<S>) {
+        let Self { weights, bound_weights, fixed_weights, step, multipliers } = self;
         let steps = step.z.iter_mut().zip(&multipliers.bounds).zip(bound_weights);
-        for (variable, ((dz, by), weights)) in at.variables.iter_mut().zip(steps) {
-            let upper = variable.upper.aim(σμ, by[0]) * weights[0];
-            let lower = variable.lower.aim(σμ, by[1]) * weights[1];
-            *dz = [upper - lower - variable.trust.aim(σμ, dz[0])];
+        for (variable, ((dz, dλ), weights)) in at.variables.iter_mut().zip(steps) {
+            let upper = variable.upper.set_target(σμ, dλ[0]) * weights[0];
+            let lower = variable.lower.set_target(σμ, dλ[1]) * weights[1];
+            *dz = [upper - lower - variable.trust_region.set_target(σμ, dz[0])];
         }
-        for (boxed, dy) in at.links.as_flattened_mut().iter_mut().zip(&mut step.y) {
-            *dy = [boxed.aim(σμ, dy[0])];
+        for (pair, dy) in at.dynamics.as_flattened_mut().iter_mut().zip(&mut step.y) {
+            *dy = [pair.set_target(σμ, dy[0])];
         }
-        let pins = at.pins.iter_mut().zip(&multipliers.pins);
-        for ((boxed, dy), (weight, (index, _))) in pins.zip(pin_weights.iter().zip(&batch.pins)) {
-            step.z[*index][0] += boxed.aim(σμ, *dy) * *weight;
+        let fixed_variables = at.fixed_variables.iter_mut().zip(&multipliers.fixed_variables);
+        for ((pair, dy), (weight, (index, _))) in fixed_variables.zip(fixed_weights.iter().zip(&batch.fixed_variables))
+        {
+            step.z[*index][0] += pair.set_target(σμ, *dy) * *weight;
         }
-        let planes = at.planes.iter_mut().zip(&multipliers.planes);
-        for ((boxed, dλ), (&weight, plane)) in planes.zip(weights.planes.iter().zip(&batch.planes)) {
-            plane.add(boxed.aim(σμ, *dλ) * weight, step.z.as_flattened_mut());
+        let halfspaces = at.halfspaces.iter_mut().zip(&multipliers.halfspaces);
+        for ((pair, dλ), (&weight, halfspace)) in halfspaces.zip(weights.halfspaces.iter().zip(&batch.halfspaces)) {
+            halfspace.add(pair.set_target(σμ, *dλ) * weight, step.z.as_flattened_mut());
         }
     }
 
-    /// The direction's other multipliers, from dz.
+    /// Computes the steps of the eliminated multipliers from dz.
     #[inline(always)]
-    pub fn recover(&mut self, batch: &Batch<S>, at: &Iterate<S>) {
-        let Self { weights, bound_weights, pin_weights, step, multipliers } = self;
+    pub fn recover_multipliers(&mut self, batch: &Batch<S>, at: &Iterate<S>) {
+        let Self { weights, bound_weights, fixed_weights, step, multipliers } = self;
         let rows = multipliers.bounds.iter_mut().zip(bound_weights).zip(&step.z);
-        for (variable, ((by, weights), dz)) in at.variables.iter().zip(rows) {
-            by[0] = (dz[0] - variable.upper.ρ()) * weights[0];
-            by[1] = (-dz[0] - variable.lower.ρ()) * weights[1];
+        for (variable, ((dλ, weights), dz)) in at.variables.iter().zip(rows) {
+            dλ[0] = (dz[0] - variable.upper.ρ()) * weights[0];
+            dλ[1] = (-dz[0] - variable.lower.ρ()) * weights[1];
         }
-        let pins = at.pins.iter().zip(&mut multipliers.pins);
-        for ((boxed, dy), (weight, (index, _))) in pins.zip(pin_weights.iter().zip(&batch.pins)) {
-            *dy = (step.z[*index][0] - boxed.ρ()) * *weight;
+        let fixed_variables = at.fixed_variables.iter().zip(&mut multipliers.fixed_variables);
+        for ((pair, dy), (weight, (index, _))) in fixed_variables.zip(fixed_weights.iter().zip(&batch.fixed_variables))
+        {
+            *dy = (step.z[*index][0] - pair.ρ()) * *weight;
         }
-        let planes = at.planes.iter().zip(&mut multipliers.planes);
-        for ((boxed, dλ), (&weight, plane)) in planes.zip(weights.planes.iter().zip(&batch.planes)) {
-            *dλ = (plane.value(step.z.as_flattened()) - boxed.ρ()) * weight;
+        let halfspaces = at.halfspaces.iter().zip(&mut multipliers.halfspaces);
+        for ((pair, dλ), (&weight, halfspace)) in halfspaces.zip(weights.halfspaces.iter().zip(&batch.halfspaces)) {
+            *dλ = (halfspace.value(step.z.as_flattened()) - pair.ρ()) * weight;
         }
     }
 
-    /// `out <-` what the direction leaves of the two equations, of every multiplier with the step that it will take:
+    /// `out <-` the residuals that the direction leaves in both equations:
     ///
     /// ```text
     /// -(E^T dy + F^T dλ + dc - dd)        and        -(E dz - (dc - dd))
     /// ```
     #[inline(always)]
-    pub fn remainder(&self, batch: &Batch<S>, at: &Iterate<S>, out: &mut Columns<S, 1>) {
+    pub fn residuals(&self, batch: &Batch<S>, at: &Iterate<S>, out: &mut Columns<S, 1>) {
         let step = &self.step;
         let bounds = &self.multipliers.bounds;
-        for (variable, (out, (dz, by))) in at.variables.iter().zip(out.z.iter_mut().zip(step.z.iter().zip(bounds))) {
-            out[0] = by[1] - by[0] - variable.trust.force_difference_step(dz[0]);
+        for (variable, (out, (dz, dλ))) in at.variables.iter().zip(out.z.iter_mut().zip(step.z.iter().zip(bounds))) {
+            out[0] = dλ[1] - dλ[0] - variable.trust_region.dual_difference_step(dz[0]);
         }
-        for (boxed, (out, dy)) in at.links.as_flattened().iter().zip(out.y.iter_mut().zip(&step.y)) {
-            out[0] = boxed.force_difference_step(dy[0]);
+        for (pair, (out, dy)) in at.dynamics.as_flattened().iter().zip(out.y.iter_mut().zip(&step.y)) {
+            out[0] = pair.dual_difference_step(dy[0]);
         }
         let last = batch.len() - 1;
-        let (outs, _) = out.y.as_chunks_mut::<LINK>();
-        let (dys, _) = step.y.as_chunks::<LINK>();
-        for (k, (link, (row, dy))) in batch.links.iter().zip(outs.iter_mut().zip(dys)).enumerate() {
-            for i in 0..LINK {
-                let mut value = link.theta[i] * step.z[last][0];
-                for j in 0..STAGE {
-                    let (here, next) = (STAGE * k + j, STAGE * (k + 1) + j);
-                    value += link.left[i][j] * step.z[here][0] + link.right[i][j] * step.z[next][0];
-                    out.z[here][0] -= link.left[i][j] * dy[i][0];
-                    out.z[next][0] -= link.right[i][j] * dy[i][0];
+        let (outs, _) = out.y.as_chunks_mut::<DYNAMICS_ROWS>();
+        let (dys, _) = step.y.as_chunks::<DYNAMICS_ROWS>();
+        for (k, (constraint, (row, dy))) in batch.dynamics.iter().zip(outs.iter_mut().zip(dys)).enumerate() {
+            for i in 0..DYNAMICS_ROWS {
+                let mut value = constraint.theta[i] * step.z[last][0];
+                for j in 0..STAGE_LEN {
+                    let (current, next) = (STAGE_LEN * k + j, STAGE_LEN * (k + 1) + j);
+                    value += constraint.left[i][j] * step.z[current][0] + constraint.right[i][j] * step.z[next][0];
+                    out.z[current][0] -= constraint.left[i][j] * dy[i][0];
+                    out.z[next][0] -= constraint.right[i][j] * dy[i][0];
                 }
-                out.z[last][0] -= link.theta[i] * dy[i][0];
+                out.z[last][0] -= constraint.theta[i] * dy[i][0];
                 row[i][0] -= value;
             }
         }
-        for ((index, _), dy) in batch.pins.iter().zip(&self.multipliers.pins) {
+        for ((index, _), dy) in batch.fixed_variables.iter().zip(&self.multipliers.fixed_variables) {
             out.z[*index][0] -= *dy;
         }
-        for (plane, &dλ) in batch.planes.iter().zip(&self.multipliers.planes) {
-            plane.add(-dλ, out.z.as_flattened_mut());
+        for (halfspace, &dλ) in batch.halfspaces.iter().zip(&self.multipliers.halfspaces) {
+            halfspace.add(-dλ, out.z.as_flattened_mut());
         }
     }
 
     /// Adds `correction` to the direction in the lanes of `mask`.
     #[inline(always)]
-    pub fn correct(&mut self, correction: &Columns<S, 1>, mask: Mask<S>) {
+    pub fn add_correction(&mut self, correction: &Columns<S, 1>, mask: Mask<S>) {
         for (value, by) in self.step.z.iter_mut().zip(&correction.z) {
             value[0] = mask.select(value[0] + by[0], value[0]);
         }
@@ -204,75 +209,69 @@ impl<S: Vector> Newton<S> {
         }
     }
 
-    /// Takes the affine direction into account: what is primal in it, and what is dual.
+    /// Summaries of the affine direction: over the trust region, and over the multipliers of all elastic rows.
     #[inline(always)]
-    pub fn affine_tallies(&self, batch: &Batch<S>, at: &Iterate<S>) -> [AffineTally<S>; 2] {
-        let mut trust = AffineTally::none(batch.simd);
-        let mut rows = AffineTally::none(batch.simd);
-        for (variable, (dz, by)) in at.variables.iter().zip(self.step.z.iter().zip(&self.multipliers.bounds)) {
-            trust.add(&variable.trust, dz[0]);
-            rows.add(&variable.upper, by[0]);
-            rows.add(&variable.lower, by[1]);
-        }
-        for (boxed, dy) in at.links.as_flattened().iter().zip(&self.step.y) {
-            rows.add(boxed, dy[0]);
-        }
-        for (boxed, &dy) in at.pins.iter().zip(&self.multipliers.pins) {
-            rows.add(boxed, dy);
-        }
-        for (boxed, (plane, &dλ)) in at.planes.iter().zip(batch.planes.iter().zip(&self.multipliers.planes)) {
-            let mut with = rows;
-            with.add(boxed, dλ);
-            rows = AffineTally::select(plane.is_present(), with, rows);
-        }
-        [trust, rows]
+    pub fn affine_summaries(&self, batch: &Batch<S>, at: &Iterate<S>) -> [AffineSummary<S>; 2] {
+        self.accumulate(batch, at, AffineSummary::zero(batch.simd))
     }
 
-    /// Largest relative losses along the direction.
+    /// Largest relative decreases along the direction.
     #[inline(always)]
-    pub fn losses(&self, batch: &Batch<S>, at: &Iterate<S>) -> Losses<S> {
-        let (mut trust, mut rows) = (Loss::none(batch.simd), Loss::none(batch.simd));
-        for (variable, (dz, by)) in at.variables.iter().zip(self.step.z.iter().zip(&self.multipliers.bounds)) {
-            trust.add(&variable.trust, dz[0]);
-            rows.add(&variable.upper, by[0]);
-            rows.add(&variable.lower, by[1]);
-        }
-        for (boxed, dy) in at.links.as_flattened().iter().zip(&self.step.y) {
-            rows.add(boxed, dy[0]);
-        }
-        for (boxed, &dy) in at.pins.iter().zip(&self.multipliers.pins) {
-            rows.add(boxed, dy);
-        }
-        for (boxed, (plane, &dλ)) in at.planes.iter().zip(batch.planes.iter().zip(&self.multipliers.planes)) {
-            let mut with = rows;
-            with.add(boxed, dλ);
-            rows = Loss::select(plane.is_present(), with, rows);
-        }
-        Losses { primal: trust.room.max(rows.force), dual: trust.force.max(rows.room) }
+    pub fn max_decrease(&self, batch: &Batch<S>, at: &Iterate<S>) -> MaxDecrease<S> {
+        let [trust_region, rows] = self.accumulate(batch, at, RelativeDecrease::zero(batch.simd));
+        // the duals of a multiplier's pair are elastic slacks, which are primal variables
+        MaxDecrease { primal: trust_region.slack.max(rows.dual), dual: trust_region.dual.max(rows.slack) }
     }
 
-    /// Goes shares `α_p` and `α_d` of the direction, and ties everything together again.
+    /// Accumulates the steps of all pairs, starting from `zero`: of the trust region, and of all elastic rows.
+    #[inline(always)]
+    fn accumulate<A: Accumulator<S>>(&self, batch: &Batch<S>, at: &Iterate<S>, zero: A) -> [A; 2] {
+        let (mut trust_region, mut rows) = (zero, zero);
+        for (variable, (dz, dλ)) in at.variables.iter().zip(self.step.z.iter().zip(&self.multipliers.bounds)) {
+            trust_region.add(&variable.trust_region, dz[0]);
+            rows.add(&variable.upper, dλ[0]);
+            rows.add(&variable.lower, dλ[1]);
+        }
+        for (pair, dy) in at.dynamics.as_flattened().iter().zip(&self.step.y) {
+            rows.add(pair, dy[0]);
+        }
+        for (pair, &dy) in at.fixed_variables.iter().zip(&self.multipliers.fixed_variables) {
+            rows.add(pair, dy);
+        }
+        for (pair, (halfspace, &dλ)) in
+            at.halfspaces.iter().zip(batch.halfspaces.iter().zip(&self.multipliers.halfspaces))
+        {
+            let mut with = rows;
+            with.add(pair, dλ);
+            rows = A::select(halfspace.is_present(), with, rows);
+        }
+        [trust_region, rows]
+    }
+
+    /// Moves `at` by `α_p` of the primal and `α_d` of the dual direction; the slacks a + b keep their sum. The differences
+    /// c - d are restored by [`restore_feasibility`](super::feasibility::restore_feasibility).
     #[inline(always)]
     pub fn advance(&self, batch: &Batch<S>, at: &mut Iterate<S>, α_p: Lanes<S>, α_d: Lanes<S>) {
         let (μ, two_μ) = (batch.penalty, batch.penalty + batch.penalty);
-        for (boxed, &dy) in at.pins.iter_mut().zip(&self.multipliers.pins) {
-            boxed.advance(dy, α_d, α_p, two_μ);
+        for (pair, &dy) in at.fixed_variables.iter_mut().zip(&self.multipliers.fixed_variables) {
+            pair.advance(dy, α_d, α_p, two_μ);
         }
-        for (boxed, &dλ) in at.planes.iter_mut().zip(&self.multipliers.planes) {
-            boxed.advance(dλ, α_d, α_p, μ);
+        for (pair, &dλ) in at.halfspaces.iter_mut().zip(&self.multipliers.halfspaces) {
+            pair.advance(dλ, α_d, α_p, μ);
         }
-        for (boxed, dy) in at.links.as_flattened_mut().iter_mut().zip(&self.step.y) {
-            boxed.advance(dy[0], α_d, α_p, two_μ);
+        for (pair, dy) in at.dynamics.as_flattened_mut().iter_mut().zip(&self.step.y) {
+            pair.advance(dy[0], α_d, α_p, two_μ);
         }
         let steps = self.step.z.iter().zip(&self.multipliers.bounds);
         let variables = at.variables.iter_mut().zip(&mut at.z).zip(&batch.bounds);
-        for (((variable, z), bounds), (dz, by)) in variables.zip(steps) {
-            let Variable { trust, upper, lower } = variable;
-            trust.advance(dz[0], α_p, α_d, bounds.room());
-            let is_nearer_above = trust.below.is_above(trust.above);
-            *z = is_nearer_above.select(bounds.box_upper - trust.above, bounds.box_lower + trust.below);
-            upper.advance(by[0], α_d, α_p, μ);
-            lower.advance(by[1], α_d, α_p, μ);
+        for (((variable, z), bounds), (dz, dλ)) in variables.zip(steps) {
+            let Variable { trust_region, upper, lower } = variable;
+            trust_region.advance(dz[0], α_p, α_d, bounds.width());
+            let is_nearer_upper = trust_region.slack_lower.is_above(trust_region.slack_upper);
+            *z = is_nearer_upper
+                .select(bounds.box_upper - trust_region.slack_upper, bounds.box_lower + trust_region.slack_lower);
+            upper.advance(dλ[0], α_d, α_p, μ);
+            lower.advance(dλ[1], α_d, α_p, μ);
         }
     }
 }

@@ -1,33 +1,33 @@
-//! The data of one subproblem.
+//! The data of one elastic linear program.
 
 use nalgebra::{SMatrix, SVector};
 
 /// Number of variables of one stage.
-pub const STAGE: usize = 9;
+pub const STAGE_LEN: usize = 9;
 
-/// Number of rows of one link between two stages.
-pub const LINK: usize = 6;
+/// Number of rows of one constraint between two stages.
+pub const DYNAMICS_ROWS: usize = 6;
 
-/// An elastic linear programme over the stages 0..=K; see the [module](super) for its mathematics.
+/// An elastic linear program over the stages 0..=K; see the [module](super) for its mathematics.
 ///
-/// Variables are z = (w_0, ..., w_K, θ), w_k of length [`STAGE`]; all vectors over z have length [`Program::len`].
+/// Variables are z = (w_0, ..., w_K, θ), w_k of length [`STAGE_LEN`]; all vectors over z have length [`Program::len`].
 #[derive(Clone, Debug)]
 pub struct Program {
     /// Cost q of θ, > 0.
     pub theta_cost: f64,
-    /// Constant part of the objective: added to what a solver reports, without influence on what it does.
+    /// Constant term of the objective. It is part of the reported objective and has no effect on the solution.
     pub offset: f64,
-    /// Weight μ of every violated elastic row, > q.
+    /// Penalty μ per unit of violation of an elastic row, > q.
     pub penalty: f64,
-    /// One link for each pair of neighbouring stages, K of them.
-    pub links: Vec<Link>,
-    /// Variables that are held at a value, elastically.
-    pub pins: Vec<Pin>,
-    /// Elastic planes in single stages, in ascending order of the stage.
-    pub planes: Vec<Plane>,
+    /// Dynamics constraints between neighbouring stages, length K.
+    pub dynamics: Vec<DynamicsConstraint>,
+    /// Elastically fixed variables.
+    pub fixed_variables: Vec<FixedVariable>,
+    /// Elastic halfspace constraints, sorted by stage.
+    pub halfspaces: Vec<HalfspaceConstraint>,
     /// Hard lower bounds of z.
     pub box_lower: Vec<f64>,
-    /// Hard upper bounds of z, above the lower ones.
+    /// Hard upper bounds of z, greater than the lower ones.
     pub box_upper: Vec<f64>,
     /// Elastic lower bounds of z.
     pub soft_lower: Vec<f64>,
@@ -37,107 +37,112 @@ pub struct Program {
 
 /// The elastic equality `left w_k + right w_{k+1} + theta θ = rhs`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct DynamicsConstraint {
     /// Coefficients of w_k.
-    pub left: SMatrix<f64, LINK, STAGE>,
+    pub left: SMatrix<f64, DYNAMICS_ROWS, STAGE_LEN>,
     /// Coefficients of w_{k+1}.
-    pub right: SMatrix<f64, LINK, STAGE>,
+    pub right: SMatrix<f64, DYNAMICS_ROWS, STAGE_LEN>,
     /// Coefficients of θ.
-    pub theta: SVector<f64, LINK>,
+    pub theta: SVector<f64, DYNAMICS_ROWS>,
     /// Right-hand side.
-    pub rhs: SVector<f64, LINK>,
+    pub rhs: SVector<f64, DYNAMICS_ROWS>,
 }
 
 /// The elastic equality `z[index] = value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
+pub struct FixedVariable {
     /// Index into z.
     pub index: usize,
     /// Value.
     pub value: f64,
 }
 
-/// The elastic inequality `here · (w_k[0], w_k[1]) + next · (w_{k+1}[0], w_{k+1}[1]) <= bound` in the first two variables
-/// of a stage and, where it speaks of an instant between two stages, of the one after it.
+/// The elastic inequality `current · (w_k[0], w_k[1]) + next · (w_{k+1}[0], w_{k+1}[1]) <= bound` in the first two
+/// variables of stage k and, where it holds at an instant between two stages, of stage k + 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
+pub struct HalfspaceConstraint {
     /// The stage k.
     pub stage: usize,
-    /// Coefficients of its first two variables.
-    pub here: [f64; 2],
+    /// Coefficients of the first two variables of stage k.
+    pub current: [f64; 2],
     /// Coefficients of the first two variables of stage k + 1; zero for k = K.
     pub next: [f64; 2],
     /// Right-hand side.
     pub bound: f64,
 }
 
-impl Plane {
-    /// Indices into z with their coefficients, ascending; those of the next stage only where there are any.
+impl HalfspaceConstraint {
+    /// Indices into z with their coefficients, ascending; those of stage k + 1 only if they are not both zero.
     pub(super) fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
-        let (here, next) = (STAGE * self.stage, STAGE * (self.stage + 1));
-        let own = [(here, self.here[0]), (here + 1, self.here[1])];
+        let (current, next) = (STAGE_LEN * self.stage, STAGE_LEN * (self.stage + 1));
+        let own = [(current, self.current[0]), (current + 1, self.current[1])];
         let following = [(next, self.next[0]), (next + 1, self.next[1])];
         own.into_iter().chain(following.into_iter().filter(|_| self.spans_two_stages()))
     }
 
-    /// Does it touch the stage after its own?
+    /// Does it have coefficients in stage k + 1?
     pub(super) fn spans_two_stages(&self) -> bool {
         self.next != [0.0; 2]
     }
 }
 
 impl Program {
-    /// Number K of links; there are K + 1 stages.
+    /// Number K of intervals; there are K + 1 stages.
     pub fn intervals(&self) -> usize {
-        self.links.len()
+        self.dynamics.len()
     }
 
-    /// Length of z: `STAGE (K + 1) + 1`.
+    /// Length of z: `STAGE_LEN (K + 1) + 1`.
     pub fn len(&self) -> usize {
-        STAGE * (self.intervals() + 1) + 1
+        STAGE_LEN * (self.intervals() + 1) + 1
     }
 
-    /// Always false: there is at least θ.
+    /// Always false: z contains at least θ.
     pub fn is_empty(&self) -> bool {
         false
     }
 
-    /// Can it be solved in one pass with `other`: as many links, pins of the same variables? Planes may differ.
+    /// Do both programs have the same number of intervals and the same fixed variables, so that one batch can hold them?
+    /// Halfspaces may differ.
     pub fn has_shape_of(&self, other: &Self) -> bool {
-        let pins = |program: &Self| program.pins.iter().map(|pin| pin.index).collect::<Vec<_>>();
-        self.intervals() == other.intervals() && pins(self) == pins(other)
+        let fixed_indices =
+            |program: &Self| program.fixed_variables.iter().map(|fixed| fixed.index).collect::<Vec<_>>();
+        self.intervals() == other.intervals() && fixed_indices(self) == fixed_indices(other)
     }
 
-    /// Number of elastic equalities: the rows of the links, then the pins.
+    /// Number of elastic equalities: dynamics rows, then fixed variables.
     pub fn equalities(&self) -> usize {
-        LINK * self.intervals() + self.pins.len()
+        DYNAMICS_ROWS * self.intervals() + self.fixed_variables.len()
     }
 
-    /// Number of elastic inequalities: upper bounds, lower bounds, planes.
+    /// Number of elastic inequalities: upper bounds, lower bounds, halfspaces.
     pub fn inequalities(&self) -> usize {
-        2 * self.len() + self.planes.len()
+        2 * self.len() + self.halfspaces.len()
     }
 
-    /// Is every number finite, and every box open? A programme for which this is false is refused.
+    /// Is every number finite, and does every pair of hard bounds have an interior? The solvers refuse other programs.
     pub fn is_well_posed(&self) -> bool {
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-        let links = self.links.iter().all(|link| {
-            finite(link.left.as_slice())
-                && finite(link.right.as_slice())
-                && finite(link.theta.as_slice())
-                && finite(link.rhs.as_slice())
+        let dynamics = self.dynamics.iter().all(|constraint| {
+            finite(constraint.left.as_slice())
+                && finite(constraint.right.as_slice())
+                && finite(constraint.theta.as_slice())
+                && finite(constraint.rhs.as_slice())
         });
-        links
-            && self.pins.iter().all(|pin| pin.value.is_finite())
-            && self.planes.iter().all(|plane| finite(&plane.here) && finite(&plane.next) && plane.bound.is_finite())
-            && self.planes.iter().all(|plane| plane.stage < self.intervals() || plane.next == [0.0; 2])
+        dynamics
+            && self.fixed_variables.iter().all(|fixed| fixed.value.is_finite())
+            && self
+                .halfspaces
+                .iter()
+                .all(|halfspace| finite(&halfspace.current) && finite(&halfspace.next) && halfspace.bound.is_finite())
+            && self.halfspaces.iter().all(|halfspace| halfspace.stage < self.intervals() || halfspace.next == [0.0; 2])
             && [&self.box_lower, &self.box_upper, &self.soft_lower, &self.soft_upper].into_iter().all(|v| finite(v))
             && self.box_lower.iter().zip(&self.box_upper).all(|(lower, upper)| lower < upper)
             && finite(&[self.theta_cost, self.offset, self.penalty])
     }
 
-    /// Largest violation of an elastic row at `z`, in the row's units.
-    pub fn largest_violation(&self, z: &[f64]) -> f64 {
+    /// Largest violation of an elastic row at `z`, in the units of the row.
+    pub fn max_violation(&self, z: &[f64]) -> f64 {
         self.violations(z).into_iter().fold(0.0, f64::max)
     }
 
@@ -152,67 +157,69 @@ impl Program {
         self.equality_values(z, &mut equalities);
         let mut inequalities = vec![0.0; self.inequalities()];
         self.inequality_values(z, &mut inequalities);
-        let off = equalities.iter().zip(self.equality_rhs()).map(|(value, d)| (value - d).abs());
-        let above = inequalities.iter().zip(self.inequality_rhs()).map(|(value, g)| (value - g).max(0.0));
-        off.chain(above).collect()
+        let residuals = equalities.iter().zip(self.equality_rhs()).map(|(value, d)| (value - d).abs());
+        let excesses = inequalities.iter().zip(self.inequality_rhs()).map(|(value, g)| (value - g).max(0.0));
+        residuals.chain(excesses).collect()
     }
 
-    /// `out = E z`: links, then pins.
+    /// `out = E z`: dynamics rows, then fixed variables.
     pub(super) fn equality_values(&self, z: &[f64], out: &mut [f64]) {
         let θ = z[z.len() - 1];
-        let (stages, _) = z.as_chunks::<STAGE>();
-        let (links, pins) = out.split_at_mut(LINK * self.intervals());
-        for (k, (link, row)) in self.links.iter().zip(links.as_chunks_mut::<LINK>().0).enumerate() {
-            let value =
-                link.left * SVector::from(stages[k]) + link.right * SVector::from(stages[k + 1]) + link.theta * θ;
+        let (stages, _) = z.as_chunks::<STAGE_LEN>();
+        let (dynamics, fixed_variables) = out.split_at_mut(DYNAMICS_ROWS * self.intervals());
+        for (k, (constraint, row)) in self.dynamics.iter().zip(dynamics.as_chunks_mut::<DYNAMICS_ROWS>().0).enumerate()
+        {
+            let value = constraint.left * SVector::from(stages[k])
+                + constraint.right * SVector::from(stages[k + 1])
+                + constraint.theta * θ;
             *row = value.into();
         }
-        for (pin, row) in self.pins.iter().zip(pins) {
-            *row = z[pin.index];
+        for (fixed, row) in self.fixed_variables.iter().zip(fixed_variables) {
+            *row = z[fixed.index];
         }
     }
 
     /// `out += E^T y`.
     pub(super) fn add_equality_duals(&self, y: &[f64], out: &mut [f64]) {
-        let (links, pins) = y.split_at(LINK * self.intervals());
+        let (dynamics, fixed_variables) = y.split_at(DYNAMICS_ROWS * self.intervals());
         let last = out.len() - 1;
-        for (k, (link, y)) in self.links.iter().zip(links.as_chunks::<LINK>().0).enumerate() {
+        for (k, (constraint, y)) in self.dynamics.iter().zip(dynamics.as_chunks::<DYNAMICS_ROWS>().0).enumerate() {
             let y = SVector::from(*y);
-            let left = link.left.tr_mul(&y);
-            let right = link.right.tr_mul(&y);
-            for i in 0..STAGE {
-                out[STAGE * k + i] += left[i];
-                out[STAGE * (k + 1) + i] += right[i];
+            let left = constraint.left.tr_mul(&y);
+            let right = constraint.right.tr_mul(&y);
+            for i in 0..STAGE_LEN {
+                out[STAGE_LEN * k + i] += left[i];
+                out[STAGE_LEN * (k + 1) + i] += right[i];
             }
-            out[last] += link.theta.dot(&y);
+            out[last] += constraint.theta.dot(&y);
         }
-        for (pin, y) in self.pins.iter().zip(pins) {
-            out[pin.index] += y;
+        for (fixed, y) in self.fixed_variables.iter().zip(fixed_variables) {
+            out[fixed.index] += y;
         }
     }
 
-    /// `out = F z`: upper bounds (z), lower bounds (-z), planes.
+    /// `out = F z`: upper bounds (z), lower bounds (-z), halfspaces.
     pub(super) fn inequality_values(&self, z: &[f64], out: &mut [f64]) {
         let (upper, rest) = out.split_at_mut(z.len());
-        let (lower, planes) = rest.split_at_mut(z.len());
+        let (lower, halfspaces) = rest.split_at_mut(z.len());
         upper.copy_from_slice(z);
         for (row, z) in lower.iter_mut().zip(z) {
             *row = -z;
         }
-        for (plane, row) in self.planes.iter().zip(planes) {
-            *row = plane.terms().map(|(index, coefficient)| coefficient * z[index]).sum();
+        for (halfspace, row) in self.halfspaces.iter().zip(halfspaces) {
+            *row = halfspace.terms().map(|(index, coefficient)| coefficient * z[index]).sum();
         }
     }
 
     /// `out += F^T λ`.
     pub(super) fn add_inequality_duals(&self, λ: &[f64], out: &mut [f64]) {
         let (upper, rest) = λ.split_at(out.len());
-        let (lower, planes) = rest.split_at(out.len());
+        let (lower, halfspaces) = rest.split_at(out.len());
         for ((out, upper), lower) in out.iter_mut().zip(upper).zip(lower) {
             *out += upper - lower;
         }
-        for (plane, λ) in self.planes.iter().zip(planes) {
-            for (index, coefficient) in plane.terms() {
+        for (halfspace, λ) in self.halfspaces.iter().zip(halfspaces) {
+            for (index, coefficient) in halfspace.terms() {
                 out[index] += coefficient * λ;
             }
         }
@@ -220,14 +227,14 @@ impl Program {
 
     /// Right-hand sides d of the equalities.
     pub(super) fn equality_rhs(&self) -> impl Iterator<Item = f64> + '_ {
-        let links = self.links.iter().flat_map(|link| link.rhs.as_slice().iter().copied());
-        links.chain(self.pins.iter().map(|pin| pin.value))
+        let dynamics = self.dynamics.iter().flat_map(|constraint| constraint.rhs.as_slice().iter().copied());
+        dynamics.chain(self.fixed_variables.iter().map(|fixed| fixed.value))
     }
 
     /// Right-hand sides g of the inequalities.
     pub(super) fn inequality_rhs(&self) -> impl Iterator<Item = f64> + '_ {
         let upper = self.soft_upper.iter().copied();
         let lower = self.soft_lower.iter().map(|bound| -bound);
-        upper.chain(lower).chain(self.planes.iter().map(|plane| plane.bound))
+        upper.chain(lower).chain(self.halfspaces.iter().map(|halfspace| halfspace.bound))
     }
 }

@@ -1,7 +1,7 @@
 //! Distances of four segments at once from an obstacle: the inner loop of every sampler.
 
 use super::Obstacle;
-use crate::lanes::{Lanes, Vector};
+use crate::simd::{Lanes, Simd4};
 
 /// Squared length below which a segment counts as a point, m².
 const MIN_SEGMENT_M2: f64 = 1e-18;
@@ -11,7 +11,7 @@ const MIN_SEGMENT_M2: f64 = 1e-18;
 /// - `p`, `q`: ends of the segments, m
 /// - `cutoff_m`: bounds above it need not be tight; a bound between `cutoff_m` and the distance is returned instead
 #[inline(always)]
-pub fn distance_lower_bound_m<S: Vector>(
+pub fn distance_lower_bound_m<S: Simd4>(
     obstacle: &Obstacle,
     p: &[Lanes<S>; 3],
     q: &[Lanes<S>; 3],
@@ -36,7 +36,7 @@ pub fn distance_lower_bound_m<S: Vector>(
 
 /// Lower bound in the plane by the bounding circles of obstacle and segment.
 #[inline(always)]
-fn bounding_circle_distance_m<S: Vector>(obstacle: &Obstacle, p: &[Lanes<S>; 3], q: &[Lanes<S>; 3]) -> Lanes<S> {
+fn bounding_circle_distance_m<S: Simd4>(obstacle: &Obstacle, p: &[Lanes<S>; 3], q: &[Lanes<S>; 3]) -> Lanes<S> {
     let ([x, y], radius_m) = obstacle.bounding_circle();
     let half = p[0].like(0.5);
     let (dx, dy) = ((q[0] - p[0]) * half, (q[1] - p[1]) * half);
@@ -47,7 +47,7 @@ fn bounding_circle_distance_m<S: Vector>(obstacle: &Obstacle, p: &[Lanes<S>; 3],
 
 /// Distances in the plane, as by `Obstacle::planar_distance_m`.
 #[inline(always)]
-fn planar_distance_m<S: Vector>(obstacle: &Obstacle, p: &[Lanes<S>; 3], q: &[Lanes<S>; 3]) -> Lanes<S> {
+fn planar_distance_m<S: Simd4>(obstacle: &Obstacle, p: &[Lanes<S>; 3], q: &[Lanes<S>; 3]) -> Lanes<S> {
     let zero = p[0].like(0.0);
     let one = zero.like(1.0);
     let (dx, dy) = (q[0] - p[0], q[1] - p[1]);

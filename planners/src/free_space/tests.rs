@@ -3,7 +3,7 @@ use rand::RngExt;
 
 use super::simd_distance::distance_lower_bound_m;
 use super::{Displacement, FreeSpace, MovingObstacle, Obstacle, Point, interpolate, segment_clear};
-use crate::lanes::Lanes;
+use crate::simd::Lanes;
 
 const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 

@@ -4,7 +4,7 @@ use super::particle_batch::{ParticleBatch, PerParticle};
 use super::problem::{EvaluationContext, HorizonProblem, Repulsion, VIOLATION_WEIGHTS};
 use crate::free_space::Point;
 use crate::free_space::simd_distance::distance_lower_bound_m;
-use crate::lanes::{Lanes, Vector};
+use crate::simd::{Lanes, Simd4};
 
 /// Segments into which the stopping path is divided for the check against moving obstacles.
 const STOP_SEGMENTS: usize = 4;
@@ -18,7 +18,7 @@ type Point4<S> = [Lanes<S>; 3];
 /// Simulates the controls of `batch`, which are projected if the options say so, and stores path, final state, violation,
 /// roughness and repulsion.
 #[inline(always)]
-pub fn roll_out<S: Vector>(
+pub fn roll_out<S: Simd4>(
     simd: S,
     problem: &HorizonProblem<'_>,
     context: &EvaluationContext<'_>,
@@ -68,7 +68,7 @@ pub fn roll_out<S: Vector>(
 /// Acceleration and next velocity of one step. Projects `controls` if the options say so, else adds the violations of the
 /// norm bounds to `violation`.
 #[inline(always)]
-fn accelerate<S: Vector>(
+fn accelerate<S: Simd4>(
     simd: S,
     problem: &HorizonProblem<'_>,
     controls: &mut [PerParticle],
@@ -103,7 +103,7 @@ fn accelerate<S: Vector>(
 
 /// Violation along the stopping path from the end of a step, and the position where it ends.
 #[inline(always)]
-fn stop<S: Vector>(
+fn stop<S: Simd4>(
     problem: &HorizonProblem<'_>,
     context: &EvaluationContext<'_>,
     position: &Point4<S>,
@@ -142,7 +142,7 @@ fn stop<S: Vector>(
 
 /// Lower bound of the distance to obstacles and bounds along a step, m.
 #[inline(always)]
-fn step_distance<S: Vector>(
+fn step_distance<S: Simd4>(
     problem: &HorizonProblem<'_>,
     context: &EvaluationContext<'_>,
     from: &Point4<S>,
@@ -159,7 +159,7 @@ fn step_distance<S: Vector>(
 
 /// Lower bound of the distance to static obstacles and bounds along a segment, m.
 #[inline(always)]
-fn static_distance<S: Vector>(
+fn static_distance<S: Simd4>(
     problem: &HorizonProblem<'_>,
     context: &EvaluationContext<'_>,
     from: &Point4<S>,
@@ -184,7 +184,7 @@ fn static_distance<S: Vector>(
 ///
 /// without the square if the field is as printed.
 #[inline(always)]
-fn repulsive_potential<S: Vector>(field: Repulsion, distance: Lanes<S>) -> Lanes<S> {
+fn repulsive_potential<S: Simd4>(field: Repulsion, distance: Lanes<S>) -> Lanes<S> {
     let zero = distance.like(0.0);
     let bracket = distance.max(zero.like(MIN_REPULSION_DISTANCE_M)).recip() - zero.like(1.0 / field.reach_m);
     let bracket = bracket.max(zero);
@@ -193,14 +193,14 @@ fn repulsive_potential<S: Vector>(field: Repulsion, distance: Lanes<S>) -> Lanes
 }
 
 #[inline(always)]
-fn advance<S: Vector>(point: &mut Point4<S>, rate: &Point4<S>, time_s: Lanes<S>) {
+fn advance<S: Simd4>(point: &mut Point4<S>, rate: &Point4<S>, time_s: Lanes<S>) {
     for axis in 0..3 {
         point[axis] = rate[axis].mul_add(time_s, point[axis]);
     }
 }
 
 #[inline(always)]
-fn norm<S: Vector>(vector: &Point4<S>) -> Lanes<S> {
+fn norm<S: Simd4>(vector: &Point4<S>) -> Lanes<S> {
     let mut sum = vector[0] * vector[0];
     for axis in 1..3 {
         sum = vector[axis].mul_add(vector[axis], sum);
@@ -209,7 +209,7 @@ fn norm<S: Vector>(vector: &Point4<S>) -> Lanes<S> {
 }
 
 #[inline(always)]
-fn clamp_norm<S: Vector>(vector: &mut Point4<S>, max: f64) {
+fn clamp_norm<S: Simd4>(vector: &mut Point4<S>, max: f64) {
     let norm = norm(vector);
     let max = norm.like(max);
     let factor = norm.is_above(max).select(max.over(norm), norm.like(1.0));
@@ -219,13 +219,13 @@ fn clamp_norm<S: Vector>(vector: &mut Point4<S>, max: f64) {
 }
 
 #[inline(always)]
-fn norm_excess<S: Vector>(vector: &Point4<S>, max: f64) -> Lanes<S> {
+fn norm_excess<S: Simd4>(vector: &Point4<S>, max: f64) -> Lanes<S> {
     let norm = norm(vector);
     (norm - norm.like(max)).max(norm.like(0.0))
 }
 
 #[inline(always)]
-fn relative<S: Vector>(point: &Point4<S>, displacement: Point) -> Point4<S> {
+fn relative<S: Simd4>(point: &Point4<S>, displacement: Point) -> Point4<S> {
     let mut relative = *point;
     for axis in 0..3 {
         relative[axis] = point[axis] - point[axis].like(displacement[axis]);
@@ -234,7 +234,7 @@ fn relative<S: Vector>(point: &Point4<S>, displacement: Point) -> Point4<S> {
 }
 
 #[inline(always)]
-fn store<S: Vector>(components: &mut [PerParticle; 3], point: &Point4<S>) {
+fn store<S: Simd4>(components: &mut [PerParticle; 3], point: &Point4<S>) {
     for axis in 0..3 {
         components[axis] = point[axis].to_array();
     }

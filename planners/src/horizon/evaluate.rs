@@ -4,8 +4,8 @@ use super::batch_rollout::roll_out;
 use super::particle_batch::{Fitness, ParticleBatch};
 use super::problem::{Cost, EvaluationContext, HorizonProblem};
 use crate::free_space::Point;
-use crate::lanes::{Vector, WIDTH};
 use crate::roadmap::CostMap;
+use crate::simd::{Simd4, WIDTH};
 
 /// Cost of a particle without a path to the goal, in addition to the straight distance, m.
 const NO_PATH_PENALTY_M: f64 = 1e4;
@@ -51,7 +51,7 @@ pub fn evaluate(
     }
 }
 
-fn roll_out_with<S: Vector>(
+fn roll_out_with<S: Simd4>(
     simd: S,
     problem: &HorizonProblem<'_>,
     context: &EvaluationContext<'_>,
@@ -60,14 +60,14 @@ fn roll_out_with<S: Vector>(
     simd.vectorize(Rollout { simd, problem, context, batch });
 }
 
-struct Rollout<'a, S: Vector> {
+struct Rollout<'a, S: Simd4> {
     simd: S,
     problem: &'a HorizonProblem<'a>,
     context: &'a EvaluationContext<'a>,
     batch: &'a mut ParticleBatch,
 }
 
-impl<S: Vector> pulp::WithSimd for Rollout<'_, S> {
+impl<S: Simd4> pulp::WithSimd for Rollout<'_, S> {
     type Output = ();
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use super::particle_batch::{Fitness, ParticleBatch, ranking};
 use super::problem::{EvaluationContext, HorizonProblem};
 use super::sampler::{SamplerDimensions, SamplerKind};
 use crate::free_space::Point;
-use crate::lanes::WIDTH;
+use crate::simd::WIDTH;
 
 /// Work of one iteration (particles · steps · obstacles) from which on it is spread over several threads.
 const MIN_PARALLEL_WORK: usize = 20_000;

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use super::problem::ControlGrid;
 use crate::free_space::Point;
-use crate::lanes::WIDTH;
 use crate::roadmap::OccluderHints;
+use crate::simd::WIDTH;
 
 /// One number per particle.
 pub type PerParticle = [f64; WIDTH];

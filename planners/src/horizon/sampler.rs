@@ -8,7 +8,7 @@ mod path_integral;
 use super::counter_rng::CounterRng;
 use super::particle_batch::ParticleBatch;
 use super::problem::ControlGrid;
-use crate::lanes::WIDTH;
+use crate::simd::WIDTH;
 
 pub use particle_swarm::{Inertia, SwarmSettings};
 

@@ -8,7 +8,7 @@ use std::f64::consts::SQRT_2;
 
 use super::iterate::Iterate;
 use super::scaling::POSITION_M;
-use crate::convex::Plane;
+use crate::convex::HalfspaceConstraint;
 
 /// A disc to stay out of, per node: an obstacle, or another vehicle where it last was.
 pub struct KeepOut<'a> {
@@ -22,7 +22,12 @@ pub struct KeepOut<'a> {
 
 /// Appends the rows of one keep-out disc. Left out are those that cannot bind: inside a trust region of half-width ρ in
 /// x and in y nobody moves farther than sqrt(2) ρ.
-pub fn append_planes(trajectory: &Iterate, keep_out: &KeepOut, trust_region_m: f64, planes: &mut Vec<Plane>) {
+pub fn append_planes(
+    trajectory: &Iterate,
+    keep_out: &KeepOut,
+    trust_region_m: f64,
+    planes: &mut Vec<HalfspaceConstraint>,
+) {
     for stage in 0..=trajectory.intervals() {
         let (at, center) = (trajectory.position_m(stage), (keep_out.center_m)(stage));
         let away = [at[0] - center[0], at[1] - center[1]];
@@ -32,6 +37,6 @@ pub fn append_planes(trajectory: &Iterate, keep_out: &KeepOut, trust_region_m: f
         }
         let normal = if distance_m > 0.0 { away.map(|a| a / distance_m) } else { keep_out.tie_break };
         let bound = (distance_m - keep_out.radius_m) / POSITION_M;
-        planes.push(Plane { stage, here: [-normal[0], -normal[1]], next: [0.0; 2], bound });
+        planes.push(HalfspaceConstraint { stage, current: [-normal[0], -normal[1]], next: [0.0; 2], bound });
     }
 }

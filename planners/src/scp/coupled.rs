@@ -1,6 +1,6 @@
-//! Planner `coupled-scp`: one convex programme over all vehicles, both sides of a pair move (cSCP of Xu et al. 2022).
+//! Planner `coupled-scp`: one convex program over all vehicles, both sides of a pair move (cSCP of Xu et al. 2022).
 //!
-//! The programme has no block structure that our interior-point method knows, so Clarabel solves it by its sparse
+//! The program has no block structure that our interior-point method knows, so Clarabel solves it by its sparse
 //! factorisation. Its time grows much faster than the fleet: see the table of `harness bench fleets`.
 
 use std::time::Instant;
@@ -18,7 +18,7 @@ use crate::planner::{Planner, PlanningMode, Progress};
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
     name: NAME,
-    summary: "Sequential convex programming, one programme over all vehicles (cSCP of Xu et al. 2022)",
+    summary: "Sequential convex programming, one program over all vehicles (cSCP of Xu et al. 2022)",
     handles: "fixed-wing fleets among cylinders, up to some fifteen vehicles",
     unsupported_reason: super::unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
@@ -48,7 +48,7 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
 }
 
-/// Everybody's answer from the one programme. Its iterations count once, its time is everybody's.
+/// Everybody's answer from the one program. Its iterations count once, its time is everybody's.
 fn answers(fleet: &Fleet, last: &[Iterate], trust_region: State) -> Vec<Answer> {
     let started = Instant::now();
     let alone = Avoidance { avoids: &|_, _| false, obstacles: true };

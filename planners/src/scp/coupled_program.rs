@@ -1,4 +1,4 @@
-//! The programmes of all vehicles, with rows that touch two of them, as one sparse linear programme.
+//! The programs of all vehicles, with rows that touch two of them, as one sparse linear program.
 //!
 //! ```text
 //! min  Σ q θ + μ (Σ |E z - d| + Σ max(F z - g, 0) + Σ max(n · (w_j - w_i) - room, 0))     s.t.  lo <= z <= hi
@@ -8,11 +8,11 @@
 //! β >= 0. Bounds that lie outside the box never bind, and are left out.
 
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
 
-use crate::convex::{LINK, Program, STAGE};
+use crate::convex::{DYNAMICS_ROWS, Program, STAGE_LEN, clarabel_settings};
 
-/// One programme over a fleet.
+/// One program over a fleet.
 pub struct CoupledProgram {
     /// Everybody's own rows.
     pub vehicles: Vec<Program>,
@@ -37,7 +37,7 @@ pub struct Pair {
 
 /// What came out.
 pub struct CoupledSolution {
-    /// Everybody's variables, in the form of his own programme.
+    /// Everybody's variables, in the form of his own program.
     pub z: Vec<Vec<f64>>,
     /// Largest violation that the penalty left.
     pub slack: f64,
@@ -46,9 +46,6 @@ pub struct CoupledSolution {
     /// Did the solver reach its tolerance?
     pub is_solved: bool,
 }
-
-/// As for single programmes: with the default, some solves end short of their tolerance.
-const STATIC_REGULARISATION: f64 = 1e-7;
 
 impl CoupledProgram {
     /// Solves to the relative gap and feasibility `tolerance`.
@@ -62,23 +59,16 @@ impl CoupledProgram {
             rows.values.clone(),
         );
         let cones = [ZeroConeT(rows.equalities), NonnegativeConeT(rows.rhs.len() - rows.equalities)];
-        let settings = DefaultSettings {
-            verbose: false,
-            tol_gap_abs: tolerance,
-            tol_gap_rel: tolerance,
-            tol_feas: tolerance,
-            static_regularization_constant: STATIC_REGULARISATION,
-            ..DefaultSettings::default()
-        };
+        let settings = clarabel_settings(tolerance);
         let quadratic = CscMatrix::zeros((rows.cost.len(), rows.cost.len()));
         let mut solver = match DefaultSolver::new(&quadratic, &rows.cost, &matrix, &rows.rhs, &cones, settings) {
             Ok(solver) => solver,
-            Err(error) => unreachable!("a well-posed programme was refused: {error}"),
+            Err(error) => unreachable!("a well-posed program was refused: {error}"),
         };
         solver.solve();
         let z: Vec<Vec<f64>> = (0..self.vehicles.len()).map(|i| self.own(i, &solver.solution.x)).collect();
         CoupledSolution {
-            slack: self.largest_violation(&z),
+            slack: self.max_violation(&z),
             z,
             iterations: solver.solution.iterations as usize,
             is_solved: solver.solution.status == SolverStatus::Solved,
@@ -103,11 +93,11 @@ impl CoupledProgram {
         (0..self.vehicles[i].len()).map(|index| x[self.column(i, index)]).collect()
     }
 
-    fn largest_violation(&self, z: &[Vec<f64>]) -> f64 {
-        let own = self.vehicles.iter().zip(z).map(|(program, z)| program.largest_violation(z));
+    fn max_violation(&self, z: &[Vec<f64>]) -> f64 {
+        let own = self.vehicles.iter().zip(z).map(|(program, z)| program.max_violation(z));
         let pairs = self.pairs.iter().map(|pair| {
             let [i, j] = pair.who;
-            let moved = |axis: usize| z[i][STAGE * pair.stage + axis] - z[j][STAGE * pair.stage + axis];
+            let moved = |axis: usize| z[i][STAGE_LEN * pair.stage + axis] - z[j][STAGE_LEN * pair.stage + axis];
             -pair.room - pair.normal[0] * moved(0) - pair.normal[1] * moved(1)
         });
         own.chain(pairs).fold(0.0, f64::max)
@@ -129,7 +119,7 @@ impl CoupledProgram {
             self.append_planes(i, &mut rows);
         }
         for pair in &self.pairs {
-            let [i, j] = pair.who.map(|who| self.column(who, STAGE * pair.stage));
+            let [i, j] = pair.who.map(|who| self.column(who, STAGE_LEN * pair.stage));
             let [x, y] = pair.normal;
             rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.room, self.penalty());
         }
@@ -142,16 +132,17 @@ impl CoupledProgram {
 
     fn append_equalities(&self, i: usize, rows: &mut Rows) {
         let program = &self.vehicles[i];
-        for (k, link) in program.links.iter().enumerate() {
-            for row in 0..LINK {
-                let left = (0..STAGE).map(|c| (self.column(i, STAGE * k + c), link.left[(row, c)]));
-                let right = (0..STAGE).map(|c| (self.column(i, STAGE * (k + 1) + c), link.right[(row, c)]));
-                let time = std::iter::once((self.column(i, program.len() - 1), link.theta[row]));
-                rows.append_elastic_equality(left.chain(right).chain(time), link.rhs[row], self.penalty());
+        for (k, constraint) in program.dynamics.iter().enumerate() {
+            for row in 0..DYNAMICS_ROWS {
+                let left = (0..STAGE_LEN).map(|c| (self.column(i, STAGE_LEN * k + c), constraint.left[(row, c)]));
+                let right =
+                    (0..STAGE_LEN).map(|c| (self.column(i, STAGE_LEN * (k + 1) + c), constraint.right[(row, c)]));
+                let time = std::iter::once((self.column(i, program.len() - 1), constraint.theta[row]));
+                rows.append_elastic_equality(left.chain(right).chain(time), constraint.rhs[row], self.penalty());
             }
         }
-        for pin in &program.pins {
-            rows.append_elastic_equality([(self.column(i, pin.index), 1.0)], pin.value, self.penalty());
+        for fixed in &program.fixed_variables {
+            rows.append_elastic_equality([(self.column(i, fixed.index), 1.0)], fixed.value, self.penalty());
         }
     }
 
@@ -171,9 +162,9 @@ impl CoupledProgram {
     }
 
     fn append_planes(&self, i: usize, rows: &mut Rows) {
-        for plane in &self.vehicles[i].planes {
-            let here = self.column(i, STAGE * plane.stage);
-            rows.append_elastic([(here, plane.here[0]), (here + 1, plane.here[1])], plane.bound, self.penalty());
+        for plane in &self.vehicles[i].halfspaces {
+            let here = self.column(i, STAGE_LEN * plane.stage);
+            rows.append_elastic([(here, plane.current[0]), (here + 1, plane.current[1])], plane.bound, self.penalty());
         }
     }
 }
@@ -258,7 +249,7 @@ mod tests {
         let vehicles = programs();
         let free = CoupledProgram { vehicles: vehicles.clone(), pairs: Vec::new(), shared_time: true }.solve(1e-8);
         let stage = 20;
-        let apart = |z: &[Vec<f64>]| z[0][STAGE * stage + 1] - z[1][STAGE * stage + 1];
+        let apart = |z: &[Vec<f64>]| z[0][STAGE_LEN * stage + 1] - z[1][STAGE_LEN * stage + 1];
         // 300 m farther apart in y than they would be
         let pair = Pair { who: [0, 1], stage, normal: [0.0, 1.0], room: -apart(&free.z) - 0.3 };
         let coupled = CoupledProgram { vehicles, pairs: vec![pair], shared_time: true };

@@ -14,7 +14,7 @@ use super::iterate::Iterate;
 use super::options::Options;
 use super::plan;
 use super::subproblem::{self, Context};
-use crate::convex::{self, InteriorPoint, Plane, Program, STAGE, Settings, Solution, Status};
+use crate::convex::{self, HalfspaceConstraint, InteriorPoint, Program, STAGE_LEN, Settings, Solution, Status};
 
 /// Relative gap and residuals to which the subproblems are solved.
 pub const TOLERANCE: f64 = 1e-8;
@@ -38,7 +38,7 @@ pub struct Fleet<'a> {
     /// Planner options.
     pub options: Options,
     /// Bounds per vehicle and node.
-    pub bounds: Vec<Vec<[Range; STAGE]>>,
+    pub bounds: Vec<Vec<[Range; STAGE_LEN]>>,
     /// States at both ends of every vehicle's way.
     pub boundary: Vec<[State; 2]>,
     /// Unit normal of every pair (i < j) for nodes at which the two coincide; i takes it, j its opposite.
@@ -119,7 +119,7 @@ impl<'a> Fleet<'a> {
             trajectory: subproblem::updated(&last[i], &solution.z),
             solver_iterations: solution.iterations,
             is_solved: solution.status == Status::Solved,
-            slack: program.largest_violation(&solution.z),
+            slack: program.max_violation(&solution.z),
             wall_s: started.elapsed().as_secs_f64(),
         }
     }
@@ -129,7 +129,7 @@ impl<'a> Fleet<'a> {
         &self,
         i: usize,
         last: &[Iterate],
-        planes: Vec<Plane>,
+        planes: Vec<HalfspaceConstraint>,
         trust_region: State,
         dt_bound_s: f64,
     ) -> Program {
@@ -155,7 +155,13 @@ impl<'a> Fleet<'a> {
     }
 
     /// Avoidance rows of vehicle i.
-    pub fn planes(&self, i: usize, last: &[Iterate], avoidance: Avoidance, trust_region_m: f64) -> Vec<Plane> {
+    pub fn planes(
+        &self,
+        i: usize,
+        last: &[Iterate],
+        avoidance: Avoidance,
+        trust_region_m: f64,
+    ) -> Vec<HalfspaceConstraint> {
         let mut planes = Vec::new();
         let margin_m = self.options.margin_m;
         let obstacles = self.scenario.world.cylinders.iter().filter(|_| avoidance.obstacles);

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use scenarios::Solver;
 
-use crate::convex::{self, Program, Settings, Solution, Solvers};
+use crate::convex::{self, BatchSolver, Program, Settings, Solution};
 
 /// What solves every subproblem of an iteration, in parallel.
 pub enum AllSolver {
     /// By the customised interior-point method, whose work vectors are kept from iteration to iteration.
-    Block(Solvers),
+    Block(BatchSolver),
     /// By Clarabel, to the relative gap and residuals that are given.
     Clarabel(f64),
 }
@@ -17,12 +17,12 @@ impl AllSolver {
     /// To the relative gap and residuals `tolerance`.
     pub fn new(solver: Solver, tolerance: f64) -> Self {
         match solver {
-            Solver::Block => Self::Block(Solvers::new(Settings { tolerance, ..Settings::default() })),
+            Solver::Block => Self::Block(BatchSolver::new(Settings { tolerance, ..Settings::default() })),
             Solver::Clarabel => Self::Clarabel(tolerance),
         }
     }
 
-    /// The solutions, in the order of the programmes.
+    /// The solutions, in the order of the programs.
     pub fn solve(&self, programs: &[Program]) -> Vec<Solution> {
         match self {
             Self::Block(solvers) => solvers.solve_all(programs),

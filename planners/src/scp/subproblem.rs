@@ -1,4 +1,4 @@
-//! One vehicle's subproblem P2 as an elastic programme, in scaled deviations from the last trajectory:
+//! One vehicle's subproblem P2 as an elastic program, in scaled deviations from the last trajectory:
 //! w_k = ((s_k, u_k) - (sbar_k, ubar_k)) / units, θ = dt - dtbar.
 
 use scenarios::Range;
@@ -9,7 +9,7 @@ use super::iterate::Iterate;
 use super::options::Options;
 use super::scaling::{NODE, node_units, scaled_rows, scaled_state};
 use super::transcription;
-use crate::convex::{Link, Pin, Plane, Program, STAGE};
+use crate::convex::{DynamicsConstraint, FixedVariable, HalfspaceConstraint, Program, STAGE_LEN};
 
 /// What one vehicle has to know in one iteration, besides its last trajectory.
 pub struct Context<'a> {
@@ -18,7 +18,7 @@ pub struct Context<'a> {
     /// The vehicle's boundary states.
     pub boundary: [State; 2],
     /// Bounds of (s, u), one per node, SI.
-    pub bounds: &'a [[Range; STAGE]],
+    pub bounds: &'a [[Range; STAGE_LEN]],
     /// Half-widths of the trust region now, in the units of the state.
     pub trust_region: State,
     /// Lower bound of dt, s (eq. 10).
@@ -29,7 +29,7 @@ pub struct Context<'a> {
 
 /// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map, SI. Heading is
 /// free.
-pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE] {
+pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE_LEN] {
     let free = Range::new(f64::MIN, f64::MAX);
     let altitude = Range::new(limits.altitude_m.min.max(map.z_m.min), limits.altitude_m.max.min(map.z_m.max));
     let γ = limits.flight_path_deg.to_radians();
@@ -37,15 +37,15 @@ pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE] {
 }
 
 /// Assembles the subproblem about `last` with the given avoidance rows (in any order).
-pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<Plane>) -> Program {
+pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<HalfspaceConstraint>) -> Program {
     planes.sort_by_key(|plane| plane.stage);
     let mut program = Program {
         theta_cost: 1.0,
         offset: last.dt_s,
         penalty: context.options.penalty,
-        links: links(context, last),
-        pins: pins(context, last),
-        planes,
+        dynamics: dynamics(context, last),
+        fixed_variables: fixed_variables(context, last),
+        halfspaces: planes,
         box_lower: Vec::new(),
         box_upper: Vec::new(),
         soft_lower: Vec::new(),
@@ -60,7 +60,7 @@ pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<Plane>) -> Pr
 
 /// The trajectory that a solution of the subproblem stands for.
 pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
-    let (nodes, _) = z.as_chunks::<STAGE>();
+    let (nodes, _) = z.as_chunks::<STAGE_LEN>();
     let states = last.states.iter().zip(nodes).map(|(s, w)| State::from_fn(|i, _| s[i] + w[i] * NODE[i]));
     let controls = last.controls.iter().zip(nodes).map(|(u, w)| Control::from_fn(|i, _| u[i] + w[6 + i] * NODE[6 + i]));
     Iterate {
@@ -72,11 +72,11 @@ pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
 }
 
 /// Dynamics rows, eq. 5 or the shooting conditions.
-fn links(context: &Context, last: &Iterate) -> Vec<Link> {
+fn dynamics(context: &Context, last: &Iterate) -> Vec<DynamicsConstraint> {
     let linearised =
         (0..last.intervals()).map(|k| transcription::linearise(context.options.transcription, &last.interval(k)));
     linearised
-        .map(|defect| Link {
+        .map(|defect| DynamicsConstraint {
             left: scaled_rows(&defect.by_node(0)),
             right: scaled_rows(&defect.by_node(1)),
             theta: scaled_state(&defect.by_dt),
@@ -86,25 +86,25 @@ fn links(context: &Context, last: &Iterate) -> Vec<Link> {
 }
 
 /// `s[0] = s_0` and `s[K] = s_f`, eq. 6 and 7.
-fn pins(context: &Context, last: &Iterate) -> Vec<Pin> {
+fn fixed_variables(context: &Context, last: &Iterate) -> Vec<FixedVariable> {
     let ends = [(0, context.boundary[0]), (last.intervals(), context.boundary[1])];
-    let pins = ends.into_iter().flat_map(|(k, state)| {
+    let fixed_variables = ends.into_iter().flat_map(|(k, state)| {
         let value = scaled_state(&(state - last.states[k]));
-        (0..6).map(move |i| Pin { index: STAGE * k + i, value: value[i] })
+        (0..6).map(move |i| FixedVariable { index: STAGE_LEN * k + i, value: value[i] })
     });
-    pins.collect()
+    fixed_variables.collect()
 }
 
 /// Trust region of the state; a box that cannot bind for the control; bounds eq. 8 and 9.
 fn append_node_bounds(
     trust_region: State,
-    bounds: &[Range; STAGE],
+    bounds: &[Range; STAGE_LEN],
     state: &State,
     control: &Control,
     program: &mut Program,
 ) {
     let units = node_units();
-    for i in 0..STAGE {
+    for i in 0..STAGE_LEN {
         let (value, bounds) = (if i < 6 { state[i] } else { control[i - 6] }, bounds[i]);
         let half = if i < 6 { trust_region[i] } else { 4.0 * bounds.width() };
         program.box_lower.push(-half / units[i]);

@@ -130,7 +130,7 @@ fn row(
         solver,
         intervals: program.intervals(),
         scp_iteration: subproblem.iteration,
-        planes: program.planes.len(),
+        planes: program.halfspaces.len(),
         sizes: Sizes::of(program),
         paper_flops,
         not_run: measured.as_ref().err().cloned(),

@@ -62,7 +62,7 @@ fn iterations(scenario: &Scenario, intervals: usize) -> Vec<Vec<Program>> {
     let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let by_iteration = all.chunks(scenario.vehicles.len()).map(|iteration| {
         let mut iteration = iteration.to_vec();
-        iteration.sort_by(|a, b| a.1.planes.len().cmp(&b.1.planes.len()).then(a.0.total_cmp(&b.0)));
+        iteration.sort_by(|a, b| a.1.halfspaces.len().cmp(&b.1.halfspaces.len()).then(a.0.total_cmp(&b.0)));
         iteration.into_iter().map(|(_, program)| program).collect()
     });
     by_iteration.collect()

@@ -6,7 +6,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::{Sampler, SamplerDimensions};
 use crate::horizon::counter_rng::CounterRng;
 use crate::horizon::particle_batch::{ParticleBatch, ranking};
-use crate::lanes::WIDTH;
+use crate::simd::WIDTH;
 
 /// Initial standard deviation σ, as a fraction of the bound.
 const INITIAL_DEVIATION: f64 = 0.3;

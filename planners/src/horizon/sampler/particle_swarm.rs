@@ -3,7 +3,7 @@
 use super::{Sampler, SamplerDimensions};
 use crate::horizon::counter_rng::CounterRng;
 use crate::horizon::particle_batch::{Fitness, ParticleBatch, PerParticle};
-use crate::lanes::WIDTH;
+use crate::simd::WIDTH;
 
 /// Parameters of the swarm.
 #[derive(Clone, Copy, Debug, PartialEq)]

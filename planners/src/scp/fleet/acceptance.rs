@@ -12,7 +12,7 @@ use super::super::shooting;
 use super::inside::extremes;
 use super::rows::Rules;
 use super::traffic::{Passage, Traffic};
-use crate::convex::STAGE;
+use crate::convex::STAGE_LEN;
 
 /// Violations below this are a solver's rounding, as a share of a limit's range.
 const ROUNDING: f64 = 1e-6;
@@ -53,7 +53,7 @@ pub fn fault(
     scenario: &Scenario,
     rules: &Rules,
     trajectories: &[Iterate],
-    bounds: &[[Range; STAGE]],
+    bounds: &[[Range; STAGE_LEN]],
     boundary: &[[State; 2]],
 ) -> Option<Fault> {
     let traffic = Traffic::new(trajectories);
@@ -160,7 +160,7 @@ fn rollout(scenario: &Scenario, trajectories: &[Iterate]) -> Option<Fault> {
 fn limits(
     scenario: &Scenario,
     trajectories: &[Iterate],
-    bounds: &[[Range; STAGE]],
+    bounds: &[[Range; STAGE_LEN]],
     traffic: &Traffic,
 ) -> Option<Fault> {
     let mut worst: Option<Fault> = None;
@@ -193,8 +193,8 @@ fn limits(
     worst
 }
 
-const NAMES: [&str; STAGE] = ["x", "y", "altitude", "speed", "heading", "flight-path angle", "n_x", "n_y", "n_z"];
-const UNITS: [&str; STAGE] = ["m", "m", "m", "m/s", "rad", "rad", "-", "-", "-"];
+const NAMES: [&str; STAGE_LEN] = ["x", "y", "altitude", "speed", "heading", "flight-path angle", "n_x", "n_y", "n_z"];
+const UNITS: [&str; STAGE_LEN] = ["m", "m", "m", "m/s", "rad", "rad", "-", "-", "-"];
 
 /// Written so that a number that is none is never small enough.
 fn at_most(value: f64, limit: f64) -> bool {

@@ -10,7 +10,7 @@ use super::super::shooting::Knots;
 #[cfg(test)]
 use super::super::shooting::SUBSTEPS;
 use super::track::Track;
-use crate::convex::STAGE;
+use crate::convex::STAGE_LEN;
 
 /// Room beyond the last swing, as a share of it: the next swing will not be quite the same.
 const SPARE: f64 = 0.3;
@@ -19,7 +19,7 @@ const SPARE: f64 = 0.3;
 const BOUNDED: [usize; 5] = [0, 1, 2, 3, 5];
 
 /// Bounds of every node, moved in by what the last trajectory swung out between them.
-pub fn tightened(bounds: &[Range; STAGE], track: &Track) -> Vec<[Range; STAGE]> {
+pub fn tightened(bounds: &[Range; STAGE_LEN], track: &Track) -> Vec<[Range; STAGE_LEN]> {
     let mut tightened = vec![*bounds; track.intervals.len() + 1];
     for (k, knots) in track.intervals.iter().enumerate() {
         for i in BOUNDED {
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn bounds_move_in_where_the_state_swung_out() {
-        let bounds = [Range::new(-1000.0, 1000.0); STAGE];
+        let bounds = [Range::new(-1000.0, 1000.0); STAGE_LEN];
         let calm = [State::zeros(); SUBSTEPS + 1];
         let track = Track { intervals: vec![calm, knots(), calm, calm], dt_s: 5.0 };
         let tightened = tightened(&bounds, &track);

@@ -9,7 +9,7 @@ use scenarios::{Cylinder, Scenario};
 use super::super::scaling::POSITION_M;
 use super::closest::Approach;
 use super::traffic::Traffic;
-use crate::convex::Plane;
+use crate::convex::HalfspaceConstraint;
 
 /// Nearer than this share of the wanted distance the way out leads sideways instead of straight away.
 const SIDEWAYS_BELOW: f64 = 0.6;
@@ -47,16 +47,16 @@ pub fn room(approach: &Approach, wanted_m: f64) -> Room {
 }
 
 /// The row `n · δp(τ) >= -room` of an interval.
-pub fn plane(interval: usize, share: f64, Room { normal, room_m }: Room) -> Plane {
+pub fn plane(interval: usize, share: f64, Room { normal, room_m }: Room) -> HalfspaceConstraint {
     let weighted = |weight: f64| normal.map(|n| -weight * n);
     let next = if share > 0.0 { weighted(share) } else { [0.0; 2] };
-    Plane { stage: interval, here: weighted(1.0 - share), next, bound: room_m / POSITION_M }
+    HalfspaceConstraint { stage: interval, current: weighted(1.0 - share), next, bound: room_m / POSITION_M }
 }
 
 /// Rows of every vehicle.
 pub struct Rows {
     /// One list per vehicle.
-    pub planes: Vec<Vec<Plane>>,
+    pub planes: Vec<Vec<HalfspaceConstraint>>,
 }
 
 impl Rows {
@@ -177,7 +177,7 @@ mod tests {
             for (all, kept) in everything.planes.iter().zip(&kept.planes) {
                 assert!(kept.iter().all(|plane| all.contains(plane)));
                 for plane in all.iter().filter(|plane| !kept.contains(plane)) {
-                    let coefficients = plane.here.iter().chain(&plane.next).map(|c| c.abs()).sum::<f64>();
+                    let coefficients = plane.current.iter().chain(&plane.next).map(|c| c.abs()).sum::<f64>();
                     let most = coefficients * half_width_m / POSITION_M;
                     assert!(most <= plane.bound + 1e-12, "a row with {} of room can move by {most}", plane.bound);
                     left_out += 1;

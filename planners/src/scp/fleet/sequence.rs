@@ -1,4 +1,4 @@
-//! The sequence of convex programmes: linearise everybody's motion, ask for room where it is short, solve, move.
+//! The sequence of convex programs: linearise everybody's motion, ask for room where it is short, solve, move.
 
 use std::time::Instant;
 
@@ -17,7 +17,7 @@ use super::inside;
 use super::rows::{Rows, Rules};
 use super::schedule::Schedule;
 use super::traffic::Traffic;
-use crate::convex::{Program, STAGE, Solution, Status};
+use crate::convex::{Program, STAGE_LEN, Solution, Status};
 
 /// Relative gap of the subproblems while searching, and at the end.
 const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
@@ -31,7 +31,7 @@ pub struct Sequence<'a> {
     options: Options,
     rules: Rules<'a>,
     /// Planning limits of every vehicle.
-    bounds: Vec<[Range; STAGE]>,
+    bounds: Vec<[Range; STAGE_LEN]>,
     /// States at both ends of every vehicle's way.
     boundary: Vec<[State; 2]>,
     trajectories: Vec<Iterate>,
@@ -69,7 +69,7 @@ impl<'a> Sequence<'a> {
         let programs = self.programs(&traffic, Rows::new(&traffic, &self.rules, trust_region_m));
         let solutions = self.solvers[usize::from(!self.schedule.is_searching())].solve(&programs);
         inspect(&programs, &solutions);
-        let violations = programs.par_iter().zip(&solutions).map(|(program, at)| program.largest_violation(&at.z));
+        let violations = programs.par_iter().zip(&solutions).map(|(program, at)| program.max_violation(&at.z));
         let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
         let moved = self.trajectories.par_iter().zip(&solutions).map(|(last, at)| subproblem::updated(last, &at.z));
         let moved = moved.collect();

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use planners::convex::{self, Backend, InteriorPoint, Program, Settings, Solution, Solvers, Status};
+use planners::convex::{self, Backend, BatchSolver, InteriorPoint, Program, Settings, Solution, Status};
 use serde::Serialize;
 
 use super::TOLERANCE;
@@ -58,7 +58,7 @@ impl Stopwatch {
 
     /// Ours on several programmes in one pass, on one thread: time per programme, of the rest the first one's.
     pub fn together(&self, programs: &[Program]) -> Measured {
-        let solvers = Solvers::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
+        let solvers = BatchSolver::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
         self.best(programs.len(), || solvers.solve_all(programs).swap_remove(0))
     }
 

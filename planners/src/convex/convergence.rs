@@ -1,11 +1,11 @@
-//! How far an iterate is from optimal, and whether to go on.
+//! The convergence test of the interior-point loop.
 
 use super::solution::{Settings, Status};
 
-/// Iterations without a tenth of progress after which a solve counts as stalled.
+/// Iterations in which the duality gap falls by less than a tenth, after which a solve counts as stalled.
 const STALL_LIMIT: usize = 12;
 
-/// Measures of one iterate. Every iterate is feasible, so that the gap is all there is.
+/// Measures of one iterate. Every iterate is feasible, so the duality gap is the only one.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// The duality gap relative to the objective, or to 1 where that is larger.
@@ -23,34 +23,34 @@ impl Progress {
     }
 }
 
-/// Keeps the best iterate's measures and notices when there is nothing more to gain.
+/// Keeps the measures of the best iterate and detects convergence and stalls.
 #[derive(Clone, Debug)]
-pub struct Watch {
+pub struct ConvergenceMonitor {
     tolerance: f64,
     best: Progress,
     last: Progress,
     stalled_for: usize,
 }
 
-impl Watch {
-    /// Nothing seen yet.
+impl ConvergenceMonitor {
+    /// A monitor that has seen no iterate.
     pub fn new(settings: &Settings) -> Self {
         let nothing = Progress { gap: f64::INFINITY, products: f64::INFINITY, iteration: 0 };
         Self { tolerance: settings.tolerance, best: nothing, last: nothing, stalled_for: 0 }
     }
 
-    /// Takes note of an iterate; true if it is the best so far.
-    pub fn is_best(&mut self, now: Progress) -> bool {
+    /// Records an iterate; true if it is the best so far.
+    pub fn record(&mut self, now: Progress) -> bool {
         self.last = now;
         self.stalled_for = if now.products < 0.9 * self.best.products { 0 } else { self.stalled_for + 1 };
-        let better = now.gap < self.best.gap;
-        if better {
+        let is_best = now.gap < self.best.gap;
+        if is_best {
             self.best = now;
         }
-        better
+        is_best
     }
 
-    /// How it stands: [`Status::IterationLimit`] as long as there is reason to go on.
+    /// The status so far: [`Status::IterationLimit`] while the solve should continue.
     pub fn status(&self) -> Status {
         if self.best.gap <= self.tolerance {
             Status::Solved
@@ -61,7 +61,7 @@ impl Watch {
         }
     }
 
-    /// Iterations to the last iterate that was seen.
+    /// Number of iterations up to the last recorded iterate.
     pub fn iterations(&self) -> usize {
         self.last.iteration
     }

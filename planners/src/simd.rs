@@ -1,8 +1,8 @@
-//! Four numbers side by side, one per subproblem or particle: the arithmetic of a vector register.
+//! Arithmetic on four double-precision lanes, one per subproblem or particle.
 //!
-//! Every operation acts on each lane by itself, so that what happens in one lane never depends on its neighbours, and
-//! rounds as IEEE 754 says, the fused multiply-add too: the same digits on every machine. (A processor of before 2013
-//! without such an instruction takes many for it: slow, but the same.)
+//! Every operation acts on each lane independently and rounds according to IEEE 754, the fused multiply-add included: results
+//! are bit-identical on every processor and do not depend on the other lanes. Processors without a fused multiply-add (x86
+//! before 2013) emulate it in software, slowly.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
@@ -11,26 +11,26 @@ use pulp::{Simd, f64x4};
 /// Number of lanes.
 pub const WIDTH: usize = 4;
 
-/// The machine's instructions for four numbers at once. A value of such a type is the proof that it has them.
-pub trait Vector: Simd<f64s = f64x4> {}
+/// An instruction set with vectors of four lanes. A value of such a type proves that the processor supports it.
+pub trait Simd4: Simd<f64s = f64x4> {}
 
-impl<S: Simd<f64s = f64x4>> Vector for S {}
+impl<S: Simd<f64s = f64x4>> Simd4 for S {}
 
-/// Four numbers.
+/// Four lanes of `f64`.
 #[derive(Clone, Copy, Debug)]
-pub struct Lanes<S: Vector> {
+pub struct Lanes<S: Simd4> {
     values: f64x4,
     simd: S,
 }
 
-/// Four answers to a comparison.
+/// The result of a comparison in each lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Mask<S: Vector> {
+pub struct Mask<S: Simd4> {
     bits: S::m64s,
     simd: S,
 }
 
-impl<S: Vector> Lanes<S> {
+impl<S: Simd4> Lanes<S> {
     /// The same number in every lane.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
@@ -43,25 +43,25 @@ impl<S: Vector> Lanes<S> {
         Self { values: f64x4(a, b, c, d), simd }
     }
 
-    /// The same number in every lane, with these lanes' instructions.
+    /// The same number in every lane, with the instruction set of `self`.
     #[inline(always)]
     pub fn like(self, value: f64) -> Self {
         Self::splat(self.simd, value)
     }
 
-    /// The number of every lane.
+    /// The lanes as an array.
     #[inline(always)]
     pub fn to_array(self) -> [f64; WIDTH] {
         let f64x4(a, b, c, d) = self.values;
         [a, b, c, d]
     }
 
-    /// The number of one lane.
+    /// The value of one lane.
     pub fn lane(self, lane: usize) -> f64 {
         self.to_array()[lane]
     }
 
-    /// Puts a number into one lane.
+    /// Sets the value of one lane.
     pub fn set_lane(&mut self, lane: usize, value: f64) {
         let mut values = self.to_array();
         values[lane] = value;
@@ -86,7 +86,7 @@ impl<S: Vector> Lanes<S> {
         Self { values: self.simd.div_f64s(self.values, other.values), ..self }
     }
 
-    /// self · a + b with one rounding.
+    /// self · a + b, rounded once.
     #[inline(always)]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
         Self { values: self.simd.mul_add_f64s(self.values, a.values, b.values), ..self }
@@ -117,21 +117,21 @@ impl<S: Vector> Lanes<S> {
     }
 }
 
-impl<S: Vector> Mask<S> {
-    /// `yes` where the answer is yes, else `no`.
+impl<S: Simd4> Mask<S> {
+    /// `yes` in the lanes of the mask, `no` in the others.
     #[inline(always)]
     pub fn select(self, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
         Lanes { values: self.simd.select_f64s(self.bits, yes.values, no.values), simd: self.simd }
     }
 
-    /// Is the answer yes in any lane?
+    /// Is any lane set?
     #[inline(always)]
     pub fn any(self) -> bool {
         self.simd.first_true_m64s(self.bits) < WIDTH
     }
 }
 
-impl<S: Vector> Add for Lanes<S> {
+impl<S: Simd4> Add for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -139,7 +139,7 @@ impl<S: Vector> Add for Lanes<S> {
     }
 }
 
-impl<S: Vector> Sub for Lanes<S> {
+impl<S: Simd4> Sub for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -147,7 +147,7 @@ impl<S: Vector> Sub for Lanes<S> {
     }
 }
 
-impl<S: Vector> Mul for Lanes<S> {
+impl<S: Simd4> Mul for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -155,7 +155,7 @@ impl<S: Vector> Mul for Lanes<S> {
     }
 }
 
-impl<S: Vector> Neg for Lanes<S> {
+impl<S: Simd4> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -163,14 +163,14 @@ impl<S: Vector> Neg for Lanes<S> {
     }
 }
 
-impl<S: Vector> AddAssign for Lanes<S> {
+impl<S: Simd4> AddAssign for Lanes<S> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<S: Vector> SubAssign for Lanes<S> {
+impl<S: Simd4> SubAssign for Lanes<S> {
     #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;

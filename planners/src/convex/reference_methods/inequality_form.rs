@@ -1,8 +1,9 @@
-//! The paper's P4: `min g^T X  s.t.  A X <= b` with X = (z, α, β), eq. 21 and 22 (with the μ that eq. 21 as printed omits).
+//! The paper's P4 in inequality form: `min g^T X  s.t.  A X <= b` with X = (z, α, β), eq. 21 and 22 (with the penalty μ that
+//! eq. 21 as printed omits).
 //!
 //! ```text
-//!         [  I    0   0 ]        [  hi ]     box = trust region, from above
-//!         [ -I    0   0 ]        [ -lo ]     and from below
+//!         [  I    0   0 ]        [  hi ]     trust region, upper bounds
+//!         [ -I    0   0 ]        [ -lo ]     and lower bounds
 //!     A = [  E   -I   0 ]    b = [  d  ]     α >= |E z - d|
 //!         [ -E   -I   0 ]        [ -d  ]
 //!         [  F    0  -I ]        [  g  ]     β >= max(F z - g, 0)
@@ -11,26 +12,26 @@
 
 use std::ops::Range;
 
-use super::super::program::{LINK, Program, STAGE};
+use crate::convex::program::{DYNAMICS_ROWS, Program, STAGE_LEN};
 
-/// Costs, rows and right-hand sides of P4, the rows stored one after the other.
+/// Cost, right-hand side and matrix of P4, in compressed rows.
 #[derive(Clone, Debug)]
-pub struct PaperForm {
+pub struct InequalityForm {
     /// g, length n_X.
     pub cost: Vec<f64>,
     /// b, length n_A.
     pub rhs: Vec<f64>,
-    /// First entry of every row, and the end of the last.
+    /// Index of the first entry of every row, and the number of entries.
     starts: Vec<usize>,
     columns: Vec<usize>,
     values: Vec<f64>,
 }
 
-/// Which entries of a link may differ from zero, in the order of its row: left, right, θ. All links share it, so that
+/// Coefficients of a dynamics constraint that may be nonzero, by row: left, right, θ. All intervals share the pattern, so that
 /// an accidental zero does not change the pattern of A.
-type LinkPattern = [[bool; 2 * STAGE + 1]; LINK];
+type DynamicsPattern = [[bool; 2 * STAGE_LEN + 1]; DYNAMICS_ROWS];
 
-impl PaperForm {
+impl InequalityForm {
     /// P4 of `program`; n_X = n_z + n_eq + n_in, n_A = 2 n_z + 2 n_eq + 2 n_in.
     pub fn new(program: &Program) -> Self {
         let (n_z, n_eq, n_in) = (program.len(), program.equalities(), program.inequalities());
@@ -86,7 +87,7 @@ impl PaperForm {
         &self.values[self.entries(row)]
     }
 
-    /// Has `other` its entries at the same places?
+    /// Does `other` have the same sparsity pattern?
     pub fn has_pattern_of(&self, other: &Self) -> bool {
         self.starts == other.starts && self.columns == other.columns
     }
@@ -123,31 +124,31 @@ impl PaperForm {
 
 /// Rows of E.
 fn equality_rows(program: &Program) -> Vec<Vec<(usize, f64)>> {
-    let pattern = link_pattern(program);
+    let pattern = dynamics_pattern(program);
     let mut rows = Vec::with_capacity(program.equalities());
     for k in 0..program.intervals() {
         for (i, pattern) in pattern.iter().enumerate() {
-            let all = link_row(program, k, i);
+            let all = dynamics_row(program, k, i);
             rows.push(all.zip(pattern).filter_map(|(entry, present)| present.then_some(entry)).collect());
         }
     }
-    rows.extend(program.pins.iter().map(|pin| vec![(pin.index, 1.0)]));
+    rows.extend(program.fixed_variables.iter().map(|fixed| vec![(fixed.index, 1.0)]));
     rows
 }
 
-/// All entries of row i of link k, zero or not.
-fn link_row(program: &Program, k: usize, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let link = &program.links[k];
-    let left = (0..STAGE).map(move |j| (STAGE * k + j, link.left[(i, j)]));
-    let right = (0..STAGE).map(move |j| (STAGE * (k + 1) + j, link.right[(i, j)]));
-    left.chain(right).chain([(program.len() - 1, link.theta[i])])
+/// All entries of row i of dynamics constraint k, zeros included.
+fn dynamics_row(program: &Program, k: usize, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let constraint = &program.dynamics[k];
+    let left = (0..STAGE_LEN).map(move |j| (STAGE_LEN * k + j, constraint.left[(i, j)]));
+    let right = (0..STAGE_LEN).map(move |j| (STAGE_LEN * (k + 1) + j, constraint.right[(i, j)]));
+    left.chain(right).chain([(program.len() - 1, constraint.theta[i])])
 }
 
-fn link_pattern(program: &Program) -> LinkPattern {
-    let mut pattern = LinkPattern::default();
+fn dynamics_pattern(program: &Program) -> DynamicsPattern {
+    let mut pattern = DynamicsPattern::default();
     for k in 0..program.intervals() {
         for (i, pattern) in pattern.iter_mut().enumerate() {
-            for (present, (_, value)) in pattern.iter_mut().zip(link_row(program, k, i)) {
+            for (present, (_, value)) in pattern.iter_mut().zip(dynamics_row(program, k, i)) {
                 *present |= value != 0.0;
             }
         }
@@ -159,6 +160,6 @@ fn link_pattern(program: &Program) -> LinkPattern {
 fn inequality_rows(program: &Program) -> Vec<Vec<(usize, f64)>> {
     let upper = (0..program.len()).map(|j| vec![(j, 1.0)]);
     let lower = (0..program.len()).map(|j| vec![(j, -1.0)]);
-    let planes = program.planes.iter().map(|plane| plane.terms().collect());
-    upper.chain(lower).chain(planes).collect()
+    let halfspaces = program.halfspaces.iter().map(|halfspace| halfspace.terms().collect());
+    upper.chain(lower).chain(halfspaces).collect()
 }

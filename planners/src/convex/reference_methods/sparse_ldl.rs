@@ -1,4 +1,4 @@
-//! Method I of the paper: sparse LDL^T of the reduced matrix A^T (S^-1 Λ) A, here by faer (the paper takes MA57).
+//! Method I of the paper: sparse LDL^T of the reduced matrix A^T (S^-1 Λ) A, by faer (the paper uses MA57).
 
 use std::sync::Arc;
 
@@ -10,15 +10,15 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
 
-use super::form::PaperForm;
+use super::inequality_form::InequalityForm;
 
-/// The matrix is positive definite, so a pivot at or below this is rounding; it becomes [`PIVOT_INSTEAD`].
-const SMALLEST_PIVOT: f64 = 1e-13;
+/// The matrix is positive definite, so a pivot at or below this is rounding. It is replaced by [`REPLACEMENT_PIVOT`].
+const MIN_PIVOT: f64 = 1e-13;
 
-/// Stands for a pivot that was lost, large enough to leave its variable where it is.
-const PIVOT_INSTEAD: f64 = 1e-7;
+/// Replaces a pivot that is only rounding; large enough to leave its variable almost unchanged.
+const REPLACEMENT_PIVOT: f64 = 1e-7;
 
-/// The reduced matrix and its factors; the symbolic analysis is shared by clones and kept from solve to solve.
+/// The reduced matrix and its factors. The symbolic analysis is shared by clones and kept from solve to solve.
 #[derive(Clone, Debug)]
 pub struct SparseLdl {
     analysis: Arc<Analysis>,
@@ -27,22 +27,22 @@ pub struct SparseLdl {
     scratch: Scratch,
 }
 
-/// What depends on the pattern of A only.
+/// The symbolic analysis, which depends on the sparsity pattern of A only.
 #[derive(Debug)]
 struct Analysis {
-    /// Pattern that was analysed.
-    form: PaperForm,
+    /// The form whose pattern was analysed.
+    form: InequalityForm,
     /// Lower triangle of the matrix.
     lower: SymbolicSparseColMat<usize>,
-    /// Where the products of a row's entries go: for each row of A, every pair of its entries with the second at or
-    /// before the first.
-    places: Vec<u32>,
+    /// Index in the lower triangle of every product of two entries of a row of A, row by row, the second entry at or before
+    /// the first.
+    targets: Vec<u32>,
     cholesky: SymbolicCholesky<usize>,
 }
 
 impl SparseLdl {
     /// Analyses the pattern of `form`.
-    pub fn new(form: &PaperForm) -> Self {
+    pub fn new(form: &InequalityForm) -> Self {
         let analysis = Analysis::new(form);
         Self {
             values: vec![0.0; analysis.lower.row_idx().len()],
@@ -52,20 +52,20 @@ impl SparseLdl {
         }
     }
 
-    /// Makes ready for `form`: a new analysis only if its pattern is new.
-    pub fn prepare(&mut self, form: &PaperForm) {
+    /// Prepares for `form`; repeats the analysis only if the pattern has changed.
+    pub fn prepare(&mut self, form: &InequalityForm) {
         if !form.has_pattern_of(&self.analysis.form) {
             *self = Self::new(form);
         }
     }
 
     /// Factors A^T diag(weights) A.
-    pub fn factor(&mut self, form: &PaperForm, weights: &[f64]) {
+    pub fn factor(&mut self, form: &InequalityForm, weights: &[f64]) {
         self.assemble(form, weights);
         let regularization = LdltRegularization {
             dynamic_regularization_signs: None,
-            dynamic_regularization_delta: PIVOT_INSTEAD,
-            dynamic_regularization_epsilon: SMALLEST_PIVOT,
+            dynamic_regularization_delta: REPLACEMENT_PIVOT,
+            dynamic_regularization_epsilon: MIN_PIVOT,
         };
         let matrix = SparseColMatRef::new(self.analysis.lower.as_ref(), &self.values);
         let stack = MemStack::new(&mut self.scratch.0);
@@ -80,7 +80,7 @@ impl SparseLdl {
             faer::Spec::default(),
         );
         if done.is_err() {
-            // a zero or a NaN as pivot: the loop sees a direction that is no number, and ends as stalled
+            // a pivot is zero or NaN: the direction becomes NaN, and the loop ends as stalled
             self.factors.fill(f64::NAN);
         }
     }
@@ -93,48 +93,48 @@ impl SparseLdl {
         factors.solve_in_place_with_conj(Conj::No, MatMut::from_column_major_slice_mut(x, n, 1), Par::Seq, stack);
     }
 
-    fn assemble(&mut self, form: &PaperForm, weights: &[f64]) {
+    fn assemble(&mut self, form: &InequalityForm, weights: &[f64]) {
         self.values.fill(0.0);
-        let mut places = self.analysis.places.as_slice();
+        let mut targets = self.analysis.targets.as_slice();
         for (row, weight) in weights.iter().enumerate() {
             let entries = form.values(row);
             for (i, first) in entries.iter().enumerate() {
-                let (here, rest) = places.split_at(i + 1);
+                let (own, rest) = targets.split_at(i + 1);
                 let scaled = weight * first;
-                for (second, &place) in entries.iter().zip(here) {
-                    self.values[place as usize] += scaled * second;
+                for (second, &target) in entries.iter().zip(own) {
+                    self.values[target as usize] += scaled * second;
                 }
-                places = rest;
+                targets = rest;
             }
         }
     }
 }
 
 impl Analysis {
-    fn new(form: &PaperForm) -> Self {
+    fn new(form: &InequalityForm) -> Self {
         let pairs = || (0..form.n_a()).flat_map(|row| pairs(form.columns(row)));
         let mut entries: Vec<(usize, usize)> = pairs().collect();
         entries.sort_unstable();
         entries.dedup();
         let n = form.n_x();
         let starts = (0..=n).map(|column| entries.partition_point(|entry| entry.0 < column)).collect();
-        let place = |entry| entries.binary_search(&entry).expect("every pair is an entry");
-        let places = pairs().map(|pair| u32::try_from(place(pair)).expect("fewer than 2^32 entries")).collect();
+        let index = |entry| entries.binary_search(&entry).expect("every pair is an entry");
+        let targets = pairs().map(|pair| u32::try_from(index(pair)).expect("fewer than 2^32 entries")).collect();
         let rows = entries.iter().map(|entry| entry.1).collect();
         let lower = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
         let parameters = CholeskySymbolicParams::default();
         let cholesky = factorize_symbolic_cholesky(lower.as_ref(), Side::Lower, SymmetricOrdering::Amd, parameters)
             .expect("memory for the analysis of a small matrix");
-        Self { form: form.clone(), lower, places, cholesky }
+        Self { form: form.clone(), lower, targets, cholesky }
     }
 }
 
-/// (column, row) in the lower triangle of every product of two entries of a row.
+/// (column, row) in the lower triangle of every product of two entries of one row of A.
 fn pairs(columns: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
     columns.iter().enumerate().flat_map(|(i, &row)| columns[..=i].iter().map(move |&column| (column, row)))
 }
 
-/// Work memory of faer, for factorisation and solution.
+/// Work space of faer for factorisation and solution.
 struct Scratch(MemBuffer);
 
 impl Scratch {

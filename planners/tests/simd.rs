@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
-use planners::convex::{InteriorPoint, Program, Settings, Solution, Solvers, Status};
+use planners::convex::{BatchSolver, InteriorPoint, Program, Settings, Solution, Status};
 use planners::scp::parallel::plan_and_inspect;
 
 fn subproblems() -> Vec<Program> {
@@ -24,7 +24,7 @@ fn neighbours_do_not_matter() {
     let mut programs = subproblems();
     let alone: Vec<_> =
         programs.iter().map(|program| bits(&InteriorPoint::new(Settings::default()).solve(program))).collect();
-    let solvers = Solvers::new(Settings::default());
+    let solvers = BatchSolver::new(Settings::default());
     let together: Vec<_> = solvers.solve_all(&programs).iter().map(bits).collect();
     assert!(alone == together);
     // other neighbours, and solvers with a past
@@ -38,8 +38,8 @@ fn neighbours_do_not_matter() {
 fn a_refused_programme_does_not_touch_its_neighbours() {
     let programs = subproblems();
     let mut spoilt = programs.clone();
-    spoilt[1].planes[0].bound = f64::NAN;
-    let solvers = Solvers::new(Settings::default());
+    spoilt[1].halfspaces[0].bound = f64::NAN;
+    let solvers = BatchSolver::new(Settings::default());
     let (whole, rest) = (solvers.solve_all(&programs), solvers.solve_all(&spoilt));
     assert_eq!(rest[1].status, Status::Refused);
     for (i, (whole, rest)) in whole.iter().zip(&rest).enumerate() {
