@@ -29,6 +29,11 @@ impl Family {
     /// All families, in the order in which models are listed.
     pub const ALL: [Self; 3] = [Self::FixedWing, Self::SlungLoad, Self::Multirotor];
 
+    /// The family's key in scenario and plan files: `fixed-wing`.
+    pub fn key(self) -> &'static str {
+        self.spec().key
+    }
+
     /// What differs between the families.
     pub(crate) fn spec(self) -> &'static FamilySpec {
         match self {
@@ -97,13 +102,6 @@ impl Trajectory {
             Self::SlungLoad(trajectory) => trajectory,
             Self::Multirotor(trajectory) => trajectory,
         }
-    }
-}
-
-impl Family {
-    /// The family's key in scenario and plan files: `fixed-wing`.
-    pub fn key(self) -> &'static str {
-        self.spec().key
     }
 }
 

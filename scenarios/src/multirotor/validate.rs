@@ -10,7 +10,7 @@ use crate::{Issue, Range, Scenario};
 pub(super) use waypoint::issues as waypoint;
 
 pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
-    let positive_ones = [
+    let positive_quantities = [
         ("mass_kg", model.mass_kg),
         ("body_radius_m", model.body_radius_m),
         ("sensor_range_m", model.sensor_range_m),
@@ -20,7 +20,9 @@ pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
         ("planning_limits.acceleration_mps2", model.planning_limits.acceleration_mps2),
     ];
     let mut issues: Vec<Issue> = Vec::new();
-    issues.extend(positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)));
+    issues.extend(
+        positive_quantities.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value)),
+    );
     issues.extend(not_negative(&format!("{field}.drag_area_m2"), model.drag_area_m2));
     issues.extend(planning_inside_physical(field, named(&model.planning_limits), named(&model.limits)));
     issues.extend(missing_airframe(field, model));
@@ -38,22 +40,22 @@ fn missing_airframe(field: &str, model: &Model) -> Option<Issue> {
 
 fn airframe_issues(field: &str, airframe: &Airframe) -> Vec<Issue> {
     let [ix, iy, iz] = airframe.inertia_kgm2;
-    let positive_ones = [
+    let positive_quantities = [
         ("inertia_kgm2[0]", ix),
         ("inertia_kgm2[1]", iy),
         ("inertia_kgm2[2]", iz),
         ("arm_m", airframe.arm_m),
         ("torque_per_thrust_m", airframe.torque_per_thrust_m),
     ];
-    let positive_ones =
-        positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
+    let positive_quantities =
+        positive_quantities.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
     let others = [
         positive_if_given(&format!("{field}.rotor_time_constant_s"), airframe.rotor_time_constant_s),
         ordered(&format!("{field}.thrust_n"), airframe.thrust_n),
         not_negative(&format!("{field}.thrust_n"), airframe.thrust_n.min),
         above_up_to(&format!("{field}.tilt_deg"), airframe.tilt_deg, 0.0, 80.0),
     ];
-    positive_ones.chain(others.into_iter().flatten()).collect()
+    positive_quantities.chain(others.into_iter().flatten()).collect()
 }
 
 /// The four rotors must carry the weight while tilted for the planned acceleration.

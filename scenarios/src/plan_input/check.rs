@@ -94,7 +94,7 @@ fn trajectory(
 
 fn column_issues(table: &ColumnTable, columns: &Columns) -> Vec<PlanIssue> {
     let header = if matches!(table.locations, RowLocations::Trajectory(_)) { "" } else { ":1" };
-    let issue = |issue: Issue| PlanIssue::new(header, of(table, issue));
+    let issue = |issue: Issue| PlanIssue::new(header, of_vehicle(table, issue));
     let known = columns.names();
     let mut issues = Vec::new();
     for name in table.columns.keys().filter(|name| !known.contains(&name.as_str())) {
@@ -129,7 +129,7 @@ fn too_short(table: &ColumnTable) -> Option<PlanIssue> {
     let rows = table.times_s.len();
     (rows < 2).then(|| {
         let issue = Issue::new("rows", format!("{rows}"), "2 or more: at least the start and the end");
-        PlanIssue::new(table.locations.of(0), of(table, issue))
+        PlanIssue::new(table.locations.of(0), of_vehicle(table, issue))
     })
 }
 
@@ -140,7 +140,10 @@ fn not_finite(table: &ColumnTable) -> Vec<PlanIssue> {
         .flat_map(|(name, values)| values.iter().enumerate().map(move |(row, value)| (name, row, *value)))
         .filter(|(_, _, value)| !value.is_finite())
         .map(|(name, row, value)| {
-            PlanIssue::new(table.locations.of(row), of(table, Issue::new(name, value.to_string(), "a finite number")))
+            PlanIssue::new(
+                table.locations.of(row),
+                of_vehicle(table, Issue::new(name, value.to_string(), "a finite number")),
+            )
         })
         .collect()
 }
@@ -152,7 +155,7 @@ fn time_issue(table: &ColumnTable, allows_discontinuity: bool) -> Option<PlanIss
     let times_s = &table.times_s;
     let issue = |row: usize, found: String, expected: &str, remedy: &str| {
         let issue = Issue::new("t_s", found, expected).remedy(remedy);
-        Some(PlanIssue::new(table.locations.of(row), of(table, issue)))
+        Some(PlanIssue::new(table.locations.of(row), of_vehicle(table, issue)))
     };
     if times_s[0].abs() > TIME_TOLERANCE_S {
         let remedy = "measure the time from the start of the scenario, and include the start as the first row";
@@ -185,7 +188,7 @@ fn too_long(table: &ColumnTable, max_end_s: f64) -> Option<PlanIssue> {
         let found = format!("{} s at the end", table.times_s[last]);
         let expected = format!("at most {max_end_s} s, ten times simulation.max_duration_s");
         let issue = Issue::new("t_s", found, expected).remedy("are the times in milliseconds?");
-        PlanIssue::new(table.locations.of(last), of(table, issue))
+        PlanIssue::new(table.locations.of(last), of_vehicle(table, issue))
     })
 }
 
@@ -200,6 +203,6 @@ fn converted(table: &ColumnTable, columns: &Columns) -> ColumnTable {
 }
 
 /// The issue with the name of the vehicle.
-fn of(table: &ColumnTable, issue: Issue) -> Issue {
+fn of_vehicle(table: &ColumnTable, issue: Issue) -> Issue {
     Issue { field: format!("{} of {}", issue.field, table.vehicle), ..issue }
 }

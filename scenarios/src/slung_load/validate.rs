@@ -18,7 +18,7 @@ pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
 }
 
 fn quantities(field: &str, model: &Model) -> Vec<Issue> {
-    let positive_ones = [
+    let positive_quantities = [
         ("mass_kg", model.mass_kg),
         ("inertia_kgm2[0]", model.inertia_kgm2[0]),
         ("inertia_kgm2[1]", model.inertia_kgm2[1]),
@@ -31,11 +31,11 @@ fn quantities(field: &str, model: &Model) -> Vec<Issue> {
         ("cable_length_m", model.cable_length_m),
     ];
     let drag = [("drag_area_m2", model.drag_area_m2), ("load_drag_area_m2", model.load_drag_area_m2)];
-    let positive_ones =
-        positive_ones.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
+    let positive_quantities =
+        positive_quantities.into_iter().filter_map(|(name, value)| positive(&format!("{field}.{name}"), value));
     let drag = drag.into_iter().filter_map(|(name, value)| not_negative(&format!("{field}.{name}"), value));
     let lag = positive_if_given(&format!("{field}.rotor_time_constant_s"), model.rotor_time_constant_s);
-    positive_ones.chain(drag).chain(lag).collect()
+    positive_quantities.chain(drag).chain(lag).collect()
 }
 
 fn limits(field: &str, limits: &Limits) -> Vec<Issue> {

@@ -4,7 +4,7 @@ use super::quantity::{not_negative, positive_if_given};
 use crate::{CHECKS, Issue, VerdictLimits, check_spec, closest_name};
 
 pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
-    let positive_ones = [
+    let positive_quantities = [
         ("tracking_max_m", limits.tracking_max_m),
         ("tracking_rms_m", limits.tracking_rms_m),
         ("arrival_spread_s", limits.arrival_spread_s),
@@ -14,7 +14,8 @@ pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
         ("rollout_m", limits.rollout_m),
         ("switch_s", limits.switch_s),
     ];
-    let rules = positive_ones.into_iter().map(|(name, value)| positive_if_given(&format!("verdict.{name}"), value));
+    let rules =
+        positive_quantities.into_iter().map(|(name, value)| positive_if_given(&format!("verdict.{name}"), value));
     let others = [
         limits.envelope_m.and_then(|value| not_negative("verdict.envelope_m", value)),
         limits.saturation.and_then(|value| fraction("verdict.saturation", value)),

@@ -14,19 +14,19 @@ pub(super) fn issues(world: &World) -> Vec<Issue> {
         issues.extend(positive(&format!("world.cylinders[{index}].radius_m"), cylinder.radius_m));
     }
     issues.extend(entity_names("world.boxes", world.boxes.iter().map(|block| block.name.as_str())));
-    issues.extend(world.boxes.iter().enumerate().flat_map(|(index, block)| of_box(index, block)));
+    issues.extend(world.boxes.iter().enumerate().flat_map(|(index, block)| box_issues(index, block)));
     issues.extend(entity_names("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str())));
-    issues.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| of_prism(index, prism)));
+    issues.extend(world.prisms.iter().enumerate().flat_map(|(index, prism)| prism_issues(index, prism)));
     issues.extend(entity_names("world.moving", world.moving.iter().map(|moving| moving.name.as_str())));
-    issues.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| of_moving(index, moving)));
+    issues.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| moving_issues(index, moving)));
     issues.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
-    issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| of_gate(index, gate)));
+    issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| gate_issues(index, gate)));
     issues.extend(names_in_two_lists(world));
-    issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| hidden(world, index, name)));
+    issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| unknown_hidden(world, index, name)));
     issues
 }
 
-fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
+fn moving_issues(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
     let field = format!("world.moving[{index}]");
     let path = (!moving.has_path()).then(|| {
         let found = format!("{} corners, or two successive corners at the same point", moving.path_m.len());
@@ -42,7 +42,7 @@ fn of_moving(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
 }
 
 /// The name of a hidden obstacle must exist.
-fn hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
+fn unknown_hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
     let static_world = World { moving: Vec::new(), ..world.clone() };
     let names: Vec<&str> = static_world.obstacle_names().collect();
     let expected = "the name of a cylinder, a box or a prism, or \"*\" for all of them";
@@ -54,7 +54,7 @@ fn hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
     })
 }
 
-fn of_box(index: usize, block: &BoxObstacle) -> Vec<Issue> {
+fn box_issues(index: usize, block: &BoxObstacle) -> Vec<Issue> {
     let field = format!("world.boxes[{index}]");
     let [length_m, width_m] = block.size_m;
     let sizes = [positive(&format!("{field}.size_m[0]"), length_m), positive(&format!("{field}.size_m[1]"), width_m)];
@@ -62,7 +62,7 @@ fn of_box(index: usize, block: &BoxObstacle) -> Vec<Issue> {
     sizes.into_iter().flatten().chain(z_m).collect()
 }
 
-fn of_gate(index: usize, gate: &Gate) -> Vec<Issue> {
+fn gate_issues(index: usize, gate: &Gate) -> Vec<Issue> {
     let windows = [("quadrotor", &gate.quadrotor), ("load", &gate.load)];
     let faces = windows.into_iter().flat_map(|(whose, window)| {
         let named = ["x_m", "y_m", "z_m"].into_iter().zip(window.axes());
@@ -71,7 +71,7 @@ fn of_gate(index: usize, gate: &Gate) -> Vec<Issue> {
     faces.collect()
 }
 
-fn of_prism(index: usize, prism: &Prism) -> Vec<Issue> {
+fn prism_issues(index: usize, prism: &Prism) -> Vec<Issue> {
     let field = format!("world.prisms[{index}]");
     let shape = (!prism.is_convex()).then(|| {
         let found = format!("{} corners that do not form a convex polygon", prism.corners_m.len());
