@@ -23,7 +23,7 @@ use clap::{Parser, Subcommand};
 
 use crate::error::{Error, Exit};
 
-/// Flies UAV trajectory plans in simulation and judges them, margin in metres, before anything leaves the ground.
+/// Tests UAV trajectory planners: plans are flown in simulation and judged, with a margin for every limit.
 #[derive(Debug, Parser)]
 #[command(name = "harness", version, arg_required_else_help = true, after_help = EXAMPLES)]
 pub struct Cli {
@@ -33,19 +33,19 @@ pub struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  harness list                      what there is: scenarios and planners
-  harness run                       every scenario, each with the planner that it names
-  harness run --name 'rendezvous-*' those whose names match
+  harness list                       list the scenarios and the planners
+  harness run                        run every scenario with the planner that it names
+  harness run --name 'rendezvous-*'  run the scenarios whose names match
   harness check SCENARIO --plan my-plan.csv
-                                    fly and judge a plan that was made elsewhere
-  harness compare out/old out/new   what got worse
+                                     fly and judge an existing plan
+  harness compare out/old out/new    show what got worse between two runs
 
 Exit codes:
-  0    every verdict passed
-  1    some verdict failed, no plan was found, or a comparison shows a loss
-  2    bad usage, bad input, or trouble with files; good scenarios beside bad ones are still run
+  0    every verdict is a pass
+  1    a verdict is a fail, no plan was found, or a result is worse than the one it is compared with
+  2    bad usage, invalid input, or a file that cannot be read or written; valid scenarios are still run
   101  a bug in the harness
-  130  stopped by ctrl-C";
+  130  interrupted by Ctrl-C";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -73,7 +73,11 @@ enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for.
+    /// Executes the command.
+    ///
+    /// # Errors
+    ///
+    /// Invalid input, and trouble with the environment. Findings about plans are part of the returned [`Exit`].
     pub fn execute(&self) -> Result<Exit, Error> {
         match &self.command {
             Command::Run(run) => run.execute(),

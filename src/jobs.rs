@@ -1,4 +1,4 @@
-//! From paths and planner names to what has to be run: every scenario with every planner.
+//! Loads scenario files and pairs every scenario with every planner.
 
 use std::path::{Path, PathBuf};
 
@@ -9,47 +9,51 @@ use crate::error::Error;
 use crate::plan_source::PlanSource;
 use crate::plan_source::external::ExternalPlanner;
 
-/// One scenario for one planner.
+/// One scenario with one planner.
 #[derive(Clone)]
 pub struct Job {
-    /// The question.
+    /// The scenario.
     pub scenario: Scenario,
-    /// The file that it stands in.
+    /// The scenario file.
     pub source: ScenarioFile,
-    /// Who answers.
+    /// Where the plan comes from.
     pub plan_source: PlanSource,
-    /// Seed of everything random in planning and flight.
+    /// Seed of all random numbers of planning and flight.
     pub seed: u64,
 }
 
-/// Jobs, and the files (or pairs of file and planner) that gave none.
+/// Jobs, and the files (or pairs of file and planner) that were rejected.
 #[derive(Default)]
 pub struct Jobs {
-    /// What can be run, in the order of the files and of the planners.
+    /// The jobs, in the order of the files and of the planners.
     pub runnable: Vec<Job>,
-    /// What cannot, and why.
+    /// The rejected files.
     pub rejected: Vec<RejectedJob>,
 }
 
-/// A file that cannot be run.
+/// A file that was rejected.
 #[derive(Debug)]
 pub struct RejectedJob {
     /// The file.
     pub file: PathBuf,
-    /// Why.
+    /// The reason.
     pub error: Error,
 }
 
-/// The planners of these names. An unknown name is an error, since nothing that was asked for can be done then.
+/// The registered planners of these names.
+///
+/// # Errors
+///
+/// [`Error::UnknownPlanner`] for the first unknown name.
 pub fn planners_named(names: &[String]) -> Result<Vec<PlanSource>, Error> {
     let named = |name: &String| planners::find(name).map(PlanSource::Registered).ok_or_else(|| unknown_planner(name));
     names.iter().map(named).collect()
 }
 
-/// Loads every file and pairs its scenario with `plan_sources`, or with the planner that it names if there are none.
+/// Loads every file and pairs its scenario with `plan_sources`; if there are none, with the planner that it names.
 ///
-/// - `seed`: replaces the scenarios' own
-/// - `is_wanted`: scenarios for which it is false are left out; a bad file always shows
+/// - `seed`: replaces the seeds of the scenarios
+/// - `is_wanted`: scenarios for which it is false are left out; an invalid file is always rejected
 pub fn load(
     files: &[PathBuf],
     plan_sources: &[PlanSource],
@@ -73,10 +77,14 @@ pub fn load(
 }
 
 /// Loads one file for one planner.
+///
+/// # Errors
+///
+/// If the file is rejected, and [`Error::OnePlanner`] if there are several plan sources.
 pub fn load_one(file: &Path, plan_sources: &[PlanSource], seed: Option<u64>) -> Result<Job, Error> {
     let mut jobs = load(&[file.to_owned()], plan_sources, seed, |_| true);
     match (jobs.rejected.pop(), jobs.runnable.pop()) {
-        (Some(refusal), _) => Err(refusal.error),
+        (Some(rejected), _) => Err(rejected.error),
         (None, Some(job)) if jobs.runnable.is_empty() => Ok(job),
         (None, _) => Err(Error::OnePlanner),
     }
@@ -84,7 +92,11 @@ pub fn load_one(file: &Path, plan_sources: &[PlanSource], seed: Option<u64>) -> 
 
 /// Loads one file.
 ///
-/// - `seed`: replaces the scenario's own
+/// - `seed`: replaces the seed of the scenario
+///
+/// # Errors
+///
+/// If the file cannot be read, or is not a valid scenario.
 pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(ScenarioFile, Scenario), Error> {
     let source = ScenarioFile::read(file)?;
     let mut scenario = source.scenario()?;
@@ -92,7 +104,7 @@ pub fn load_file(file: &Path, seed: Option<u64>) -> Result<(ScenarioFile, Scenar
     Ok((source, scenario))
 }
 
-/// One job per plan_source, or that of the planner which the scenario names.
+/// One job per plan source; if there are none, one for the planner that the scenario names.
 fn pair(
     file: &Path,
     source: &ScenarioFile,
@@ -108,26 +120,26 @@ fn pair(
     if plan_sources.is_empty() {
         return vec![named_by_scenario(file, source, scenario).map(job)];
     }
-    let fitting = |plan_source: &PlanSource| match plan_source {
+    let supported = |plan_source: &PlanSource| match plan_source {
         PlanSource::Registered(planner) => match (planner.unsupported_reason)(scenario) {
             Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
             None => Ok(job(plan_source.clone())),
         },
         _ => Ok(job(plan_source.clone())),
     };
-    plan_sources.iter().map(fitting).collect()
+    plan_sources.iter().map(supported).collect()
 }
 
-/// The planner that the scenario names; if that cannot be, an error that points to the line.
+/// The planner that the scenario names. An error names the line of the file.
 fn named_by_scenario(file: &Path, source: &ScenarioFile, scenario: &Scenario) -> Result<PlanSource, Error> {
     let name = &scenario.planner.name;
-    let problem = |expected: String, remedy: String| {
+    let issue = |expected: String, remedy: String| {
         source.error(vec![Issue::new("planner.name", format!("\"{name}\""), expected).remedy(remedy)])
     };
     if let Some(command) = &scenario.planner.command {
         if planners::find(name).is_some() {
-            let expected = "a name of its own for a planner with a `command`: this is one of the harness's";
-            return Err(problem(expected.into(), "rename it, or remove `command`".into()).into());
+            let expected = "another name for a planner with a `command`: this one is a registered planner";
+            return Err(issue(expected.into(), "rename it, or remove `command`".into()).into());
         }
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let (name, command, folder) = (name.clone(), command.clone(), folder.to_owned());
@@ -140,21 +152,21 @@ fn named_by_scenario(file: &Path, source: &ScenarioFile, scenario: &Scenario) ->
         }));
     }
     let Some(planner) = planners::find(name) else {
-        return Err(problem(format!("the name of a planner: {}", known_planners()), remedy_for(name)).into());
+        return Err(issue(format!("the name of a planner: {}", known_planners()), remedy_for(name)).into());
     };
-    refuse_unfit(planner, scenario, problem).map(|()| PlanSource::Registered(planner))
+    check_support(planner, scenario, issue).map(|()| PlanSource::Registered(planner))
 }
 
-fn refuse_unfit(
+fn check_support(
     planner: &Planner,
     scenario: &Scenario,
-    problem: impl Fn(String, String) -> scenarios::LoadError,
+    issue: impl Fn(String, String) -> scenarios::LoadError,
 ) -> Result<(), Error> {
     match (planner.unsupported_reason)(scenario) {
         None => Ok(()),
         Some(reason) => {
             let expected = format!("a planner that can handle this scenario: {reason}");
-            Err(problem(expected, "`harness list` shows what each planner handles".into()).into())
+            Err(issue(expected, "`harness list` shows what each planner handles".into()).into())
         }
     }
 }
@@ -170,6 +182,8 @@ fn known_planners() -> String {
 fn remedy_for(name: &str) -> String {
     match closest_name(name, planners::registry().iter().map(|entry| entry.name)) {
         Some(known) => format!("did you mean `{known}`?"),
-        None => "`harness list` shows the planners; one of your own is a `command`, see `harness run --help`".into(),
+        None => {
+            "`harness list` shows the planners; an external planner needs a `command`, see `harness run --help`".into()
+        }
     }
 }

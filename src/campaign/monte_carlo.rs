@@ -21,7 +21,7 @@ pub use perturbation::{Dispersions, Perturbation};
 pub use show::text;
 pub use statistics::{CheckStatistics, Statistics, worst};
 
-/// The samples that one machine flies: those whose number is `part - 1` modulo `parts`.
+/// The samples of one machine: those whose number is `part - 1` modulo `parts`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Partition {
     /// From 1.

@@ -1,8 +1,7 @@
-//! Does the judge notice? Known faults are injected, one at a time, into flights and plans that pass, and judged again
-//! by the judge of every run.
+//! Selftest of the judge: known faults are injected, one at a time, into plans and flights that pass, and judged again.
 //!
-//! A fault must fail the verdict, by the check that it aims at. Near misses, just inside a limit, must pass. And every
-//! check that can be asked must be turned red by something: one that never fails may as well not be there.
+//! A fault must fail the verdict by its target check. Near misses, just inside a limit, must pass. Every check that applies
+//! to a family must fail for at least one fault: a check that never fails is useless.
 
 mod family;
 mod fault;
@@ -28,82 +27,84 @@ pub use fault::{Fault, NearMiss};
 pub use reference_case::ReferenceCase;
 pub use show::{markdown, text};
 
-/// Version of the form of `selftest.json`.
+/// Version of the format of `selftest.json`.
 const SCHEMA: u32 = 1;
 
-/// What came of all of it.
+/// Results of the selftest.
 #[derive(Clone, Debug, Serialize)]
 pub struct Selftest {
-    /// Version of this form: 1.
+    /// Version of this format: 1.
     pub schema: u32,
     /// Version of the harness.
     pub harness: &'static str,
     /// Every fault, family by family.
     pub faults: Vec<FaultResult>,
-    /// What is just inside a limit.
+    /// Every near miss, family by family.
     pub near_misses: Vec<NearMissResult>,
-    /// Every check that is asked of a family, and how many faults turned it red.
+    /// Every check that applies to a family, with the number of faults that it detected.
     pub checks: Vec<Coverage>,
 }
 
-/// What became of a fault.
+/// Result of a fault.
 #[derive(Clone, Debug, Serialize)]
 pub struct FaultResult {
-    /// Family of the reference.
+    /// Vehicle family of the reference case.
     pub family: String,
-    /// Scenario of the reference.
+    /// Scenario of the reference case.
     pub scenario: String,
-    /// What was wrong.
+    /// Description of the fault.
     pub fault: &'static str,
-    /// The check that has to notice, by its full name.
+    /// The target check, which has to fail, by its full name.
     pub aims_at: &'static str,
-    /// Did the verdict fail, with that check red?
+    /// Whether the verdict failed, with the target check among the failed ones.
     pub caught: bool,
-    /// All checks that turned red, in the order of the verdict.
-    pub red: Vec<String>,
+    /// All checks that failed, in the order of the verdict.
+    #[serde(rename = "red")]
+    pub failed_checks: Vec<String>,
 }
 
-/// What became of a near miss.
+/// Result of a near miss.
 #[derive(Clone, Debug, Serialize)]
 pub struct NearMissResult {
-    /// Family of the reference.
+    /// Vehicle family of the reference case.
     pub family: String,
-    /// Scenario of the reference.
+    /// Scenario of the reference case.
     pub scenario: String,
-    /// What is nearly wrong.
+    /// Description of the near miss.
     pub near_miss: &'static str,
-    /// Did everything pass?
-    pub green: bool,
-    /// Checks that turned red all the same.
-    pub red: Vec<String>,
+    /// Whether the verdict is a pass.
+    #[serde(rename = "green")]
+    pub passed: bool,
+    /// Checks that failed.
+    #[serde(rename = "red")]
+    pub failed_checks: Vec<String>,
 }
 
-/// How often a check turned red.
+/// Coverage of a check by faults.
 #[derive(Clone, Debug, Serialize)]
 pub struct Coverage {
-    /// Family of the vehicles.
+    /// Vehicle family.
     pub family: String,
-    /// Name of the check.
+    /// Full name of the check.
     pub check: String,
-    /// Number of faults that turned it red.
+    /// Number of faults for which it failed.
     pub faults: usize,
 }
 
 impl Selftest {
-    /// Was every fault caught, every near miss passed, and every check turned red by something?
+    /// Whether every fault was caught, every near miss passed, and every check failed for some fault.
     pub fn is_good(&self) -> bool {
         let faults = self.faults.iter().all(|fault| fault.caught);
-        let near_misses = self.near_misses.iter().all(|near_miss| near_miss.green);
+        let near_misses = self.near_misses.iter().all(|near_miss| near_miss.passed);
         !self.faults.is_empty() && faults && near_misses && self.checks.iter().all(|check| check.faults > 0)
     }
 }
 
 /// Runs all faults and near misses of all families.
 ///
-/// - `progress`: is told what is being done
+/// - `progress`: receives a description of each stage
 ///
-/// From a reference that does not pass before anything is injected nothing can be learnt: it counts as a near miss that
-/// turned red, and nothing is injected into it.
+/// A reference case that does not pass counts as a failed near miss, and no fault is injected into it.
 pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
     let mut selftest = Selftest {
         schema: SCHEMA,
@@ -113,14 +114,14 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
         checks: Vec::new(),
     };
     for family in Family::ALL {
-        let mut asked = BTreeSet::new();
+        let mut applicable = BTreeSet::new();
         for reference in (families::of(family).selftest.reference_cases)() {
             progress(&format!("{}: planning and flying", reference.scenario.name));
             let reference = reference.flown();
             let untouched = approach(&reference, &NearMiss::new("nothing is changed", |_| {}));
-            let is_good = untouched.green;
+            let is_good = untouched.passed;
             selftest.near_misses.push(untouched);
-            asked.extend(reference.asked());
+            applicable.extend(reference.applicable_checks());
             if !is_good {
                 continue;
             }
@@ -131,11 +132,12 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
             selftest.near_misses.par_extend(near_misses.par_iter().map(|near_miss| approach(&reference, near_miss)));
         }
         let of_family = |fault: &&FaultResult| fault.family == family.to_string();
-        let count =
-            |check: &String| selftest.faults.iter().filter(of_family).filter(|fault| fault.red.contains(check)).count();
+        let count = |check: &String| {
+            selftest.faults.iter().filter(of_family).filter(|fault| fault.failed_checks.contains(check)).count()
+        };
         let coverage =
             |check: &String| Coverage { family: family.to_string(), check: check.clone(), faults: count(check) };
-        let checks: Vec<Coverage> = in_order(family, &asked).map(coverage).collect();
+        let checks: Vec<Coverage> = in_order(family, &applicable).map(coverage).collect();
         selftest.checks.extend(checks);
     }
     selftest
@@ -145,14 +147,14 @@ fn inject(reference: &ReferenceCase, fault: &Fault) -> FaultResult {
     let mut mutated = reference.clone();
     (fault.inject)(&mut mutated);
     let verdict = mutated.judge();
-    let red = red(&verdict.checks);
+    let failed_checks = failed(&verdict.checks);
     FaultResult {
         family: reference.family().to_string(),
         scenario: reference.scenario.name.clone(),
         fault: fault.name,
         aims_at: fault.aims_at,
-        caught: verdict.outcome != Outcome::Pass && red.iter().any(|check| check == fault.aims_at),
-        red,
+        caught: verdict.outcome != Outcome::Pass && failed_checks.iter().any(|check| check == fault.aims_at),
+        failed_checks,
     }
 }
 
@@ -164,22 +166,23 @@ fn approach(reference: &ReferenceCase, near_miss: &NearMiss) -> NearMissResult {
         family: reference.family().to_string(),
         scenario: reference.scenario.name.clone(),
         near_miss: near_miss.name,
-        green: verdict.outcome == Outcome::Pass,
-        red: red(&verdict.checks),
+        passed: verdict.outcome == Outcome::Pass,
+        failed_checks: failed(&verdict.checks),
     }
 }
 
-fn red(checks: &[Check]) -> Vec<String> {
+/// Names of the checks that failed, advisory ones included.
+fn failed(checks: &[Check]) -> Vec<String> {
     checks.iter().filter(|check| check.is_bad()).map(|check| check.name.clone()).collect()
 }
 
-fn in_order(family: Family, asked: &BTreeSet<String>) -> impl Iterator<Item = &String> {
-    scenarios::check_names(family).filter_map(|name| asked.get(name))
+fn in_order(family: Family, applicable: &BTreeSet<String>) -> impl Iterator<Item = &String> {
+    scenarios::check_names(family).filter_map(|name| applicable.get(name))
 }
 
 impl ReferenceCase {
-    /// The checks that are asked of it.
-    fn asked(&self) -> Vec<String> {
+    /// Names of the checks that are not skipped for it.
+    fn applicable_checks(&self) -> Vec<String> {
         let checks = self.judge().checks;
         checks.into_iter().filter(|check| check.status != Status::Skip).map(|check| check.name).collect()
     }

@@ -10,76 +10,77 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
-/// Measure what a paper's table says, side by side with the baselines.
+/// Reproduce the tables of the papers, side by side with the baselines
 ///
-/// `ipm`: the interior-point method by our block sweep, by the paper's three ways to the Newton direction, and a general
-/// solver (Clarabel), on subproblems of a run of the planner parallel-scp.
+/// `ipm`: interior-point methods on subproblems of the planner parallel-scp: the block-structured factorisation of the
+/// harness, the paper's three methods for the Newton direction, and a general solver (Clarabel).
 ///
-/// `cooperative`: fleets of one to seven on two missions, with both solvers. `fleets`: the papers' ways to decouple a fleet
-/// and ours, over fleets of several sizes, and how the cost of ours grows.
+/// `cooperative`: fleets of one to seven aircraft on two missions, with both solvers.
 ///
-/// `slung`: the nonlinear programmes of the planner slung-lgr, by mesh and formulation.
+/// `fleets`: the papers' methods to decouple a fleet and fleet-scp, over several fleet sizes, and the growth of the cost of
+/// fleet-scp with the size of the fleet.
 ///
-/// `horizon`: the experiments of the paper on receding horizons with a particle swarm, flown and judged, and samplers at
-/// equal budget.
+/// `slung`: the nonlinear programs of the planner slung-lgr, by mesh and formulation.
+///
+/// `horizon`: the experiments of the paper on receding-horizon control with particle swarms, flown and judged, and a
+/// comparison of samplers at equal budget.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Bench {
-    /// What to measure
+    /// The benchmark
     #[arg(value_enum)]
     name: Name,
-    /// Scenario that poses the problem, for `cooperative`, `fleets` and `horizon` the folder with their scenarios; by default those of
-    /// the papers
+    /// Scenario file; for `cooperative`, `fleets` and `horizon` the folder of their scenarios [default: those of the papers]
     #[arg(value_name = "PATH")]
     path: Option<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Smallest size only, two repetitions: to see that everything runs, not to compare
+    /// Smallest size and two repetitions only: a smoke test, not a measurement
     #[arg(long)]
     quick: bool,
-    /// Time limit of an entry of `cooperative` and `fleets`, s
+    /// Time limit of one entry of `cooperative` and `fleets`, s
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     limit_s: f64,
-    /// Print nothing but errors; the files tell the rest
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  harness bench ipm            takes about a minute; close everything else before
+  harness bench ipm            takes about a minute, on an otherwise idle machine
   harness bench ipm --quick
   harness bench cooperative    takes about a minute
-  harness bench fleets         takes several minutes: some entries end by their time limit
+  harness bench fleets         takes several minutes: some entries reach their time limit
   harness bench slung          takes about ten seconds
   harness bench horizon        takes several minutes
 
 Results:
   out/bench/ipm.json           one row per subproblem and backend
-  out/bench/ipm.md             the same as a page
+  out/bench/ipm.md             the same as a page in Markdown
   out/bench/cooperative.json, .md  one row per mission, fleet and solver
   out/bench/fleets.json, .md   one row per mission, fleet and planner
   out/bench/slung.json, .md    one row per mesh and formulation
   out/bench/horizon.json, .md  one row per case";
 
-/// What can be measured.
+/// The benchmarks.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Name {
-    /// The interior-point method and its backends
+    /// Interior-point methods
     Ipm,
-    /// Fleets of one to seven, two missions, two solvers
+    /// Fleets of one to seven aircraft
     Cooperative,
-    /// The ways to decouple a fleet
+    /// Methods to decouple a fleet
     Fleets,
-    /// Collocation of the slung load
+    /// Collocation meshes of the slung load
     Slung,
-    /// Receding horizons in the loop
+    /// Receding-horizon control in the loop
     Horizon,
 }
 
 impl Bench {
-    /// Measures, prints and writes the table.
+    /// Measures, prints and writes the results.
     pub fn execute(&self) -> Result<Exit, Error> {
         match self.name {
             Name::Ipm => self.ipm(),
@@ -139,18 +140,18 @@ impl Bench {
         self.publish("fleets", &results, &fleets::markdown(&results), &fleets::text(&results))
     }
 
-    /// A scenario for a whole table about one planner.
-    fn scenario(&self, of_the_paper: &str, planner: &Planner) -> Result<Scenario, Error> {
-        load(self.path.as_deref().unwrap_or(Path::new(of_the_paper)), planner)
+    /// The scenario of a benchmark of one planner.
+    fn scenario(&self, default: &str, planner: &Planner) -> Result<Scenario, Error> {
+        load(self.path.as_deref().unwrap_or(Path::new(default)), planner)
     }
 
-    /// One of several fleets, from the folder with all of them.
+    /// A fleet from the folder of scenarios.
     fn fleet(&self, name: &str) -> Result<Scenario, Error> {
         let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/fixed-wing"));
         load(&folder.join(format!("{name}.toml")), &planners::scp::parallel::PLANNER)
     }
 
-    /// One of several scenarios of a multirotor, from the folder with all of them.
+    /// A multirotor scenario from the folder of scenarios.
     fn multirotor(&self, name: &str) -> Result<Scenario, Error> {
         let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/multirotor"));
         load(&folder.join(format!("{name}.toml")), &planners::horizon::RHC)

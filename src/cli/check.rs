@@ -10,23 +10,23 @@ use crate::jobs::{self, Job, Jobs};
 use crate::plan_source::PlanSource;
 use crate::plan_source::plan_import;
 
-/// Judge a plan that was made elsewhere.
+/// Fly and judge an existing plan
 ///
-/// The plan is flown and judged as one of our own. If it gives no controls, or no velocities either, they are
-/// reconstructed; how well is stated, and what cannot be told within that is undecided, which is no pass.
+/// The plan is flown and judged like that of a registered planner. Missing controls and velocities are reconstructed, and
+/// the report states the reconstruction error. Checks whose margin is below that error are undecided, which is not a pass.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Check {
-    /// The scenario file that the plan answers
+    /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// The plan: .csv, .json or .parquet
+    /// The plan, a .csv, .json or .parquet file
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
-    /// Name under which the results go [default: that of the plan's file]
+    /// Name of the results, in place of a planner's [default: the name of the plan file]
     #[arg(short = 'p', long = "planner", value_name = "NAME")]
     name: Option<String>,
-    /// Seed of everything random in flight, instead of the scenario's own
+    /// Seed of all random numbers of the flight, in place of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     #[command(flatten)]
@@ -38,18 +38,19 @@ Examples:
   harness check scenarios/fixed-wing/rendezvous-1.toml --plan my-plan.csv
   harness check scenarios/fixed-wing/rendezvous-7.toml --plan out/rendezvous-7/parallel-scp/plan.json
 
-Columns of CSV and Parquet, one row per vehicle and time; x east, y north, z up:
-  vehicle                                     its name in the scenario; may be missing if there is only one
-  t_s                                         time from 0, increasing per vehicle
+Columns of CSV and Parquet files for fixed wings, one row per node; x points east, y north, z up:
+  vehicle                                     name in the scenario; optional if there is only one vehicle
+  t_s                                         time, from 0, increasing for each vehicle
   x_m, y_m, z_m                               position
-  speed_mps, heading_rad, flight_path_rad     velocity: heading counterclockwise from east (or vx_mps, vy_mps, vz_mps;
-                                              angles also as heading_deg, flight_path_deg); reconstructed if absent
-  n_x, n_y, n_z                               load factors, linear between the rows; reconstructed if absent
+  speed_mps, heading_rad, flight_path_rad     velocity, with the heading counterclockwise from east; alternatively
+                                              vx_mps, vy_mps, vz_mps, or angles as heading_deg, flight_path_deg;
+                                              reconstructed if absent
+  n_x, n_y, n_z                               load factors, linear between the nodes; reconstructed if absent
 
-The plan of a slung load has the columns of its plan.csv, all of them. Which rows are the planner's own nodes only
-plan.json says: in a table all of them are, and the checks nodes.* look at each.
+The plan of another vehicle needs all the columns of its plan.csv. In a table every row counts as a node of the planner
+in the checks nodes.*; plan.json names the planner's own nodes.
 
-JSON is plan.json as `harness run` writes it, or the same with these columns as arrays in every trajectory.";
+A JSON file is a plan.json of `harness run`, or the same with these columns as arrays in every trajectory.";
 
 impl Check {
     /// Reads, flies and judges the plan.

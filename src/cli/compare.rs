@@ -9,20 +9,20 @@ use crate::error::{Error, Exit};
 use crate::output::report::comparison_table;
 use crate::output::report::json_lines::{self, Event};
 
-/// Show what got worse from one run to another.
+/// Show what got worse from one run to another
 ///
-/// Verdicts, statuses of checks, margins, flight times and tracking errors decide, each with a tolerance; planning times
-/// are only told. Exit code 1 if anything got worse beyond its tolerance.
+/// Verdicts, check statuses, margins, flight times and tracking errors are compared, figures with a tolerance. Planning
+/// times are reported and do not decide. The exit code is 1 if anything got worse by more than its tolerance.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out")]
 pub struct Compare {
-    /// Result folder, report.json or baseline file to compare with
+    /// The reference: a result folder, a report.json or a baseline file
     #[arg(value_name = "OLD")]
     old: PathBuf,
-    /// Result folder, report.json or baseline file that is compared
+    /// The results to compare with it: a result folder, a report.json or a baseline file
     #[arg(value_name = "NEW")]
     new: PathBuf,
-    /// What to print on standard output
+    /// Format of standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "text")]
     format: Format,
 }
@@ -40,7 +40,7 @@ impl Compare {
     }
 }
 
-/// Keep a run as the one to compare later ones with.
+/// Accept results as the baseline of later runs
 #[derive(Args, Debug)]
 pub struct BaselineCommand {
     #[command(subcommand)]
@@ -52,17 +52,19 @@ enum Action {
     Accept(Accept),
 }
 
-/// Take the results of a run into a baseline file, with the reason why they are right.
+/// Copy the results of a run into a baseline file, with the reason
 ///
-/// Results of scenarios that were not run stay as they are in the file, and so do earlier reasons.
+/// The file keeps its results of scenarios that were not run, and all earlier reasons.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  harness baseline accept --reason 'shooting instead of trapezoid'\n  \
-                        harness run --baseline baseline.json")]
+#[command(
+    after_help = "Examples:\n  harness baseline accept --reason 'multiple shooting replaces the trapezoid rule'\n  \
+                        harness run --baseline baseline.json"
+)]
 struct Accept {
     /// Result folder, or a report.json
     #[arg(value_name = "RESULTS", default_value = "out")]
     results: PathBuf,
-    /// Why these results are right
+    /// Why these results are accepted
     #[arg(long, value_name = "TEXT", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     reason: String,
     /// The baseline file
@@ -71,7 +73,7 @@ struct Accept {
 }
 
 impl BaselineCommand {
-    /// Does what was asked.
+    /// Executes the subcommand.
     pub fn execute(&self) -> Result<Exit, Error> {
         let Action::Accept(accept) = &self.action;
         accept.execute()

@@ -8,7 +8,7 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
-/// Print the completions of a shell.
+/// Print shell completions
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  harness completions bash > ~/.local/share/bash-completion/completions/harness\n  \
@@ -16,7 +16,7 @@ use crate::output;
                         harness completions fish > ~/.config/fish/completions/harness.fish"
 )]
 pub struct Completions {
-    /// Which shell
+    /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
@@ -31,7 +31,7 @@ impl Completions {
     }
 }
 
-/// Write man pages, one per command.
+/// Write man pages, one per command
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  harness man ~/.local/share/man/man1 && man harness-run")]
 pub struct Man {

@@ -9,18 +9,18 @@ use crate::number_format;
 use crate::output::recording::parquet;
 use crate::report::{Report, StateHashes};
 
-/// Show where two flights of one scenario first part.
+/// Find the first difference between two flights of one scenario
 ///
-/// The same scenario, planner and seed give the same flight to the last bit. If they did not, this names the first time,
-/// vehicle and number that differ. Flights are compared by their logs, which `harness run --record parquet` writes; without
-/// them by the running hashes in report.json, which tell the time to 10 s. Exit code 1 if they part.
+/// The same scenario, planner and seed give bit-identical flights. If two flights differ, this command names the first
+/// time, vehicle and quantity that differ. It compares the logs that `harness run --record parquet` writes; without them,
+/// the running hashes in report.json, which locate the difference to 10 s. The exit code is 1 if the flights differ.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Diverge {
-    /// flight.parquet, or the folder of one result
+    /// A flight.parquet, or a folder with the results of one scenario and planner
     #[arg(value_name = "A")]
     one: PathBuf,
-    /// What it is compared with
+    /// The flight to compare with it
     #[arg(value_name = "B")]
     other: PathBuf,
 }

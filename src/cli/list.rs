@@ -8,7 +8,7 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::output::report::table;
 
-/// Show the scenarios and the planners, and what each planner claims to handle.
+/// List the scenarios, the planners, and what each planner handles
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  harness list\n  harness list --tag wind\n  harness list --json | jq '.scenarios[].name'"
@@ -22,7 +22,7 @@ pub struct List {
 }
 
 impl List {
-    /// Prints both tables; files that are no scenarios are named.
+    /// Prints both tables, and the errors of invalid files.
     pub fn execute(&self) -> Result<Exit, Error> {
         let (mut good, mut bad) = (Vec::new(), Vec::new());
         for file in self.selection.files()? {
@@ -71,7 +71,7 @@ fn planner_table() -> Table {
     table
 }
 
-/// Everything that the tables show, the files, and which planners handle which scenario.
+/// The content of both tables, the files, and the planners that handle each scenario.
 fn as_json(scenarios: &[(String, Scenario)]) -> Value {
     let handled_by = |scenario: &Scenario| -> Vec<&str> {
         let fitting = planners::registry().iter().filter(|planner| (planner.unsupported_reason)(scenario).is_none());

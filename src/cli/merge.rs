@@ -2,26 +2,26 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::sweep::Shown;
+use super::sweep::ResultArgs;
 use crate::campaign::monte_carlo;
 use crate::error::{Error, Exit};
 use crate::output;
 
-/// Put the parts of a sweep together that several machines have flown.
+/// Merge the partitions of a sweep
 ///
-/// The parts must be of one sweep (scenario, planner, seed, options and version of the harness), and hold every sample
-/// once: a sample that is missing is an error, so that nothing is taken for passed that nobody has flown.
+/// All partitions must belong to one sweep: the same scenario, planner, seed, options and version of the harness. Together
+/// they must hold every sample exactly once; a missing or duplicate sample is an error.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Merge {
-    /// The tables of all parts
+    /// The tables of all partitions
     #[arg(value_name = "SWEEP.PARQUET", required = true)]
     tables: Vec<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     #[command(flatten)]
-    shown: Shown,
+    results: ResultArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -29,13 +29,13 @@ Examples:
   harness merge out/1/forest/rhc/sweep.parquet out/2/forest/rhc/sweep.parquet -o out/forest
 
 Results:
-  out/sweep.parquet, out/sweep.json    as `harness sweep` writes them";
+  out/sweep.parquet, out/sweep.json    as `harness sweep` writes them for a whole sweep";
 
 impl Merge {
-    /// Reads, writes and prints.
+    /// Merges, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
         let (sweep, samples) = monte_carlo::merge(&self.tables)?;
         output::create_folder(&self.out)?;
-        self.shown.finish(&sweep, &samples, &self.out)
+        self.results.finish(&sweep, &samples, &self.out)
     }
 }

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use scenarios::{Plan, PlanStatus};
 
-use super::run::AuthorArgs;
+use super::run::PlannerArgs;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
@@ -13,7 +13,7 @@ use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{PlanSource, PlannerOutput};
 use crate::progress::Progress;
 
-/// Plan a scenario without flying it.
+/// Plan a scenario without flying it
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct PlanCommand {
@@ -21,11 +21,11 @@ pub struct PlanCommand {
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
     #[command(flatten)]
-    plan_source: AuthorArgs,
-    /// File for the plan, .json or .csv; `-` prints JSON
+    planners: PlannerArgs,
+    /// File for the plan, .json or .csv; `-` prints JSON to standard output
     #[arg(short, long, value_name = "FILE", default_value = "plan.json")]
     output: PathBuf,
-    /// Seed of everything random in planning, instead of the scenario's own
+    /// Seed of all random numbers of the planner, in place of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Print nothing but errors
@@ -38,7 +38,7 @@ Examples:
   harness plan scenarios/fixed-wing/rendezvous-7.toml -o plan.csv
   harness plan scenarios/fixed-wing/rendezvous-7.toml -o - | jq .status
 
-`harness check SCENARIO --plan FILE` flies and judges the plan.";
+`harness check SCENARIO --plan FILE` flies and judges the plan. In-loop planners have no plan before the flight.";
 
 /// Whether the source is a plan that is none; the reason is printed.
 pub fn has_no_plan(source: &PlanSource) -> bool {
@@ -56,10 +56,10 @@ fn print_no_plan(answer: &CompletedPlan) -> bool {
 }
 
 impl PlanCommand {
-    /// Plans, and writes the plan. Without a plan the exit code is 1.
+    /// Plans, and writes the plan.
     pub fn execute(&self) -> Result<Exit, Error> {
-        self.refuse_unknown_form()?;
-        let plan_sources = self.plan_source.plan_sources()?;
+        self.check_output_format()?;
+        let plan_sources = self.planners.sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
         let in_loop = || Error::PlansInTheLoop { planner: job.plan_source.name().to_owned() };
         let mut progress = Progress::new(job, 1, 1, self.quiet);
@@ -76,8 +76,8 @@ impl PlanCommand {
         Ok(Exit::Passed)
     }
 
-    fn refuse_unknown_form(&self) -> Result<(), Error> {
-        let known = ["json", "csv"].iter().any(|form| self.output.extension().is_some_and(|ending| ending == *form));
+    fn check_output_format(&self) -> Result<(), Error> {
+        let known = ["json", "csv"].iter().any(|known| self.output.extension().is_some_and(|own| own == *known));
         if known || self.is_standard_output() { Ok(()) } else { Err(Error::PlanForm { path: self.output.clone() }) }
     }
 
@@ -92,7 +92,7 @@ impl PlanCommand {
                 _ => Err(error.into()),
             });
         }
-        let is_csv = self.output.extension().is_some_and(|ending| ending == "csv");
+        let is_csv = self.output.extension().is_some_and(|extension| extension == "csv");
         output::write_file(
             &self.output,
             |writer| if is_csv { plan.write_csv(writer) } else { plan.write_json(writer) },

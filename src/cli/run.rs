@@ -9,38 +9,38 @@ use crate::jobs;
 use crate::plan_source::PlanSource;
 use crate::plan_source::external::ExternalPlanner;
 
-/// Plan, fly, judge and record scenarios.
+/// Plan, fly, judge and record scenarios
 ///
-/// Each scenario is planned, the plan is flown in simulation by a tracking controller in the scenario's wind, and the
-/// judge measures what the planner saw at its nodes, what the plan is between them, and what was flown. A scenario passes
-/// if every deciding check does.
+/// Each scenario is planned, and a tracking controller flies the plan in simulation, with the wind, the sensor noise and the
+/// model errors of the scenario. The judge checks the plan at the planner's nodes, the plan between the nodes, and the
+/// flight. A scenario passes if all of its checks pass, except those that it declares advisory.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Run {
     #[command(flatten)]
     selection: Selection,
     #[command(flatten)]
-    plan_source: AuthorArgs,
-    /// Seed of everything random, instead of the scenario's own
+    planners: PlannerArgs,
+    /// Seed of all random numbers, in place of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     #[command(flatten)]
     session: Session,
 }
 
-/// Who plans instead of the planner that a scenario names.
+/// Planners to use in place of the one that a scenario names.
 #[derive(Args, Debug)]
-pub struct AuthorArgs {
-    /// Planner to use instead of the one that the scenario names; repeat it to run several
+pub struct PlannerArgs {
+    /// Planner to use in place of the one that the scenario names; repeat the option to run several
     #[arg(short, long = "planner", value_name = "NAME")]
     planners: Vec<String>,
-    /// Planner of your own: a program with its arguments, which reads a JSON request and writes a JSON reply
+    /// External planner: a program with its arguments, which reads a JSON request and writes a JSON reply
     #[arg(long, value_name = "COMMAND", conflicts_with = "planners")]
     planner_command: Option<String>,
-    /// Your planner flies multirotors while it plans: one JSON request per line and turn, one reply per line
+    /// The external planner plans in the loop, for multirotors: one request and one reply per line
     #[arg(long, requires = "planner_command")]
     in_loop: bool,
-    /// Time that your planner has, s [default: 60; with --in-loop 10 for each answer]
+    /// Time limit of the external planner, s [default: 60; with --in-loop 10 per reply]
     #[arg(long, value_name = "S", requires = "planner_command", value_parser = seconds)]
     time_limit: Option<f64>,
 }
@@ -48,23 +48,23 @@ pub struct AuthorArgs {
 const EXAMPLES: &str = "\
 Examples:
   harness run scenarios/fixed-wing/rendezvous-7.toml    one scenario
-  harness run -p parallel-scp --seed 3 -o out/seed-3    another planner, another seed, another folder
-  harness run --tag ci --record none -q                 verdicts only, as in continuous integration
+  harness run -p parallel-scp --seed 3 -o out/seed-3    with another planner, seed and folder
+  harness run --tag ci --record none -q                 verdicts only, for continuous integration
   harness run --name 'rendezvous-*' --baseline baseline.json
   harness run --name rendezvous-1 --planner-command 'python3 my_planner.py'
 
 Results:
-  out/<scenario>/<planner>/report.json                every check with value, limit and margin
+  out/<scenario>/<planner>/report.json                every check with its value, limit and margin
   out/<scenario>/<planner>/flight.rrd, flight.mcap    the recording
   out/<scenario>/<planner>/plan.json, plan.csv        the plan
-  out/summary.json, out/summary.md, out/junit.xml     the whole run
+  out/summary.json, out/summary.md, out/junit.xml     the summary of all results
 
-docs/outside-planners.md tells what a planner of your own reads and writes, docs/ci.md how to run this in CI.";
+docs/external-planners.md describes the protocol of external planners, docs/ci.md continuous integration.";
 
 impl Run {
-    /// Runs everything that can be run, and names what cannot.
+    /// Runs all valid jobs, and reports the others.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let plan_sources = self.plan_source.plan_sources()?;
+        let plan_sources = self.planners.sources()?;
         let files = self.selection.files()?;
         let jobs = jobs::load(&files, &plan_sources, self.seed, |scenario| self.selection.is_wanted(scenario));
         if jobs.runnable.is_empty() && jobs.rejected.is_empty() {
@@ -74,9 +74,9 @@ impl Run {
     }
 }
 
-impl AuthorArgs {
-    /// The planners that were named; none if the scenario is to name it.
-    pub fn plan_sources(&self) -> Result<Vec<PlanSource>, Error> {
+impl PlannerArgs {
+    /// The planners of the command line; empty if there are none.
+    pub fn sources(&self) -> Result<Vec<PlanSource>, Error> {
         let Some(text) = &self.planner_command else { return jobs::planners_named(&self.planners) };
         let command = shlex::split(text).filter(|words| !words.is_empty());
         let command = command.ok_or_else(|| Error::PlannerCommand { command: text.clone() })?;
@@ -91,14 +91,14 @@ impl AuthorArgs {
     }
 }
 
-/// A name for the results of a command: that of its script if there is one, else that of the program.
+/// A name for the results of a command: that of its script if there is one, otherwise that of the program.
 fn name_of(command: &[String]) -> String {
     let script = command.iter().skip(1).find(|word| !word.starts_with('-') && Path::new(word).extension().is_some());
     let stem = Path::new(script.unwrap_or(&command[0])).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     plain_name(&stem)
 }
 
-/// `text` as a name that can be a folder: letters, digits, `-` and `_`. Never that of a planner of ours.
+/// `text` as the name of a folder: letters, digits, `-` and `_`. It is never the name of a registered planner.
 pub fn plain_name(text: &str) -> String {
     let plain = text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' });
     let plain: String = plain.collect::<String>().trim_matches('-').to_owned();
@@ -107,6 +107,6 @@ pub fn plain_name(text: &str) -> String {
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
-    let value = text.parse::<f64>().map_err(|_| "a number of seconds is expected".to_owned())?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("a positive number of seconds is expected".into()) }
+    let value = text.parse::<f64>().map_err(|_| "expected a number of seconds".to_owned())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("expected a positive number of seconds".into()) }
 }

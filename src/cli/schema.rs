@@ -5,11 +5,11 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::report::Report;
 
-/// Print the JSON Schema of scenario files or of report.json.
+/// Print the JSON Schema of scenario files or of report.json
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Schema {
-    /// Of which kind of file
+    /// The kind of file
     #[arg(value_enum, default_value = "scenario")]
     kind: Kind,
 }
@@ -19,7 +19,7 @@ Examples:
   harness schema scenario > schema/scenario.json
   harness schema report > schema/report.json
 
-An editor with a TOML language server checks and completes a scenario whose first line is
+An editor with a TOML language server validates and completes scenario files whose first line is
   #:schema ../../schema/scenario.json";
 
 /// Kinds of files that have a schema.
@@ -43,7 +43,7 @@ impl Schema {
     }
 }
 
-/// The same value with the keys of every object in alphabetical order, however the JSON library was built.
+/// The same value with the keys of every object in alphabetical order, whatever features the JSON library is built with.
 fn sorted(value: Value) -> Value {
     match value {
         Value::Object(object) => {

@@ -6,22 +6,22 @@ use scenarios::Scenario;
 
 use crate::error::Error;
 
-/// Which scenarios.
+/// The selected scenarios.
 #[derive(Args, Debug)]
 pub struct Selection {
-    /// Scenario files, or folders that are searched for *.toml to the bottom
+    /// Scenario files, or folders that are searched recursively for *.toml
     #[arg(value_name = "PATH", default_value = "scenarios")]
     paths: Vec<PathBuf>,
-    /// Only scenarios with this tag; repeat it to allow several
+    /// Select scenarios with this tag; repeat the option to allow several tags
     #[arg(short, long = "tag", value_name = "TAG")]
     tags: Vec<String>,
-    /// Only scenarios whose name matches, with * and ? as in a shell; repeat it to allow several
+    /// Select scenarios whose name matches, with the wildcards * and ?; repeat the option to allow several patterns
     #[arg(short, long = "name", value_name = "GLOB")]
     names: Vec<Pattern>,
 }
 
 impl Selection {
-    /// The files, sorted; those whose names do not match are left out already.
+    /// The files whose names match, sorted.
     pub fn files(&self) -> Result<Vec<PathBuf>, Error> {
         let mut files = scenarios::find(&self.paths)?;
         let matches = |name: &str| self.names.is_empty() || self.names.iter().any(|glob| glob.matches(name));
@@ -29,12 +29,12 @@ impl Selection {
         if files.is_empty() { Err(self.nothing()) } else { Ok(files) }
     }
 
-    /// Has the scenario one of the tags?
+    /// Whether the scenario has one of the tags.
     pub fn is_wanted(&self, scenario: &Scenario) -> bool {
         self.tags.is_empty() || self.tags.iter().any(|tag| scenario.tags.contains(tag))
     }
 
-    /// Nothing is left over. A run of nothing that succeeds would be a trap.
+    /// The error if no scenario is selected: an empty run must not succeed.
     pub fn nothing(&self) -> Error {
         let words = [("--tag", self.tags.clone()), ("--name", self.names.iter().map(Pattern::to_string).collect())];
         let given = words.into_iter().flat_map(|(option, values)| {

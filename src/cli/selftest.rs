@@ -7,30 +7,30 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
 
-/// Show that the judge notices: known faults are injected into good flights, and every one has to fail.
+/// Test the judge: inject known faults into flights that pass
 ///
-/// Shipped scenarios of every family are planned and flown; then one thing at a time is made wrong in the plan, in the log
-/// of the flight, or in the limits, and the same judge judges again. Near misses, just inside a limit, have to pass. The
-/// exit code is 1 if a fault passes, a near miss fails, or a check is turned red by no fault at all.
+/// Shipped scenarios of every vehicle family are planned and flown. Then one fault at a time is injected into the plan, the
+/// flight log or the limits, and the result is judged again: the check that the fault violates must fail. Near misses, just
+/// inside a limit, must pass. The exit code is 1 if a fault is missed, a near miss fails, or no fault violates some check.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SelftestCommand {
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Print nothing but errors; the exit code and the files tell the rest
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  harness selftest             takes some ten seconds
-  harness selftest -q -o out   in continuous integration
+  harness selftest             takes about ten seconds
+  harness selftest -q -o out   for continuous integration
 
 Results:
-  out/selftest.json    every fault with the checks that it turned red
-  out/selftest.md      the same as a page";
+  out/selftest.json    every fault with the checks that failed
+  out/selftest.md      the same as a page in Markdown";
 
 impl SelftestCommand {
     /// Injects, prints and writes.

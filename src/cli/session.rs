@@ -16,7 +16,7 @@ use crate::pipeline::Outputs;
 use crate::progress::Progress;
 use crate::report::Report;
 
-/// What is written, where, and what is printed.
+/// Where results are written, in which formats, and what is printed.
 #[derive(Args, Debug)]
 pub struct Session {
     /// Folder for the results
@@ -25,25 +25,25 @@ pub struct Session {
     /// Recordings to write, separated by commas
     #[arg(long, value_name = "FORMAT", value_delimiter = ',', default_value = DEFAULT_RECORDING)]
     record: Vec<Recording>,
-    /// How to tell what the integrator may be wrong by; a margin below that decides nothing
+    /// Integration-error estimate; checks with smaller margins are undecided
     #[arg(long, value_enum, value_name = "FORM", default_value = "cheap")]
     second_integrator: SecondIntegrator,
-    /// Tell where the margins went: nodes, between the nodes, tracking, model, wind, noise; costs a flight for each
+    /// Report margin budgets: nodes, between the nodes, tracking, model errors, wind, delay, noise; one more flight for each
     #[arg(long)]
     waterfall: bool,
-    /// Write planned and flown paths as TUM files too, for evo
+    /// Write planned and flown paths also as TUM files, the format of evo
     #[arg(long)]
     tum: bool,
-    /// Compare with a baseline (or an earlier result folder); exit code 1 if anything got worse
+    /// Compare with a baseline file or an earlier result folder; the exit code is 1 if anything got worse
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
     /// Number of worker threads [default: one per core]; results do not depend on it
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// What to print on standard output
+    /// Format of standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "text")]
     format: Format,
-    /// Print nothing but errors; the exit code and the files tell the rest
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -53,22 +53,22 @@ const DEFAULT_RECORDING: &str = if cfg!(feature = "rrd") { "rrd" } else { "none"
 /// Formats of recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Recording {
-    /// For the rerun viewer
+    /// Recording for the rerun viewer
     Rrd,
-    /// With Foxglove schemas, for Foxglove and others
+    /// Recording with Foxglove schemas, for Foxglove and other viewers
     Mcap,
-    /// The whole flight log as a table, every number to its last bit
+    /// Flight log as a table, with exact numbers
     Parquet,
     /// No recording
     None,
 }
 
-/// Ways to tell what the integrator may be wrong by.
+/// Estimates of the integration error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum SecondIntegrator {
-    /// Replay the log by an integrator of order 6, in windows
+    /// Replay the log with an integrator of order 6, window by window
     Cheap,
-    /// Fly again with half and a quarter of the plant's step as well
+    /// Repeat the flight with a half and a quarter of the plant's step
     Full,
 }
 
@@ -81,9 +81,9 @@ pub enum Format {
     JsonLines,
 }
 
-/// What a session has done so far.
+/// Results so far.
 #[derive(Default)]
-struct Done {
+struct Completed {
     summary: Summary,
     reports: Vec<Report>,
     jobs: Vec<Job>,
@@ -91,7 +91,7 @@ struct Done {
 }
 
 impl Session {
-    /// Runs everything that can be run, names what cannot, and writes the summaries.
+    /// Runs all valid jobs, reports the others, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         let outputs = Outputs {
             waterfall: self.waterfall,
@@ -101,7 +101,7 @@ impl Session {
         };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
         start_threads(self.jobs)?;
-        let mut done = Done::default();
+        let mut done = Completed::default();
         for refusal in jobs.rejected {
             let refused = done.summary.refuse(&refusal);
             self.event(&Event::Refused { file: refused })?;
@@ -132,10 +132,10 @@ impl Session {
         Ok(done.report)
     }
 
-    fn finish(&self, mut done: Done, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
+    fn finish(&self, mut done: Completed, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
         let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(&done.reports), Scope::NewRunOnly));
         done.summary.worse_than_baseline = compared.as_ref().map(Comparison::worse_results);
-        let Done { summary, reports, .. } = &done;
+        let Completed { summary, reports, .. } = &done;
         let compared_page = compared.as_ref().map_or_else(String::new, comparison_table::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
@@ -158,7 +158,7 @@ impl Session {
 
     /// On GitHub, points to the lines of the scenario files. Beside a stream of JSON they go to standard error, which the
     /// runner reads too.
-    fn annotate(&self, done: &Done, compared: Option<&Comparison>) -> Result<(), Error> {
+    fn annotate(&self, done: &Completed, compared: Option<&Comparison>) -> Result<(), Error> {
         if !github::is_github_actions() {
             return Ok(());
         }
@@ -188,7 +188,7 @@ impl Session {
     }
 }
 
-/// Starts so many worker threads, where somebody asks for a number.
+/// Starts the given number of worker threads; without one, the default applies.
 pub fn start_threads(jobs: Option<u16>) -> Result<(), Error> {
     let Some(jobs) = jobs.map(usize::from) else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);

@@ -5,7 +5,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::plan::has_no_plan;
-use super::run::AuthorArgs;
+use super::run::PlannerArgs;
 use super::session::start_threads;
 use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
 use crate::console;
@@ -16,12 +16,12 @@ use crate::pipeline;
 use crate::plan_source::PlanSource;
 use crate::progress::Progress;
 
-/// Fly one plan in many worlds that are drawn: wind, mass, noise, start.
+/// Fly one plan many times under random perturbations (Monte Carlo)
 ///
-/// The scenario is planned once (a planner in the loop plans in every flight anew), and the plan is flown in worlds drawn
-/// about the scenario's. With none of --wind, --mass, --noise and --start something usual is drawn of each; with some of
-/// them the others stay as the scenario has them. Every sample has a seed of its own, and gives the same flight on any
-/// machine. The exit code is 1 if fewer pass than asked for.
+/// The scenario is planned once, and the plan is flown in randomly perturbed worlds; in-loop planners plan anew in every
+/// flight. Without any of --wind, --mass, --noise and --start, all four are perturbed by typical amounts; with some of them,
+/// the others stay as in the scenario. Every sample has its own seed, and gives the same flight on any machine. The exit
+/// code is 1 if fewer samples pass than --at-least demands.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SweepCommand {
@@ -32,49 +32,49 @@ pub struct SweepCommand {
     #[arg(short = 'n', long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     samples: u32,
     #[command(flatten)]
-    dispersions: SpreadArgs,
-    /// Fly only part K of N parts: one for each machine, for `harness merge`
+    dispersions: DispersionArgs,
+    /// Fly only the K-th of N partitions, to distribute the samples over N machines; see `harness merge`
     #[arg(long, value_name = "K/N", value_parser = partition)]
     partition: Option<Partition>,
     #[command(flatten)]
-    plan_source: AuthorArgs,
-    /// Seed of the first sample, instead of the scenario's own; of each next one it is one more
+    planners: PlannerArgs,
+    /// Seed of the first sample, in place of the scenario's; it grows by one from sample to sample
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
     #[command(flatten)]
-    shown: Shown,
+    results: ResultArgs,
     /// Number of worker threads [default: one per core]; results do not depend on it
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 }
 
-/// How far the worlds are drawn.
+/// Magnitudes of the perturbations.
 #[derive(Args, Debug)]
-struct SpreadArgs {
-    /// A wind of up to this speed, in any direction, is added to the scenario's, m/s
+struct DispersionArgs {
+    /// Largest speed of a random mean wind that is added to the scenario's, in any horizontal direction, m/s
     #[arg(long, value_name = "M/S", value_parser = not_negative)]
     wind: Option<f64>,
-    /// True masses are up to this far off to either side, %
+    /// Largest deviation of the true masses, to either side, %
     #[arg(long, value_name = "%", value_parser = percent)]
     mass: Option<f64>,
-    /// Standard deviation of the measured position is up to this, m; other noise grows with it
+    /// Largest standard deviation of the measured position, m; other sensor noise grows with it
     #[arg(long, value_name = "M", value_parser = not_negative)]
     noise: Option<f64>,
-    /// Vehicles start up to this far from where they should, horizontally, m
+    /// Largest horizontal distance of a vehicle from its start, m
     #[arg(long, value_name = "M", value_parser = not_negative)]
     start: Option<f64>,
 }
 
-/// What is asked of the samples, and what is printed.
+/// The required pass rate, and what is printed.
 #[derive(Args, Debug)]
-pub struct Shown {
-    /// So many have to pass, %
+pub struct ResultArgs {
+    /// Required pass rate, %
     #[arg(long, value_name = "%", default_value = "100", value_parser = percent)]
     at_least: f64,
-    /// Print nothing but errors; the files tell the rest
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -83,25 +83,25 @@ const EXAMPLES: &str = "\
 Examples:
   harness sweep scenarios/fixed-wing/rendezvous-7.toml --samples 200
   harness sweep scenarios/slung/rectangle-wind.toml -n 500 --wind 2 --mass 5 --at-least 95
-  harness sweep scenarios/multirotor/forest.toml -n 1000 --partition 1/4 -o out/1    on the first of four machines
+  harness sweep scenarios/multirotor/forest.toml -n 1000 --partition 1/4 -o out/1    the first of four machines
   harness merge out/*/forest/rhc/sweep.parquet -o out/forest
 
 Results:
-  out/<scenario>/<planner>/sweep.parquet          one row per sample: what was drawn, the verdict, every margin
-  out/<scenario>/<planner>/sweep.json             how many passed, and the margins' quantiles
-  out/<scenario>/<planner>/worst/<scenario>.toml  the sample that failed most, as a scenario
-  out/<scenario>/<planner>/plan.json              the plan that was flown
+  out/<scenario>/<planner>/sweep.parquet          one row per sample: perturbation, verdict, the margin of every check
+  out/<scenario>/<planner>/sweep.json             the pass rate with its 95 % confidence interval, quantiles of the margins
+  out/<scenario>/<planner>/worst/<scenario>.toml  the scenario of the sample with the most failed checks
+  out/<scenario>/<planner>/plan.json              the plan
 
-`harness check worst/<scenario>.toml --plan plan.json` flies the worst sample again and records it; of a planner in the
-loop `harness run worst/<scenario>.toml` does.";
+`harness check worst/<scenario>.toml --plan plan.json` repeats and records the worst sample; for an in-loop planner,
+`harness run worst/<scenario>.toml` does.";
 
 impl SweepCommand {
     /// Plans, flies, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
         start_threads(self.jobs)?;
-        let plan_sources = self.plan_source.plan_sources()?;
+        let plan_sources = self.planners.sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
-        let mut progress = Progress::new(job, 1, 1, self.shown.quiet);
+        let mut progress = Progress::new(job, 1, 1, self.results.quiet);
         let system = &pipeline::plan_once(job, &mut progress);
         if has_no_plan(system) {
             progress.finish();
@@ -116,9 +116,9 @@ impl SweepCommand {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
         }
         let worst = write_worst(&experiment, &sweep, &samples, &folder)?;
-        let exit = self.shown.finish(&sweep, &samples, &folder)?;
-        if let Some(number) = worst.filter(|_| !self.shown.quiet) {
-            console::print(&format!("sample {number} failed most; its scenario stands in worst/"))?;
+        let exit = self.results.finish(&sweep, &samples, &folder)?;
+        if let Some(number) = worst.filter(|_| !self.results.quiet) {
+            console::print(&format!("sample {number} failed the most checks; its scenario is in worst/"))?;
         }
         Ok(exit)
     }
@@ -141,7 +141,7 @@ impl SweepCommand {
     }
 }
 
-impl SpreadArgs {
+impl DispersionArgs {
     fn about(&self, job: &Job) -> Dispersions {
         let Self { wind, mass, noise, start } = *self;
         if [wind, mass, noise, start].iter().all(Option::is_none) {
@@ -156,35 +156,34 @@ impl SpreadArgs {
     }
 }
 
-impl Shown {
-    /// Writes what there is, prints it, and decides.
+impl ResultArgs {
+    /// Writes and prints the results. An empty partition passes.
     pub fn finish(&self, sweep: &Sweep, samples: &[Sample], folder: &Path) -> Result<Exit, Error> {
         #[derive(Serialize)]
-        struct Whole<'a> {
+        struct SweepJson<'a> {
             #[serde(flatten)]
             sweep: &'a Sweep,
             statistics: &'a Statistics,
         }
         let statistics = Statistics::of(sweep, samples);
         table::write(sweep, samples, &folder.join("sweep.parquet"))?;
-        output::write_json(&folder.join("sweep.json"), &Whole { sweep, statistics: &statistics })?;
+        output::write_json(&folder.join("sweep.json"), &SweepJson { sweep, statistics: &statistics })?;
         if !self.quiet {
-            match samples.is_empty() {
-                true => console::print("this partition has no samples; merge its table with the others'")?,
-                false => console::print(&monte_carlo::text(sweep, &statistics))?,
+            match samples {
+                [] => console::print("this partition has no samples; `harness merge` takes its table all the same")?,
+                _ => console::print(&monte_carlo::text(sweep, &statistics))?,
             }
             console::print(&format!("results in {}", folder.display()))?;
         }
-        if samples.is_empty() && sweep.samples > 0 {
-            return Ok(Exit::Passed);
-        }
-        // Written so that a sweep of nothing has not passed.
-        let share = 100.0 * statistics.passed as f64 / statistics.samples as f64;
-        Ok(if share >= self.at_least { Exit::Passed } else { Exit::Failed })
+        let has_passed = match samples {
+            [] => true,
+            _ => 100.0 * statistics.passed as f64 / statistics.samples as f64 >= self.at_least,
+        };
+        Ok(if has_passed { Exit::Passed } else { Exit::Failed })
     }
 }
 
-/// The worst sample as a scenario, and its number, or the removal of that of an earlier sweep.
+/// Writes the scenario of the worst sample and returns its number; if all passed, removes that of an earlier sweep.
 fn write_worst(
     experiment: &Experiment<'_>,
     sweep: &Sweep,
@@ -197,7 +196,7 @@ fn write_worst(
     output::create_folder(&folder)?;
     let (scenario, _) = experiment.scenario_of(&sweep.dispersions, number);
     output::replace_file(&path, |partial| {
-        let text = format!("# Sample {number} of a sweep about {}.\n{}", scenario.name, toml::to_string(&scenario)?);
+        let text = format!("# Sample {number} of a sweep of {}.\n{}", scenario.name, toml::to_string(&scenario)?);
         Ok(std::fs::write(partial, text)?)
     })?;
     Ok(Some(number))
@@ -207,17 +206,23 @@ fn partition(text: &str) -> Result<Partition, String> {
     let numbers = text.split_once('/').and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
     match numbers {
         Some((part, parts)) if 1 <= part && part <= parts => Ok(Partition { part, parts }),
-        _ => Err("expected the part and the number of parts, from `1/4` to `4/4` for four machines".to_owned()),
+        _ => Err(
+            "expected the number of the partition and the number of partitions, from `1/4` to `4/4` for four machines"
+                .to_owned(),
+        ),
     }
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
     let value = text.parse::<f64>().ok().filter(|value| value.is_finite() && *value >= 0.0);
-    value.ok_or_else(|| "expected a number that is not negative".to_owned())
+    value.ok_or_else(|| "expected a number >= 0".to_owned())
 }
 
 fn percent(text: &str) -> Result<f64, String> {
-    not_negative(text).ok().filter(|value| *value <= 100.0).ok_or_else(|| "expected 0 to 100, in %".to_owned())
+    not_negative(text)
+        .ok()
+        .filter(|value| *value <= 100.0)
+        .ok_or_else(|| "expected a percentage from 0 to 100".to_owned())
 }
 
 #[cfg(test)]
@@ -225,7 +230,7 @@ mod tests {
     use super::{Partition, partition, percent};
 
     #[test]
-    fn parts_and_shares_are_read_and_nonsense_is_refused() {
+    fn partitions_and_percentages_are_parsed_and_invalid_ones_rejected() {
         assert_eq!(partition("2/3"), Ok(Partition { part: 2, parts: 3 }));
         assert!(["0/3", "4/3", "2", "2/", "a/b", "-1/2", "1/0"].iter().all(|text| partition(text).is_err()));
         assert_eq!(percent("95"), Ok(95.0));

@@ -1,13 +1,12 @@
-//! Planners outside the harness: a command that reads a question from its standard input and writes its answer to its
-//! standard output.
+//! External planners: a command that reads a request from its standard input and writes a reply to its standard output.
 //!
 //! ```text
 //! Scenario -> request (JSON) -> | stdin  command  stdout | -> reply (JSON) -> Plan
 //!                                        stderr -> planner.log
 //! ```
 //!
-//! Whatever the command does, the result is a plan or a reason why there is none: a crash, a hang, a reply that makes no
-//! sense are findings about that planner, and other scenarios go on.
+//! Whatever the command does, the result is a plan, or no plan with a reason: a crash, a timeout and an invalid reply are
+//! findings about that planner.
 
 pub(crate) mod group;
 mod in_loop;
@@ -24,10 +23,10 @@ use self::in_loop::ExternalSession;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{Guidance, PlannerOutput};
 
-/// Version of request and reply.
+/// Version of the protocol.
 pub const PROTOCOL: u64 = 1;
-/// Time that a planner has if nobody says, s.
-const TIME_LIMIT_S: f64 = 60.0;
+/// Default time limit of a plan, s.
+const DEFAULT_TIME_LIMIT_S: f64 = 60.0;
 
 /// A command that plans.
 #[derive(Clone, Debug)]
@@ -36,11 +35,11 @@ pub struct ExternalPlanner {
     pub name: String,
     /// Program and arguments.
     pub command: Vec<String>,
-    /// Folder in which it is started.
+    /// Working directory of the command.
     pub folder: PathBuf,
-    /// Time that it has, s. [default: 60; in the loop 10, for each answer]
+    /// Time limit, s. [default: 60; for in-loop planners 10 per reply]
     pub time_limit_s: Option<f64>,
-    /// Does it plan in the loop?
+    /// Whether it plans in the loop.
     pub in_loop: bool,
 }
 
@@ -68,7 +67,7 @@ impl ExternalPlanner {
 
     /// Requests a plan, and waits until the time limit.
     fn plan(&self, scenario: &Scenario, seed: u64) -> ExternalAnswer {
-        let time_limit_s = self.time_limit_s.unwrap_or(TIME_LIMIT_S);
+        let time_limit_s = self.time_limit_s.unwrap_or(DEFAULT_TIME_LIMIT_S);
         let request = request::document(scenario, seed, time_limit_s);
         let time_limit = Duration::try_from_secs_f64(time_limit_s).unwrap_or(Duration::MAX);
         let ended = process::run(&self.command, &self.folder, request.to_string().into_bytes(), time_limit);

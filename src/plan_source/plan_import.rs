@@ -1,10 +1,9 @@
-//! Plans that were made elsewhere, made whole: a plan that gives only positions, or only states, gets the velocities and
-//! controls that go with them.
+//! Completion of imported plans: a plan that gives positions only, or states only, gets velocities and controls.
 //!
 //! For the fixed-wing point mass the position is a flat output: velocity, speed, heading and flight-path angle follow
-//! from its first derivative, the load factors from its second. `velocities` differentiates once by a spline; `controls`
-//! takes the second derivative as a first guess and then fits load factors to the nodes through the simulator's own
-//! equations, so that what is left over is known. A quadrotor with a load has to be given whole.
+//! from its first derivative, the load factors from its second. `velocities` differentiates a spline; `controls` takes the
+//! second derivative as the initial guess of a fit of the load factors to the nodes by the simulator's equations of motion,
+//! whose residual is known. Plans of other families must be complete.
 
 mod controls;
 mod velocities;
@@ -15,17 +14,17 @@ use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Vehicle};
 
 use crate::verdict::{Provenance, Reconstruction};
 
-/// A plan, and what of it is its plan_source's.
+/// A complete plan, and what of it was reconstructed.
 #[derive(Clone, Debug)]
 pub struct CompletedPlan {
-    /// The plan, whole.
+    /// The complete plan.
     pub plan: Plan,
-    /// What had to be reconstructed.
+    /// What was reconstructed.
     pub provenance: Provenance,
 }
 
 impl CompletedPlan {
-    /// A plan that was whole from the beginning.
+    /// A plan that was complete.
     pub fn whole(plan: Plan) -> Self {
         Self { plan, provenance: Provenance::whole() }
     }
@@ -48,8 +47,8 @@ pub fn complete(
         match track {
             ImportedTrajectory::Complete(trajectory) => trajectories.push(trajectory),
             ImportedTrajectory::Partial(track) => {
-                let (trajectory, own) = whole_trajectory(vehicle, track);
-                reconstruction = worse(reconstruction, own);
+                let (trajectory, own) = complete_trajectory(vehicle, track);
+                reconstruction = larger_errors(reconstruction, own);
                 trajectories.push(trajectory.into());
             }
         }
@@ -66,7 +65,7 @@ pub fn complete(
     CompletedPlan { plan, provenance: Provenance { reconstruction } }
 }
 
-fn whole_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajectory, Option<Reconstruction>) {
+fn complete_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajectory, Option<Reconstruction>) {
     let PartialTrajectory { vehicle: name, times_s, positions_m, states, controls } = track;
     let velocities_missing = states.is_none();
     let states: Vec<State> = states.unwrap_or_else(|| {
@@ -76,21 +75,21 @@ fn whole_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajectory,
     let (controls, reconstruction) = match controls {
         Some(controls) if !velocities_missing => (controls, None),
         Some(controls) => {
-            let left = controls::left_over(&times_s, &states, &controls);
-            (controls, Some(left))
+            let residual = controls::residual(&times_s, &states, &controls);
+            (controls, Some(residual))
         }
         None => {
-            let (controls, left) = controls::fit(&times_s, &states);
-            (controls, Some(left))
+            let (controls, residual) = controls::fit(&times_s, &states);
+            (controls, Some(residual))
         }
     };
-    let reconstruction = reconstruction.map(|left| Reconstruction { velocities: velocities_missing, ..left });
+    let reconstruction = reconstruction.map(|residual| Reconstruction { velocities: velocities_missing, ..residual });
     let interpolation = Interpolation::FirstOrderHold;
     (Trajectory { vehicle: name, interpolation, times_s, states, controls }, reconstruction)
 }
 
-/// The larger errors of two vehicles. NaN is worse than anything.
-fn worse(a: Option<Reconstruction>, b: Option<Reconstruction>) -> Option<Reconstruction> {
+/// The larger errors of two vehicles. NaN counts as larger than any number.
+fn larger_errors(a: Option<Reconstruction>, b: Option<Reconstruction>) -> Option<Reconstruction> {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
     match (a, b) {
         (Some(a), Some(b)) => Some(Reconstruction {

@@ -4,10 +4,10 @@ mod benchmarks;
 mod checking;
 mod comparing;
 mod edge_cases;
+mod external;
 mod in_ci;
 mod listing;
 mod machine_faults;
-mod outside;
 mod planning;
 #[cfg(feature = "mcap")]
 mod recordings;

@@ -1,19 +1,9 @@
-//! The MCAP recording, read back by somebody else's library.
+//! The MCAP recording, read back by an independent library.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::workplace::{PAIR, Workplace, code, stderr};
-
-/// Is there a Python with these modules? If not, says that a test is left out.
-fn has_python(modules: &str) -> bool {
-    let import = format!("import {modules}");
-    let found = Command::new("python3").args(["-c", &import]).output().is_ok_and(|out| out.status.success());
-    if !found {
-        eprintln!("left out: there is no python3 with {modules}");
-    }
-    found
-}
+use crate::workplace::{PAIR, Workplace, code, has_python, stderr};
 
 /// Runs the scenario in `file` and has the reader check its recording.
 fn check(workplace: &Workplace, file: &str, recording: &str) {

@@ -9,7 +9,7 @@ fn pair() -> Workplace {
 const FOLDER: &str = "pair/parallel-scp";
 
 #[test]
-fn parts_of_several_machines_are_the_sweep_of_one() {
+fn merged_partitions_are_the_sweep_of_one_machine() {
     let workplace = pair();
     let sweep = |more: &[&str]| {
         let output = workplace.harness(&[&["sweep", "pair.toml", "-n", "7", "--seed", "5"], more].concat());
@@ -29,12 +29,12 @@ fn parts_of_several_machines_are_the_sweep_of_one() {
 
     let output = workplace.harness(&["merge", parts[0], "-o", "half"]);
     assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("4 of 7 samples are missing, 0 first"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("4 of 7 samples are missing; the first is sample 0"), "{}", stderr(&output));
     assert!(!workplace.path("half/sweep.json").exists());
 }
 
 #[test]
-fn the_worst_sample_can_be_flown_again_alone() {
+fn the_worst_sample_can_be_repeated_alone() {
     let workplace = pair();
     let output = workplace.harness(&["sweep", "pair.toml", "-n", "1", "--start", "40", "--wind", "3", "--mass", "2"]);
     assert_eq!(code(&output), 1, "{}", stderr(&output));
@@ -44,7 +44,7 @@ fn the_worst_sample_can_be_flown_again_alone() {
     assert_eq!(code(&output), 1, "{}", stderr(&output));
     let report = workplace.json("again/pair/plan/report.json");
     let mut compared = 0;
-    for check in sweep["statistics"]["checks"].as_array().unwrap() {
+    for check in sweep["statistics"]["checks"].as_array().unwrap().iter().filter(|check| !check["margins"].is_null()) {
         let flown = report["checks"].as_array().unwrap().iter().find(|flown| flown["name"] == check["name"]).unwrap();
         if check["unit"] == flown["unit"] {
             assert_eq!(check["margins"][0], flown["margin"], "{check}");
@@ -57,17 +57,17 @@ fn the_worst_sample_can_be_flown_again_alone() {
 }
 
 #[test]
-fn nothing_that_differs_is_nothing_that_fails() {
+fn a_sweep_without_perturbations_passes() {
     let workplace = pair();
     let output = workplace.harness(&["sweep", "pair.toml", "-n", "2", "--wind", "0"]);
     let said = stdout(&output);
     assert_eq!(code(&output), 0, "{said}{}", stderr(&output));
-    assert!(said.contains("only the seed differs") && said.contains("passed 2 of 2, 100.0 %"), "{said}");
+    assert!(said.contains("no perturbation but the seed") && said.contains("passed 2 of 2, 100.0 %"), "{said}");
     assert!(!workplace.path(format!("out/{FOLDER}/worst/pair.toml")).exists());
 }
 
 #[test]
-fn nonsense_is_refused() {
+fn invalid_arguments_are_errors() {
     let workplace = pair();
     let none: [&[&str]; 5] = [
         &["-n", "0"],
@@ -80,4 +80,36 @@ fn nonsense_is_refused() {
         let output = workplace.harness(&[&["sweep", "pair.toml"], arguments].concat());
         assert_eq!(code(&output), 2, "{arguments:?}: {}", stdout(&output));
     }
+}
+
+#[test]
+fn an_empty_partition_passes_and_can_be_merged() {
+    let workplace = pair();
+    for part in ["1/3", "2/3", "3/3"] {
+        let output =
+            workplace.harness(&["sweep", "pair.toml", "-n", "2", "--wind", "0", "--partition", part, "-o", part]);
+        assert_eq!(code(&output), 0, "{part}: {}{}", stdout(&output), stderr(&output));
+        assert_eq!(stdout(&output).contains("this partition has no samples"), part == "3/3", "{}", stdout(&output));
+    }
+    let tables = ["1/3", "2/3", "3/3"].map(|part| format!("{part}/{FOLDER}/sweep.parquet"));
+    let output = workplace.harness(&["merge", &tables[0], &tables[1], &tables[2], "-o", "merged", "-q"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(workplace.json("merged/sweep.json")["statistics"]["passed"], 2);
+}
+
+/// The unit of the margin of state limits is that of the decisive quantity, which differs from sample to sample.
+#[test]
+fn every_failed_check_has_its_margin_and_its_unit() {
+    let workplace =
+        Workplace::new(&[("pair.toml", &shooting_pair().replace("speed_mps = [22, 50]", "speed_mps = [29.9, 40.1]"))]);
+    let output = workplace.harness(&["sweep", "pair.toml", "-n", "6", "--wind", "12", "--mass", "10"]);
+    assert_eq!(code(&output), 1, "{}{}", stdout(&output), stderr(&output));
+    let sweep = workplace.json(&format!("out/{FOLDER}/sweep.json"));
+    let checks = sweep["statistics"]["checks"].as_array().unwrap();
+    let limits: Vec<_> = checks.iter().filter(|check| check["name"] == "flight.state_limits").collect();
+    assert!(limits.iter().any(|check| check["red"].as_u64() > Some(0)), "{checks:?}");
+    for check in limits {
+        assert!(check["margins"].is_array() && check["unit"] != "-" && check["worst"].is_u64(), "{check}");
+    }
+    assert!(stdout(&output).contains("flight.state_limits"), "{}", stdout(&output));
 }

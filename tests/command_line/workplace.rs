@@ -1,18 +1,19 @@
 //! A folder of its own for a test, and the command run in it.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// The smallest fleet; valid and quickly planned.
+/// The smallest fleet. It is planned quickly.
 pub const PAIR: &str = include_str!("../scenarios/pair.toml");
 
-/// [`PAIR`], planned by multiple shooting: its nodes are those of a motion. (Those of the trapezoid rule are not quite.)
+/// [`PAIR`], planned by multiple shooting: its nodes satisfy the equations of motion, unlike those of the trapezoid rule.
 pub fn shooting_pair() -> String {
     PAIR.replace("intervals = 20", "intervals = 20\ntranscription = \"shooting\"")
 }
 
-/// A temporary folder with scenario files in it; it goes when this is dropped.
+/// A temporary folder with scenario files, which is removed on drop.
 pub struct Workplace {
     folder: tempfile::TempDir,
 }
@@ -37,7 +38,7 @@ impl Workplace {
     /// Runs `harness` in the folder.
     pub fn harness(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_harness"));
-        // the tests may themselves run in a workflow, whose summary is none of theirs
+        // The tests may run in a workflow, whose summary they must not touch.
         command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
         command.current_dir(self.folder.path()).args(arguments).output().unwrap()
     }
@@ -71,4 +72,20 @@ pub fn stderr(output: &Output) -> String {
 /// Exit code.
 pub fn code(output: &Output) -> i32 {
     output.status.code().expect("the command was not killed")
+}
+
+/// Whether there is a Python with these modules. Without it a test is skipped with a line on standard error; where the
+/// environment variable `CI` is set, it fails.
+#[track_caller]
+pub fn has_python(modules: &str) -> bool {
+    let import = format!("import {modules}");
+    let found = Command::new("python3").args(["-c", &import]).output().is_ok_and(|output| output.status.success());
+    assert!(found || std::env::var_os("CI").is_none(), "python3 needs the modules {modules}");
+    if !found {
+        // Not `eprintln!`, which the test runner captures.
+        let caller = std::panic::Location::caller();
+        let mut standard_error = std::io::stderr();
+        writeln!(standard_error, "SKIPPED {caller}: python3 needs the modules {modules}").unwrap();
+    }
+    found
 }

@@ -16,13 +16,13 @@ pub struct TypicalDisturbances {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Disturbance {
-    /// Speed of the mean wind, in the scenario's direction, or towards east; gusts and pulses grow with it
+    /// Speed of the mean wind, m/s, in the direction of the scenario's wind, or towards east; gusts and pulses grow with it
     Wind,
-    /// True mass above the nominal one, as a fraction of it; of a slung load too
+    /// True mass above the nominal one, as a fraction of it; that of a slung load as well
     Mass,
-    /// Delay of the measurements that the tracker receives, in whole simulator steps
+    /// Delay of the measurements that the tracking controller receives, s, in whole simulator steps
     Delay,
-    /// Standard deviation of the measured position; all other noise, that of obstacle measurements included, grows with it
+    /// Standard deviation of the measured position, m; all other sensor noise grows with it, that of obstacles included
     Noise,
 }
 
@@ -84,20 +84,20 @@ impl Disturbance {
 
     /// Sets the level in a scenario.
     pub fn set(self, scenario: &mut Scenario, level: f64) {
-        let simulation = &mut scenario.simulation;
         match self {
             Self::Wind => {
-                let asked = simulation.wind.take();
-                simulation.wind = (level > 0.0).then(|| blowing(asked, level));
+                let asked = scenario.simulation.wind.take();
+                scenario.simulation.wind = (level > 0.0).then(|| scaled(asked, level));
             }
             Self::Mass => {
-                simulation.mismatch.mass_ratio = 1.0 + level;
-                simulation.mismatch.load_mass_ratio = 1.0 + level;
+                let mismatch = &mut scenario.simulation.mismatch;
+                (mismatch.mass_ratio, mismatch.load_mass_ratio) = (1.0 + level, 1.0 + level);
             }
-            Self::Delay => simulation.sensors.delay_s = level,
+            Self::Delay => scenario.simulation.sensors.delay_s = level,
             Self::Noise => {
-                let sensors = &mut simulation.sensors;
-                let factor = if sensors.position_noise_m > 0.0 { level / sensors.position_noise_m } else { 0.0 };
+                let reference_m = Self::reference_noise_m(scenario);
+                let sensors = &mut scenario.simulation.sensors;
+                let factor = level / reference_m;
                 sensors.position_noise_m = level;
                 for other in [
                     &mut sensors.velocity_noise_mps,
@@ -115,9 +115,18 @@ impl Disturbance {
     }
 }
 
-/// A wind of this speed, m/s: the one that was asked for, with everything in it as much stronger as its mean is; one without a
-/// mean but with pulses grows by its largest pulse; without a direction of its own it blows towards east.
-fn blowing(asked: Option<Wind>, speed_mps: f64) -> Wind {
+impl Disturbance {
+    /// The noise of the measured position to which the scenario's other noise belongs, m: the scenario's, or the typical one
+    /// of the family if the scenario has exact positions.
+    fn reference_noise_m(scenario: &Scenario) -> f64 {
+        let own_m = scenario.simulation.sensors.position_noise_m;
+        if own_m > 0.0 { own_m } else { Self::Noise.first_step(scenario) }
+    }
+}
+
+/// The scenario's wind, scaled so that its mean has this speed, m/s. A wind without a mean is scaled by its strongest pulse;
+/// a wind without either, or none, becomes a mean wind towards east.
+fn scaled(asked: Option<Wind>, speed_mps: f64) -> Wind {
     let mut wind = asked.unwrap_or(Wind { mean_mps: [0.0; 3], gusts: None, pulses: Vec::new() });
     let now_mps = mean_speed_mps(&wind);
     if now_mps == 0.0 {
@@ -134,9 +143,46 @@ fn blowing(asked: Option<Wind>, speed_mps: f64) -> Wind {
     wind
 }
 
-/// Speed of the mean wind; of one that only blows in pulses, of the strongest, m/s.
+/// Speed of the mean wind, m/s; without a mean wind, that of the strongest pulse.
 fn mean_speed_mps(wind: &Wind) -> f64 {
     let speed = |velocity: &[f64; 3]| velocity.iter().map(|component| component * component).sum::<f64>().sqrt();
     let mean_mps = speed(&wind.mean_mps);
     if mean_mps > 0.0 { mean_mps } else { wind.pulses.iter().map(|pulse| speed(&pulse.peak_mps)).fold(0.0, f64::max) }
+}
+
+#[cfg(test)]
+mod tests {
+    use scenarios::Scenario;
+
+    use super::Disturbance;
+
+    fn scenario() -> Scenario {
+        let text = include_str!("../../../scenarios/multirotor/corridor-moving.toml");
+        let mut scenario = scenarios::parse("corridor-moving.toml", text).unwrap();
+        scenario.simulation.sensors.sighting_position_noise_m = 0.1;
+        scenario
+    }
+
+    #[test]
+    fn noise_of_obstacle_measurements_grows_with_that_of_the_position() {
+        let mut scenario = scenario();
+        scenario.simulation.sensors.position_noise_m = 0.02;
+        Disturbance::Noise.set(&mut scenario, 0.06);
+        let sensors = &scenario.simulation.sensors;
+        assert_eq!(sensors.position_noise_m, 0.06);
+        assert!((sensors.sighting_position_noise_m - 0.3).abs() < 1e-12, "{sensors:?}");
+    }
+
+    #[test]
+    fn noise_of_obstacle_measurements_alone_grows_from_its_typical_level() {
+        let mut scenario = scenario();
+        scenario.simulation.sensors.position_noise_m = 0.0;
+        let typical_m = Disturbance::Noise.first_step(&scenario);
+        Disturbance::Noise.set(&mut scenario, 3.0 * typical_m);
+        assert!((scenario.simulation.sensors.sighting_position_noise_m - 0.3).abs() < 1e-12);
+        let mut exact = self::scenario();
+        exact.simulation.sensors.position_noise_m = 0.0;
+        Disturbance::Noise.set(&mut exact, 0.0);
+        assert_eq!(exact.simulation.sensors.sighting_position_noise_m, 0.0, "level 0 is without noise");
+    }
 }

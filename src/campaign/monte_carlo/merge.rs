@@ -1,31 +1,35 @@
-//! The samples of several machines become one sweep.
+//! Merges the partitions of a sweep.
 
 use std::path::{Path, PathBuf};
 
 use super::{Sample, Sweep, table};
 use crate::error::Error;
 
-/// Reads the tables in `paths`, which must hold every sample of one sweep, once each. Returns them in the order of their
-/// numbers.
+/// Merges the tables in `paths`, which must hold every sample of one sweep exactly once. Returns the samples in the order of
+/// their numbers.
+///
+/// # Errors
+///
+/// [`Error::Samples`] if a file is not a table of samples, belongs to another sweep, or samples are missing or duplicate.
 pub fn merge(paths: &[PathBuf]) -> Result<(Sweep, Vec<Sample>), Error> {
     let mut merged: Option<(Sweep, Vec<(Sample, &Path)>)> = None;
     for path in paths {
         let (sweep, samples) = table::read(path)?;
-        let refuse = |reason: String| Error::Samples { path: path.clone(), reason };
+        let error = |reason: String| Error::Samples { path: path.clone(), reason };
         let (first, all) = merged.get_or_insert_with(|| (sweep.clone(), Vec::new()));
-        if let Some(what) = difference(first, &sweep) {
-            return Err(refuse(format!("another {what} than in {}", paths[0].display())));
+        if let Some(property) = difference(first, &sweep) {
+            return Err(error(format!("{property} differs from {}", paths[0].display())));
         }
         if let Some(sample) = samples.iter().find(|sample| sample.margins.len() != sweep.checks.len()) {
-            return Err(refuse(format!("sample {} has not as many margins as there are checks", sample.number)));
+            return Err(error(format!("sample {} has more or fewer margins than there are checks", sample.number)));
         }
         all.extend(samples.into_iter().map(|sample| (sample, path.as_path())));
     }
-    let (sweep, mut all) = merged
-        .ok_or_else(|| Error::Samples { path: PathBuf::new(), reason: "there is nothing to merge".to_owned() })?;
+    let (sweep, mut all) =
+        merged.ok_or_else(|| Error::Samples { path: PathBuf::new(), reason: "no table to merge".to_owned() })?;
     all.sort_by_key(|(sample, _)| sample.number);
     if let Some(twice) = all.windows(2).find(|pair| pair[0].0.number == pair[1].0.number) {
-        let reason = format!("sample {} stands in {} too", twice[0].0.number, twice[0].1.display());
+        let reason = format!("sample {} is also in {}", twice[0].0.number, twice[0].1.display());
         return Err(Error::Samples { path: twice[1].1.to_path_buf(), reason });
     }
     let samples: Vec<Sample> = all.into_iter().map(|(sample, _)| sample).collect();
@@ -33,11 +37,11 @@ pub fn merge(paths: &[PathBuf]) -> Result<(Sweep, Vec<Sample>), Error> {
     Ok((sweep, samples))
 }
 
-/// What two sweeps differ in, if they do.
+/// The first property in which two sweeps differ.
 fn difference(one: &Sweep, other: &Sweep) -> Option<&'static str> {
     [
-        ("form of results", one.schema != other.schema),
-        ("version of the harness", one.version != other.version),
+        ("format version", one.schema != other.schema),
+        ("harness version", one.version != other.version),
         ("scenario", one.scenario != other.scenario),
         ("planner", one.planner != other.planner),
         ("seed", one.seed != other.seed),
@@ -46,12 +50,12 @@ fn difference(one: &Sweep, other: &Sweep) -> Option<&'static str> {
         ("list of checks", one.checks != other.checks),
     ]
     .into_iter()
-    .find_map(|(what, differs)| differs.then_some(what))
+    .find_map(|(property, differs)| differs.then_some(property))
 }
 
 fn complete(sweep: &Sweep, samples: &[Sample]) -> Result<(), String> {
-    if let Some(odd) = samples.iter().find(|sample| sample.number >= sweep.samples) {
-        return Err(format!("there is a sample {} in a sweep of {}", odd.number, sweep.samples));
+    if let Some(invalid) = samples.iter().find(|sample| sample.number >= sweep.samples) {
+        return Err(format!("sample {} is out of range: the sweep has {} samples", invalid.number, sweep.samples));
     }
     let missing = sweep.samples - samples.len();
     let first = (0..).zip(samples).find(|(number, sample)| *number != sample.number);
@@ -59,7 +63,7 @@ fn complete(sweep: &Sweep, samples: &[Sample]) -> Result<(), String> {
     if missing == 0 {
         Ok(())
     } else {
-        Err(format!("{missing} of {} samples are missing, {number} first", sweep.samples))
+        Err(format!("{missing} of {} samples are missing; the first is sample {number}", sweep.samples))
     }
 }
 
@@ -120,27 +124,27 @@ mod tests {
     }
 
     #[test]
-    fn what_was_divided_is_whole_again() {
+    fn merged_partitions_are_the_whole_sweep() {
         let whole = merged(&[(&sweep(), &[1, 3]), (&sweep(), &[0, 2, 4])]).unwrap();
         assert_eq!(whole, (sweep(), (0..5).map(sample).collect()));
     }
 
     #[test]
-    fn what_is_missing_twice_or_of_another_sweep_is_refused() {
-        let says = |tables: &[(&Sweep, &[usize])], text: &str| {
+    fn missing_duplicate_and_foreign_samples_are_errors() {
+        let assert_error = |tables: &[(&Sweep, &[usize])], text: &str| {
             let error = merged(tables).unwrap_err();
             assert!(error.contains(text), "{error}");
         };
-        says(&[(&sweep(), &[0, 1, 3, 4])], "1 of 5 samples are missing, 2 first");
-        says(&[(&sweep(), &[])], "5 of 5 samples are missing, 0 first");
-        says(&[(&sweep(), &[0, 1, 2]), (&sweep(), &[2, 3, 4])], "sample 2 stands in");
-        says(&[(&sweep(), &[0, 1, 2, 3, 4, 5])], "sample 5 in a sweep of 5");
+        assert_error(&[(&sweep(), &[0, 1, 3, 4])], "1 of 5 samples are missing; the first is sample 2");
+        assert_error(&[(&sweep(), &[])], "5 of 5 samples are missing; the first is sample 0");
+        assert_error(&[(&sweep(), &[0, 1, 2]), (&sweep(), &[2, 3, 4])], "sample 2 is also in");
+        assert_error(&[(&sweep(), &[0, 1, 2, 3, 4, 5])], "sample 5 is out of range: the sweep has 5 samples");
         let other = Sweep { seed: 4, ..sweep() };
-        says(&[(&sweep(), &[0, 1, 2]), (&other, &[3, 4])], "another seed than in");
+        assert_error(&[(&sweep(), &[0, 1, 2]), (&other, &[3, 4])], "seed differs from");
     }
 
     #[test]
-    fn what_is_no_table_of_samples_is_refused() {
+    fn other_files_are_errors() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("no.parquet");
         std::fs::write(&path, "no table").unwrap();

@@ -7,40 +7,40 @@ use serde::Serialize;
 use super::{Sample, Sweep};
 use crate::verdict::Outcome;
 
-/// Of a sweep.
+/// Statistics of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of samples.
     pub samples: usize,
     /// Number of those that passed.
     pub passed: usize,
-    /// Within these lies the share that would pass of endlessly many, with 95 % confidence, -.
+    /// 95 % confidence interval of the pass rate, as fractions.
     pub pass_share_95: [f64; 2],
-    /// One for every check that was measured, or failed, at least once.
+    /// One for every check, and every unit of its margins, that was measured or failed at least once.
     pub checks: Vec<CheckStatistics>,
 }
 
-/// Of one check.
+/// Statistics of one check. A check of several quantities has one for each unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckStatistics {
-    /// Its name.
+    /// Full name of the check.
     pub name: String,
     /// Unit of the margins.
     pub unit: String,
-    /// How often it decided against a flight.
+    /// Number of samples in which it failed.
     #[serde(rename = "red")]
     pub failures: usize,
-    /// Smallest margin, 5 % quantile, and median of the samples that have one; absent if none has.
+    /// Smallest margin, 5 % quantile and median; absent if no sample has a margin.
     pub margins: Option<[f64; 3]>,
     /// Number of the sample with the smallest margin.
     pub worst: Option<usize>,
 }
 
-/// Quantile of the normal distribution for 95 % on both sides.
-const Z: f64 = 1.959_963_984_540_054;
+/// Two-sided 95 % quantile of the standard normal distribution.
+const Z_95: f64 = 1.959_963_984_540_054;
 
 impl Statistics {
-    /// Over samples of one sweep.
+    /// Computes the statistics of all samples of a sweep, or of a partition.
     pub fn of(sweep: &Sweep, samples: &[Sample]) -> Self {
         let passed = samples.iter().filter(|sample| sample.verdict == Outcome::Pass).count();
         let rows = sweep.checks.iter().enumerate().flat_map(|(index, (name, unit))| {
@@ -52,7 +52,7 @@ impl Statistics {
                 in_unit().map(|sample| (sample.margins[index], sample.number)).collect();
             margins.retain(|(margin, _)| !margin.is_nan());
             margins.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let quantile = |share: f64| margins[(share * (margins.len() - 1) as f64).floor() as usize].0;
+            let quantile = |p: f64| margins[(p * (margins.len() - 1) as f64).floor() as usize].0;
             CheckStatistics {
                 name: name.clone(),
                 unit: unit.to_owned(),
@@ -76,8 +76,7 @@ fn units<'a>(samples: &'a [Sample], check: usize, declared: &'a str) -> BTreeSet
     if found.is_empty() { BTreeSet::from([declared]) } else { found }
 }
 
-/// The sample that failed by most: of those that failed the one with most checks against it, the first of equals; `None` if
-/// all passed.
+/// The number of the sample with the most failed checks, the first of equals; `None` if all passed.
 pub fn worst(samples: &[Sample]) -> Option<usize> {
     let failed = samples.iter().filter(|sample| sample.verdict != Outcome::Pass);
     failed
@@ -85,25 +84,25 @@ pub fn worst(samples: &[Sample]) -> Option<usize> {
         .map(|sample| sample.number)
 }
 
-/// Interval of a share of successes with 95 % confidence.                                              [Wilson, 1927]
+/// 95 % confidence interval of a success rate.                                                         [Wilson, 1927]
 fn wilson(successes: usize, trials: usize) -> [f64; 2] {
     if trials == 0 {
         return [0.0, 1.0];
     }
     let n = trials as f64;
     let p = successes as f64 / n;
-    let middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
-    let half = Z / (1.0 + Z * Z / n) * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-    [(middle - half).max(0.0), (middle + half).min(1.0)]
+    let centre = (p + Z_95 * Z_95 / (2.0 * n)) / (1.0 + Z_95 * Z_95 / n);
+    let half_width = Z_95 / (1.0 + Z_95 * Z_95 / n) * (p * (1.0 - p) / n + Z_95 * Z_95 / (4.0 * n * n)).sqrt();
+    [(centre - half_width).max(0.0), (centre + half_width).min(1.0)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::wilson;
 
-    /// 8 of 10: 0.4902 to 0.9433; 0 of 10: 0 to 0.2775, as tables have it.
+    /// Tabulated values: 8 of 10 gives 0.4902 to 0.9433, 0 of 10 gives 0 to 0.2775.
     #[test]
-    fn the_interval_is_wilson_s() {
+    fn the_interval_agrees_with_tabulated_values() {
         let is = |interval: [f64; 2], wanted: [f64; 2]| {
             assert!((interval[0] - wanted[0]).abs() < 1e-4 && (interval[1] - wanted[1]).abs() < 1e-4, "{interval:?}");
         };

@@ -1,7 +1,6 @@
 //! The samples of a sweep as a Parquet file, one row per sample.
 //!
-//! What the samples have in common stands in the file's metadata, so that the files of several machines can be merged, and
-//! those of different sweeps cannot.
+//! The file's metadata hold what the samples have in common, so that only partitions of one sweep can be merged.
 
 use std::fs::File;
 use std::path::Path;
@@ -23,7 +22,7 @@ use crate::verdict::Outcome;
 
 /// Key of the sweep in the file's metadata.
 const SWEEP: &str = "sweep";
-/// Types and names of the columns before the margins.
+/// Types and names of the columns before those of the margins.
 const COLUMNS: [&str; 10] = [
     "int64 sample",
     "int64 seed",
@@ -36,10 +35,10 @@ const COLUMNS: [&str; 10] = [
     "double position_noise_m",
     "double start_radius_m",
 ];
-/// The verdicts by their names in a table.
+/// Verdicts and their names in the table.
 const VERDICTS: [(&str, Outcome); 3] = [("pass", Outcome::Pass), ("fail", Outcome::Fail), ("no-plan", Outcome::NoPlan)];
-/// Between the names of several checks.
-const AND: &str = ", ";
+/// Separator of the names of failed checks.
+const LIST_SEPARATOR: &str = ", ";
 
 /// Writes the samples of a sweep, all or nothing.
 pub fn write(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Error> {
@@ -47,9 +46,9 @@ pub fn write(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Error
 }
 
 fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), ParquetError> {
-    let common = serde_json::to_string(sweep).map_err(|reason| ParquetError::External(reason.into()))?;
-    let about = vec![KeyValue::new(SWEEP.to_owned(), common)];
-    let properties = WriterProperties::builder().set_key_value_metadata(Some(about)).build();
+    let sweep_json = serde_json::to_string(sweep).map_err(|reason| ParquetError::External(reason.into()))?;
+    let metadata = vec![KeyValue::new(SWEEP.to_owned(), sweep_json)];
+    let properties = WriterProperties::builder().set_key_value_metadata(Some(metadata)).build();
     let schema = Arc::new(parse_message_type(&schema(sweep))?);
     let mut writer = SerializedFileWriter::new(File::create(path)?, schema, Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
@@ -59,7 +58,7 @@ fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Par
     column::<ByteArrayType>(&mut group, samples.iter().map(|sample| name_of(sample.verdict).into()))?;
     column::<ByteArrayType>(
         &mut group,
-        samples.iter().map(|sample| ByteArray::from(sample.failed_checks.join(AND).into_bytes())),
+        samples.iter().map(|sample| ByteArray::from(sample.failed_checks.join(LIST_SEPARATOR).into_bytes())),
     )?;
     column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.wind_mps[0]))?;
     column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.wind_mps[1]))?;
@@ -100,10 +99,10 @@ fn schema(sweep: &Sweep) -> String {
 
 /// `separation_margin_m` for `flight.separation` in m.
 fn margin_column(check: &str, unit: &str) -> String {
-    let question = check.split_once('.').map_or(check, |(_, experiment)| experiment);
+    let name = check.split_once('.').map_or(check, |(_, name)| name);
     let unit: String = unit.replace('/', "p").chars().filter(char::is_ascii_alphanumeric).collect();
     let unit = if unit.is_empty() { unit } else { format!("_{unit}") };
-    format!("{question}_margin{unit}")
+    format!("{name}_margin{unit}")
 }
 
 /// `state_limits_margin_unit` for `flight.state_limits`.
@@ -122,10 +121,11 @@ pub fn read(path: &Path) -> Result<(Sweep, Vec<Sample>), Error> {
 
 fn read_table(path: &Path) -> Result<(Sweep, Vec<Sample>), ParquetError> {
     let reader = SerializedFileReader::new(File::open(path)?)?;
-    let about = reader.metadata().file_metadata().key_value_metadata();
-    let common = about.into_iter().flatten().find(|pair| pair.key == SWEEP).and_then(|pair| pair.value.clone());
-    let common = common.ok_or_else(|| ParquetError::General("it holds no samples of a sweep".to_owned()))?;
-    let sweep: Sweep = serde_json::from_str(&common).map_err(|reason| ParquetError::External(reason.into()))?;
+    let metadata = reader.metadata().file_metadata().key_value_metadata();
+    let sweep_json = metadata.into_iter().flatten().find(|pair| pair.key == SWEEP).and_then(|pair| pair.value.clone());
+    let sweep_json =
+        sweep_json.ok_or_else(|| ParquetError::General("the file is not a table of `harness sweep`".to_owned()))?;
+    let sweep: Sweep = serde_json::from_str(&sweep_json).map_err(|reason| ParquetError::External(reason.into()))?;
     let samples = reader.get_row_iter(None)?.map(|row| sample(&row?, &sweep.checks)).collect::<Result<_, _>>()?;
     Ok((sweep, samples))
 }
@@ -153,8 +153,13 @@ fn sample(row: &Row, checks: &[(String, String)]) -> Result<Sample, ParquetError
             noise_m: row.get_double(8)?,
             start_m: row.get_double(9)?,
         },
-        verdict: outcome.ok_or_else(|| ParquetError::General(format!("`{verdict}` is no verdict")))?,
-        failed_checks: row.get_string(3)?.split(AND).filter(|name| !name.is_empty()).map(str::to_owned).collect(),
+        verdict: outcome.ok_or_else(|| ParquetError::General(format!("unknown verdict `{verdict}`")))?,
+        failed_checks: row
+            .get_string(3)?
+            .split(LIST_SEPARATOR)
+            .filter(|name| !name.is_empty())
+            .map(str::to_owned)
+            .collect(),
         margins,
         units,
     })

@@ -2,24 +2,24 @@ use super::ReferenceCase;
 
 /// A known fault.
 pub struct Fault {
-    /// What is wrong, for a person to read.
+    /// Description.
     pub name: &'static str,
-    /// The check that has to notice, by its full name; others may too.
+    /// The target check, which has to fail, by its full name; others may fail as well.
     pub aims_at: &'static str,
-    /// Makes it wrong.
+    /// Injects the fault.
     pub inject: Box<dyn Fn(&mut ReferenceCase) + Send + Sync>,
 }
 
-/// Something that is nearly wrong.
+/// A plan or flight just inside a limit.
 pub struct NearMiss {
-    /// What, for a person to read.
+    /// Description.
     pub name: &'static str,
-    /// Brings it close.
+    /// Changes the reference case.
     pub approach: Box<dyn Fn(&mut ReferenceCase) + Send + Sync>,
 }
 
 impl Fault {
-    /// A fault that `aims_at` has to notice.
+    /// A fault for which the check `aims_at` has to fail.
     pub fn new(
         aims_at: &'static str,
         name: &'static str,
@@ -30,7 +30,7 @@ impl Fault {
 }
 
 impl NearMiss {
-    /// Something that must pass.
+    /// A near miss, which must pass.
     pub fn new(name: &'static str, approach: impl Fn(&mut ReferenceCase) + Send + Sync + 'static) -> Self {
         Self { name, approach: Box::new(approach) }
     }

@@ -1,29 +1,28 @@
-//! A process and everything that it starts, as one thing that can be ended.
+//! Process groups: a process and everything that it starts.
 
 use std::process::{Child, Command};
 
 use crate::interrupt::ProcessGroup;
 
-/// Watches over the process group that is running: with us it ends too, when somebody presses ctrl-C. Being a group of its
-/// own, it does not see the signal itself.
+/// Terminates a process group when the harness is interrupted: a group of its own does not receive the signal of Ctrl-C.
 pub(crate) struct Guard(ProcessGroup);
 
 impl Guard {
-    /// Watches over the process group of `child`, which was started [`apart`].
+    /// Registers the process group of `child`, which was started [`apart`].
     pub(crate) fn of(child: &Child) -> Self {
         let group = group(child);
         group.register();
         Self(group)
     }
 
-    /// Ends the group, and the watch. The child itself still has to be waited for.
+    /// Terminates and unregisters the group. The child itself still has to be waited for.
     pub(crate) fn end(&self, child: &mut Child) {
         self.0.end();
         let _ = child.kill();
         self.0.unregister();
     }
 
-    /// Has the child ended? It is not reaped: as long as it is there, nobody else gets its number, which is the group's.
+    /// Whether the child has ended. It is not reaped, so that its number, which is the group's, is not reused.
     #[cfg(unix)]
     pub(crate) fn has_exited(&self, _: &mut Child) -> bool {
         use rustix::process::{WaitId, WaitIdOptions, waitid};
@@ -37,7 +36,7 @@ impl Guard {
     }
 }
 
-/// Makes the process the first of a group of its own.
+/// Starts the process in a group of its own.
 pub(crate) fn apart(command: &mut Command) {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);

@@ -1,5 +1,5 @@
-//! A command that plans in the loop: one JSON request per line on its standard input, one JSON reply per line on its
-//! standard output, for as long as its vehicles fly.
+//! An external in-loop planner: one JSON request per line on its standard input, one JSON reply per line on its standard
+//! output, until the flight ends.
 //!
 //! ```text
 //! {"request": "begin", scenario ...}                       no reply
@@ -18,26 +18,26 @@ use scenarios::in_loop::{Decision, InLoopPlanner, Node, Observation, ReplanDiagn
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::process::{DRAIN, MOST_LOG, drain, spawn};
+use super::process::{DRAIN_TIMEOUT, MAX_LOG_BYTES, drain, spawn};
 use super::{ExternalPlanner, group, request};
 
-/// Time for one answer if nobody says, s.
-const TIME_LIMIT_S: f64 = 10.0;
-/// Longest reply that is read, bytes.
-const MOST_REPLY: u64 = 16 << 20;
+/// Default time limit of a reply, s.
+const DEFAULT_TIME_LIMIT_S: f64 = 10.0;
+/// Largest size of a reply, bytes.
+const MAX_REPLY_BYTES: u64 = 16 << 20;
 
-/// A command that plans in the loop, and what it writes to its standard error.
+/// A running external in-loop planner.
 pub struct ExternalSession {
-    /// One for each vehicle; all of them talk to the same process.
+    /// One planner per vehicle; all share the same process.
     pub planners: Vec<Box<dyn InLoopPlanner>>,
     /// The process.
     session: Arc<Mutex<Session>>,
 }
 
 impl ExternalSession {
-    /// Starts the command. If that cannot be, every answer says why.
+    /// Starts the command. If it cannot be started, every reply holds the reason.
     pub fn start(planner: &ExternalPlanner, scenario: &Scenario, seed: u64) -> Self {
-        let time_limit_s = planner.time_limit_s.unwrap_or(TIME_LIMIT_S);
+        let time_limit_s = planner.time_limit_s.unwrap_or(DEFAULT_TIME_LIMIT_S);
         let session = Session::start(planner, time_limit_s);
         let mut begin = request::document(scenario, seed, time_limit_s);
         begin["request"] = "begin".into();
@@ -45,22 +45,22 @@ impl ExternalSession {
             "period_s": scenario.simulation.planning.period_s,
             "deadline_s": scenario.simulation.planning.deadline_s,
         });
-        session.tell(&begin);
+        session.send(&begin);
         let session = Arc::new(Mutex::new(session));
-        let seat = |vehicle: &scenarios::Vehicle| -> Box<dyn InLoopPlanner> {
+        let planner = |vehicle: &scenarios::Vehicle| -> Box<dyn InLoopPlanner> {
             Box::new(ExternalInLoopPlanner { vehicle: vehicle.name.clone(), session: Arc::clone(&session) })
         };
-        Self { planners: scenario.vehicles.iter().map(seat).collect(), session }
+        Self { planners: scenario.vehicles.iter().map(planner).collect(), session }
     }
 
-    /// Everything that the command writes to its standard error; it is ended.
+    /// Returns a function that terminates the command and returns its standard error.
     pub fn log(&self) -> impl FnOnce() -> String + use<> {
         let session = Arc::clone(&self.session);
         move || session.lock().unwrap_or_else(PoisonError::into_inner).finish()
     }
 }
 
-/// The planner of one vehicle: its side of the conversation.
+/// The in-loop planner of one vehicle.
 struct ExternalInLoopPlanner {
     vehicle: String,
     session: Arc<Mutex<Session>>,
@@ -68,16 +68,16 @@ struct ExternalInLoopPlanner {
 
 impl InLoopPlanner for ExternalInLoopPlanner {
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
-        let mut question = json!(observation);
-        question["known"] = request::world(observation.known);
-        question["request"] = "replan".into();
-        question["vehicle"] = self.vehicle.clone().into();
+        let mut request = json!(observation);
+        request["known"] = super::request::world(observation.known);
+        request["request"] = "replan".into();
+        request["vehicle"] = self.vehicle.clone().into();
         let mut session = self.session.lock().unwrap_or_else(PoisonError::into_inner);
-        session.ask(&question).and_then(|text| read(&text)).unwrap_or_else(ReplanResult::keep)
+        session.request(&request).and_then(|text| read(&text)).unwrap_or_else(ReplanResult::keep)
     }
 }
 
-/// A reply: to fly through nodes, or to keep what is flown.
+/// A reply: nodes of a new reference, or the reason to keep the reference in force.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Reply {
@@ -88,19 +88,19 @@ struct Reply {
 }
 
 fn read(text: &str) -> Result<ReplanResult, String> {
-    let reply: Reply = serde_json::from_str(text).map_err(|error| format!("its reply makes no sense: {error}"))?;
+    let reply: Reply = serde_json::from_str(text).map_err(|error| format!("its reply is invalid: {error}"))?;
     let decision = match (reply.fly, reply.keep) {
         (Some(nodes), None) => Decision::Fly(nodes),
         (None, Some(reason)) => Decision::Keep { reason },
-        _ => return Err("its reply has neither `fly` nor `keep`, or both".into()),
+        _ => return Err("its reply needs either `fly` or `keep`".into()),
     };
     Ok(ReplanResult { decision, diagnostics: reply.diagnostics })
 }
 
-/// The running command.
+/// The process of the command.
 struct Session {
     time_limit: Duration,
-    /// The process, while it is good for anything; else why it is not.
+    /// The process; after it has failed or ended, the reason.
     running: Result<Running, String>,
     log: Option<Receiver<Vec<u8>>>,
 }
@@ -108,7 +108,7 @@ struct Session {
 struct Running {
     child: Child,
     guard: group::Guard,
-    questions: Sender<Vec<u8>>,
+    requests: Sender<Vec<u8>>,
     replies: Receiver<Result<String, String>>,
 }
 
@@ -123,35 +123,34 @@ impl Session {
             }
         };
         let guard = group::Guard::of(&child);
-        let (questions, to_write) = channel::<Vec<u8>>();
+        let (requests, to_write) = channel::<Vec<u8>>();
         if let Some(mut stdin) = child.stdin.take() {
-            // A command that does not read must not block us; one that has ended is seen by its silence.
+            // In a thread of its own, since a command that does not read would block. An ended command fails to reply.
             thread::spawn(move || while to_write.recv().is_ok_and(|line| stdin.write_all(&line).is_ok()) {});
         }
         let (sender, replies) = channel();
         if let Some(stdout) = child.stdout.take() {
             thread::spawn(move || read_lines(stdout, &sender));
         }
-        let log = Some(drain(child.stderr.take(), MOST_LOG));
-        Self { time_limit, running: Ok(Running { child, guard, questions, replies }), log }
+        let log = Some(drain(child.stderr.take(), MAX_LOG_BYTES));
+        Self { time_limit, running: Ok(Running { child, guard, requests, replies }), log }
     }
 
-    fn tell(&self, message: &Value) {
+    fn send(&self, message: &Value) {
         if let Ok(running) = &self.running {
-            let _ = running.questions.send(format!("{message}\n").into_bytes());
+            let _ = running.requests.send(format!("{message}\n").into_bytes());
         }
     }
 
-    /// Puts a question and waits for its answer. After a silence that is too long, or the process's end, it is not asked
-    /// again.
-    fn ask(&mut self, question: &Value) -> Result<String, String> {
-        self.tell(question);
+    /// Sends a request and waits for the reply. After a timeout, or the end of the process, all further requests fail.
+    fn request(&mut self, request: &Value) -> Result<String, String> {
+        self.send(request);
         let time_limit = self.time_limit;
         let running = self.running.as_ref().map_err(Clone::clone)?;
         let reply = running.replies.recv_timeout(time_limit).unwrap_or_else(|error| {
             Err(match error {
                 RecvTimeoutError::Timeout => {
-                    format!("it took longer than its limit of {} s and was ended", time_limit.as_secs_f64())
+                    format!("it took longer than its limit of {} s and was terminated", time_limit.as_secs_f64())
                 }
                 RecvTimeoutError::Disconnected => "it has ended; see planner.log".to_owned(),
             })
@@ -162,10 +161,10 @@ impl Session {
         reply
     }
 
-    /// Ends the process, and returns its standard error.
+    /// Terminates the process and returns its standard error.
     fn finish(&mut self) -> String {
         self.end("the flight is over".into());
-        let bytes = self.log.take().and_then(|log| log.recv_timeout(DRAIN).ok()).unwrap_or_default();
+        let bytes = self.log.take().and_then(|log| log.recv_timeout(DRAIN_TIMEOUT).ok()).unwrap_or_default();
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
@@ -183,16 +182,18 @@ impl Drop for Session {
     }
 }
 
-/// Sends every line, until there is none, or one that is too long or no text.
+/// Sends every line, until the pipe is closed, or a line is too long or not UTF-8.
 fn read_lines(stdout: ChildStdout, sender: &Sender<Result<String, String>>) {
     let mut reader = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
-        let read = reader.by_ref().take(MOST_REPLY).read_until(b'\n', &mut line);
+        let read = reader.by_ref().take(MAX_REPLY_BYTES).read_until(b'\n', &mut line);
         let text = match read {
             Err(_) | Ok(0) => return,
-            Ok(_) if line.len() as u64 >= MOST_REPLY => Err(format!("it wrote a line of {} MiB", MOST_REPLY >> 20)),
-            Ok(_) => String::from_utf8(line).map_err(|_| "its reply is no text (UTF-8)".to_owned()),
+            Ok(_) if line.len() as u64 >= MAX_REPLY_BYTES => {
+                Err(format!("it wrote a line of {} MiB", MAX_REPLY_BYTES >> 20))
+            }
+            Ok(_) => String::from_utf8(line).map_err(|_| "its reply is not valid UTF-8".to_owned()),
         };
         let is_last = text.is_err();
         if sender.send(text).is_err() || is_last {
@@ -227,15 +228,15 @@ mod tests {
     }
 
     #[test]
-    fn a_command_answers_line_by_line_until_it_fails() {
+    fn a_command_replies_line_by_line_until_it_fails() {
         let mut echo = session("while read line; do echo \"$line\"; done", 10.0);
-        assert_eq!(echo.ask(&json!({"a": 1})).unwrap().trim(), r#"{"a":1}"#);
-        assert_eq!(echo.ask(&json!(2)).unwrap().trim(), "2");
+        assert_eq!(echo.request(&json!({"a": 1})).unwrap().trim(), r#"{"a":1}"#);
+        assert_eq!(echo.request(&json!(2)).unwrap().trim(), "2");
         let mut silent = session("sleep 60", 0.05);
-        assert!(silent.ask(&json!(1)).unwrap_err().contains("longer than its limit"));
-        assert!(silent.ask(&json!(1)).is_err());
+        assert!(silent.request(&json!(1)).unwrap_err().contains("longer than its limit"));
+        assert!(silent.request(&json!(1)).is_err());
         let mut short = session("echo broken >&2; exit 3", 10.0);
-        assert!(short.ask(&json!(1)).unwrap_err().contains("has ended"));
+        assert!(short.request(&json!(1)).unwrap_err().contains("has ended"));
         assert_eq!(short.finish().trim(), "broken");
     }
 }

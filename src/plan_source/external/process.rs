@@ -1,4 +1,4 @@
-//! A command with a question, a time limit, and no way to outlive it.
+//! Runs a command with a request and a time limit, and terminates everything that it started.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -9,28 +9,28 @@ use std::time::{Duration, Instant};
 
 use super::group;
 
-/// Longest output that is read, bytes; of a longer standard error the beginning is kept.
-const MOST_OUTPUT: u64 = 256 << 20;
-/// Longest log that is kept, bytes.
-pub(super) const MOST_LOG: u64 = 4 << 20;
-/// Time between two looks at a command that is still running.
-const LOOK: Duration = Duration::from_millis(2);
-/// Time that the pipes of an ended command have to run dry: a process that left its group may hold them open for ever.
-pub(super) const DRAIN: Duration = Duration::from_secs(2);
+/// Largest size of standard output, bytes.
+const MAX_OUTPUT_BYTES: u64 = 256 << 20;
+/// Largest size of the log, bytes; of a longer standard error the beginning is kept.
+pub(super) const MAX_LOG_BYTES: u64 = 4 << 20;
+/// Polling interval of a running command.
+const POLL_INTERVAL: Duration = Duration::from_millis(2);
+/// Time limit for draining the pipes of an ended command: a process that left the group may hold them open forever.
+pub(super) const DRAIN_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// What became of a command.
+/// Result of a command.
 pub(super) struct Ended {
-    /// Its standard output, or why there is none to rely on.
+    /// Its standard output, or the reason why it is unusable.
     pub output: Result<String, String>,
     /// Its standard error.
     pub log: String,
-    /// How long it ran.
+    /// Its wall time.
     pub wall: Duration,
 }
 
-/// Runs `command` in `folder` with `question` on its standard input, for `time_limit` at most. When this returns, neither
-/// the command nor anything that it started in its process group is running any more.
-pub(super) fn run(command: &[String], folder: &Path, question: Vec<u8>, time_limit: Duration) -> Ended {
+/// Runs `command` in `folder` with `request` on its standard input, for `time_limit` at most. When this returns, neither the
+/// command nor any process of its process group is running.
+pub(super) fn run(command: &[String], folder: &Path, request: Vec<u8>, time_limit: Duration) -> Ended {
     let began = Instant::now();
     let mut child = match spawn(command, folder) {
         Ok(child) => child,
@@ -40,23 +40,23 @@ pub(super) fn run(command: &[String], folder: &Path, question: Vec<u8>, time_lim
         }
     };
     let guard = group::Guard::of(&child);
-    feed(&mut child, question);
-    let output = drain(child.stdout.take(), MOST_OUTPUT);
-    let log = drain(child.stderr.take(), MOST_LOG);
+    feed(&mut child, request);
+    let output = drain(child.stdout.take(), MAX_OUTPUT_BYTES);
+    let log = drain(child.stderr.take(), MAX_LOG_BYTES);
     let status = wait(&mut child, &guard, began, time_limit);
     let wall = began.elapsed();
-    let log = String::from_utf8_lossy(&log.recv_timeout(DRAIN).unwrap_or_default()).into_owned();
-    let output = match verdict(status, time_limit) {
-        Some(reason) => Err(with_last_words(reason, &log)),
-        None => text(&output.recv_timeout(DRAIN).unwrap_or_default()),
+    let log = String::from_utf8_lossy(&log.recv_timeout(DRAIN_TIMEOUT).unwrap_or_default()).into_owned();
+    let output = match failure_reason(status, time_limit) {
+        Some(reason) => Err(with_last_log_line(reason, &log)),
+        None => text(&output.recv_timeout(DRAIN_TIMEOUT).unwrap_or_default()),
     };
     Ended { output, log, wall }
 }
 
-/// Starts a command, all three pipes ours, in a process group of its own.
+/// Starts a command with three pipes, in a process group of its own.
 pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child> {
     let program = command.first().cloned().unwrap_or_default();
-    // a program beside the scenario file is found there, one without a folder on the PATH
+    // A program with a folder is relative to the working directory; one without is searched on the PATH.
     let is_path = program.contains(std::path::MAIN_SEPARATOR);
     let program = if is_path { folder.canonicalize()?.join(program) } else { PathBuf::from(program) };
     let mut process = Command::new(program);
@@ -66,21 +66,21 @@ pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child>
     process.spawn()
 }
 
-/// Writes the question from a thread of its own: a command that never reads must not block us.
-fn feed(child: &mut Child, question: Vec<u8>) {
+/// Writes the request from a thread of its own, since a command that never reads would block.
+fn feed(child: &mut Child, request: Vec<u8>) {
     if let Some(mut stdin) = child.stdin.take() {
-        // a command that does not want the question has ended, or will answer nonsense: both are seen elsewhere
-        thread::spawn(move || drop(stdin.write_all(&question)));
+        // An error means that the command has ended or closed its input. Its exit code and its reply tell the rest.
+        thread::spawn(move || drop(stdin.write_all(&request)));
     }
 }
 
-/// Everything that a pipe brings, `most` bytes of it at most, once it is closed. What comes after that is thrown away.
-pub(super) fn drain(pipe: Option<impl Read + Send + 'static>, most: u64) -> Receiver<Vec<u8>> {
+/// The content of a pipe once it is closed: `max_bytes + 1` bytes at most, the rest is discarded.
+pub(super) fn drain(pipe: Option<impl Read + Send + 'static>, max_bytes: u64) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let mut bytes = Vec::new();
         if let Some(mut pipe) = pipe {
-            let _ = pipe.by_ref().take(most + 1).read_to_end(&mut bytes);
+            let _ = pipe.by_ref().take(max_bytes + 1).read_to_end(&mut bytes);
             let _ = std::io::copy(&mut pipe, &mut std::io::sink());
         }
         let _ = sender.send(bytes);
@@ -88,7 +88,7 @@ pub(super) fn drain(pipe: Option<impl Read + Send + 'static>, most: u64) -> Rece
     receiver
 }
 
-/// The command's exit status; `None` if it had to be ended. Its process group is ended in any case.
+/// The exit status of the command; `None` after a timeout. Its process group is terminated in any case.
 fn wait(
     child: &mut Child,
     guard: &group::Guard,
@@ -102,18 +102,18 @@ fn wait(
         if began.elapsed() >= limit {
             break false;
         }
-        thread::sleep(LOOK);
+        thread::sleep(POLL_INTERVAL);
     };
     guard.end(child);
     let status = child.wait();
     in_time.then_some(status)
 }
 
-/// Why the output of a command that ended like this is not worth reading, if it is not.
-fn verdict(status: Option<std::io::Result<ExitStatus>>, limit: Duration) -> Option<String> {
+/// The reason why the output of a command is unusable; `None` if it succeeded.
+fn failure_reason(status: Option<std::io::Result<ExitStatus>>, limit: Duration) -> Option<String> {
     match status {
-        None => Some(format!("it took longer than its limit of {} s and was ended", limit.as_secs_f64())),
-        Some(Err(error)) => Some(format!("its end could not be awaited: {error}")),
+        None => Some(format!("it took longer than its limit of {} s and was terminated", limit.as_secs_f64())),
+        Some(Err(error)) => Some(format!("its exit status is unknown: {error}")),
         Some(Ok(status)) if status.success() => None,
         Some(Ok(status)) => Some(match status.code() {
             Some(code) => format!("it ended with exit code {code}"),
@@ -123,14 +123,14 @@ fn verdict(status: Option<std::io::Result<ExitStatus>>, limit: Duration) -> Opti
 }
 
 fn text(output: &[u8]) -> Result<String, String> {
-    if output.len() as u64 > MOST_OUTPUT {
-        return Err(format!("it wrote more than {} MiB", MOST_OUTPUT >> 20));
+    if output.len() as u64 > MAX_OUTPUT_BYTES {
+        return Err(format!("it wrote more than {} MiB", MAX_OUTPUT_BYTES >> 20));
     }
-    String::from_utf8(output.to_vec()).map_err(|_| "its reply is no text (UTF-8)".to_owned())
+    String::from_utf8(output.to_vec()).map_err(|_| "its reply is not valid UTF-8".to_owned())
 }
 
-/// The reason, with the last line of the log: that of an exception says most.
-fn with_last_words(reason: String, log: &str) -> String {
+/// The reason with the last line of the log, which usually names the exception.
+fn with_last_log_line(reason: String, log: &str) -> String {
     match log.lines().rev().map(str::trim).find(|line| !line.is_empty()) {
         Some(line) => format!("{reason}; the last line in planner.log: {}", line.chars().take(200).collect::<String>()),
         None => reason,

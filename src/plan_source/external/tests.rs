@@ -1,4 +1,4 @@
-//! Whatever a command does, there is an answer, in time, and nothing of it lives on.
+//! Whatever a command does, there is a reply in time, and none of its processes survives.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -13,8 +13,8 @@ fn scenario() -> Scenario {
     scenarios::load(&path).expect("a shipped scenario")
 }
 
-/// What the shell makes of `script`, given `time_limit_s`: status, reason, log.
-fn ask(script: &str, time_limit_s: f64) -> (PlanStatus, String, String) {
+/// Runs `script` in a shell as a planner. Returns status, reason and log.
+fn plan_by(script: &str, time_limit_s: f64) -> (PlanStatus, String, String) {
     let planner = ExternalPlanner {
         name: "shell".into(),
         command: ["sh", "-c", script].map(str::to_owned).to_vec(),
@@ -28,26 +28,26 @@ fn ask(script: &str, time_limit_s: f64) -> (PlanStatus, String, String) {
     (plan.status, plan.reason.unwrap_or_default(), external.log)
 }
 
-/// The command has no plan, and the reason says `what`.
+/// The command has no plan, and the reason contains `expected`.
 #[track_caller]
-fn assert_no_plan(script: &str, what: &str) {
-    let (status, reason, _) = ask(script, 20.0);
+fn assert_no_plan(script: &str, expected: &str) {
+    let (status, reason, _) = plan_by(script, 20.0);
     assert_eq!(status, PlanStatus::NoPlan, "{reason}");
-    assert!(reason.contains(what), "`{what}` is missing in: {reason}");
+    assert!(reason.contains(expected), "`{expected}` is missing in: {reason}");
 }
 
-/// A straight line, which the judge may think of what it likes.
+/// A straight line.
 const REPLY: &str = r#"{"protocol": 1, "status": "solved", "trajectories": [{"vehicle": "uav-1", "t_s": [0, 100, 200],
     "x_m": [2450, 5950, 9450], "y_m": [1750, 1750, 1750], "z_m": [400, 400, 400]}]}"#;
 
 #[test]
 fn a_reply_becomes_a_plan() {
-    let (status, reason, log) = ask(&format!("cat > /dev/null; echo thinking >&2; echo '{REPLY}'"), 20.0);
+    let (status, reason, log) = plan_by(&format!("cat > /dev/null; echo thinking >&2; echo '{REPLY}'"), 20.0);
     assert_eq!((status, reason.as_str(), log.as_str()), (PlanStatus::Solved, "", "thinking\n"));
 }
 
 #[test]
-fn the_request_holds_what_a_planner_needs_and_nothing_of_the_disturbances() {
+fn the_request_is_complete_and_holds_no_disturbances() {
     let request = super::request::document(&scenario(), 3, 20.0);
     assert_eq!((&request["protocol"], &request["seed"]), (&1.into(), &3.into()));
     let vehicle = &request["vehicles"][0];
@@ -61,7 +61,7 @@ fn the_request_holds_what_a_planner_needs_and_nothing_of_the_disturbances() {
 }
 
 #[test]
-fn the_request_for_a_slung_load_tells_the_model_and_not_what_disturbs_it() {
+fn the_request_for_a_slung_load_holds_the_model_without_disturbances() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/slung/rectangle.toml");
     let request = super::request::document(&scenarios::load(&path).expect("a shipped scenario"), 0, 20.0);
     let vehicle = &request["vehicles"][0];
@@ -73,23 +73,53 @@ fn the_request_for_a_slung_load_tells_the_model_and_not_what_disturbs_it() {
     assert!(!request.to_string().contains("drag"));
 }
 
+fn request_of(file: &str) -> serde_json::Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(file);
+    let scenario = scenarios::load(&path).expect("a shipped scenario");
+    super::request::document(&scenario.planner_view(), 0, 20.0)
+}
+
 #[test]
-fn a_command_may_ignore_its_question() {
-    let (status, ..) = ask(&format!("echo '{REPLY}'"), 20.0);
+fn the_request_holds_the_gates() {
+    let gates = request_of("slung/gate.toml")["world"]["gates"].take();
+    let gate = &gates.as_array().expect("a list of gates")[0];
+    assert!(gate["name"].is_string() && gate["load"].is_object() && gate["quadrotor"].is_object(), "{gates}");
+}
+
+#[test]
+fn the_request_holds_everything_that_is_known_before_the_flight() {
+    for (file, key) in [
+        ("fixed-wing/rendezvous-1.toml", "cylinders"),
+        ("slung/rectangle.toml", "prisms"),
+        ("multirotor/paper-map.toml", "prisms"),
+    ] {
+        let request = request_of(file);
+        assert!(!request["world"][key].as_array().expect("a list").is_empty(), "{file}: {key}");
+        let vehicle = &request["vehicles"][0];
+        let model = if vehicle["model"].is_object() { &vehicle["model"] } else { vehicle };
+        for field in ["mass_kg", "limits", "planning_limits"] {
+            assert!(!model[field].is_null(), "{file}: {field} is missing in {vehicle}");
+        }
+    }
+}
+
+#[test]
+fn a_command_may_ignore_its_request() {
+    let (status, ..) = plan_by(&format!("echo '{REPLY}'"), 20.0);
     assert_eq!(status, PlanStatus::Solved);
 }
 
 #[test]
-fn what_goes_wrong_is_said() {
+fn failures_have_a_reason() {
     assert_no_plan("exit 3", "it ended with exit code 3");
     assert_no_plan("echo 'Traceback' >&2; echo 'ValueError: no' >&2; exit 1", "planner.log: ValueError: no");
     assert_no_plan("kill -SEGV $$", "it crashed (signal: 11");
     assert_no_plan("true", "it wrote no reply");
     assert_no_plan("echo hello", "JSON syntax");
-    assert_no_plan("echo iteration 1; echo '{}'", "only the reply belongs on standard output");
-    assert_no_plan("printf '\\377\\376'", "no text (UTF-8)");
+    assert_no_plan("echo iteration 1; echo '{}'", "standard output must hold the reply only");
+    assert_no_plan("printf '\\377\\376'", "not valid UTF-8");
     assert_no_plan("echo '{}'", "no `protocol`");
-    assert_no_plan(r#"echo '{"protocol": 2}'"#, "protocol version 2, this harness speaks version 1");
+    assert_no_plan(r#"echo '{"protocol": 2}'"#, "protocol version 2; expected 1");
     assert_no_plan(r#"echo '{"protocol": 1, "trajectories": []}'"#, "its reply has no `status`");
     assert_no_plan(r#"echo '{"protocol": 1, "status": "no-plan", "reason": "too hard"}'"#, "too hard");
     assert_no_plan(r#"echo '{"protocol": 1, "status": "solved", "trajectories": []}'"#, "no row of `uav-1`");
@@ -98,7 +128,7 @@ fn what_goes_wrong_is_said() {
 }
 
 #[test]
-fn a_program_that_is_not_there_is_a_reason_too() {
+fn a_missing_program_is_a_reason() {
     let planner = ExternalPlanner {
         name: "missing".into(),
         command: vec!["no-such-program".into()],
@@ -111,42 +141,42 @@ fn a_program_that_is_not_there_is_a_reason_too() {
 }
 
 #[test]
-fn a_command_that_hangs_is_ended_with_everything_that_it_started() {
+fn a_command_that_hangs_is_terminated_with_its_process_group() {
     let folder = tempfile::tempdir().unwrap();
     let mark = folder.path().join("alive");
     let script = format!("(sleep 3; touch {}) & sleep 1000", mark.display());
     let began = Instant::now();
-    let (status, reason, _) = ask(&script, 0.5);
+    let (status, reason, _) = plan_by(&script, 0.5);
     assert_eq!(status, PlanStatus::NoPlan);
     assert!(reason.contains("longer than its limit of 0.5 s"), "{reason}");
     assert!(began.elapsed() < Duration::from_secs(100), "the limit was half a second");
     std::thread::sleep(Duration::from_secs(4));
-    assert!(!mark.exists(), "what the command had started lived on");
+    assert!(!mark.exists(), "a process of the command survived");
 }
 
 #[test]
-fn a_command_that_leaves_something_behind_is_not_waited_for() {
-    let (status, ..) = ask(&format!("echo '{REPLY}'; sleep 1000 &"), 100.0);
+fn background_processes_are_not_waited_for() {
+    let (status, ..) = plan_by(&format!("echo '{REPLY}'; sleep 1000 &"), 100.0);
     assert_eq!(status, PlanStatus::Solved);
 }
 
 #[test]
-fn a_command_that_talks_without_end_fills_neither_memory_nor_pipe() {
-    let (status, reason, log) = ask("yes >&2 & yes nonsense", 1.0);
+fn endless_output_fills_neither_memory_nor_pipe() {
+    let (status, reason, log) = plan_by("yes >&2 & yes nonsense", 1.0);
     assert_eq!(status, PlanStatus::NoPlan);
     assert!(reason.contains("longer than its limit"), "{reason}");
     assert!(log.len() < 5 << 20, "{} bytes of log", log.len());
 }
 
-/// Replies with bytes flipped, cut and doubled: never a panic, and what is taken as a plan is one.
+/// Replies with flipped, missing and duplicate bytes: never a panic, and every accepted plan is well-formed.
 #[test]
-fn damaged_replies_are_refused_or_sound() {
+fn damaged_replies_are_rejected_or_well_formed() {
     let scenario = scenario();
-    let mut refused = 0;
+    let mut rejected = 0;
     for (round, text) in copies_of(REPLY, 2000).enumerate() {
         match super::reply::read(&text, &scenario, "shell", 0) {
-            Err(_) => refused += 1,
-            Ok(answer) if answer.plan.status == PlanStatus::NoPlan => refused += 1,
+            Err(_) => rejected += 1,
+            Ok(answer) if answer.plan.status == PlanStatus::NoPlan => rejected += 1,
             Ok(answer) => {
                 assert_eq!(answer.plan.trajectories.len(), 1, "round {round}: {text}");
                 let times_s = answer.plan.trajectories[0].times_s();
@@ -155,5 +185,5 @@ fn damaged_replies_are_refused_or_sound() {
             }
         }
     }
-    assert!(refused > 1000, "only {refused} of 2000 damaged replies were refused");
+    assert!(rejected > 1000, "only {rejected} of 2000 damaged replies were rejected");
 }

@@ -8,30 +8,30 @@ use crate::verdict::Reconstruction;
 
 /// Longest step of the integration, s.
 const STEP_S: f64 = 0.25;
-/// Iterations of the fit: it is all but linear, and converges in three or four.
+/// Largest number of iterations. The fit is nearly linear and converges in three or four.
 const MAX_ITERATIONS: usize = 8;
-/// Change of a load factor at which the fit has come to rest.
-const AT_REST: f64 = 1e-10;
-/// Difference of load factors for the derivatives.
-const DIFFERENCE: f64 = 1e-5;
+/// Change of a load factor below which the fit has converged.
+const CONVERGENCE_TOLERANCE: f64 = 1e-10;
+/// Step of the finite differences by load factors.
+const FINITE_DIFFERENCE: f64 = 1e-5;
 
-/// What an interval's end misses the next node by, as velocities: (dp/h, dv), m/s.
-type Missed = SVector<f64, 6>;
-/// Derivative of [`Missed`] by the load factors at one end of the interval.
-type Effect = SMatrix<f64, 6, 3>;
+/// Residual of an interval: from its propagated end to the next node, as velocities (dp/h, dv), m/s.
+type Residual = SVector<f64, 6>;
+/// Jacobian of [`Residual`] by the load factors at one end of the interval.
+type Jacobian = SMatrix<f64, 6, 3>;
 
-/// Load factors at the nodes, linear between them, that lead from each state to the next as well as any do.
+/// Load factors at the nodes, linear between them, that lead from each state to the next in the least-squares sense.
 ///
 /// ```text
 /// min_n  Σ_k |dp_k / h_k|² + |dv_k|²        (dp, dv)_k = node k+1 - propagate(node k, n_k, n_{k+1}, h_k)
 /// ```
 ///
-/// by Gauss and Newton from the flat guess. There are six equations per interval and three unknowns per node: a motion
-/// that load factors linear in time do cause is recovered, of any other the best approximation is found.
+/// by Gauss-Newton iterations from the flat-output guess. There are six equations per interval and three unknowns per node:
+/// the fit is exact for a motion caused by load factors that are linear in time.
 ///
 /// - `times_s`, `states`: of the nodes, at least two
 ///
-/// Returns the load factors and what they miss.
+/// Returns the load factors and their residual.
 pub(super) fn fit(times_s: &[f64], states: &[State]) -> (Vec<Control>, Reconstruction) {
     let mut controls = flat_guess(times_s, states);
     for _ in 0..MAX_ITERATIONS {
@@ -41,36 +41,36 @@ pub(super) fn fit(times_s: &[f64], states: &[State]) -> (Vec<Control>, Reconstru
             break;
         }
         controls = controls.iter().zip(&step).map(|(control, step)| moved(*control, step)).collect();
-        if largest < AT_REST {
+        if largest < CONVERGENCE_TOLERANCE {
             break;
         }
     }
-    let left = left_over(times_s, states, &controls);
-    (controls, left)
+    let residual = residual(times_s, states, &controls);
+    (controls, residual)
 }
 
-/// What is missed when `controls` lead from each state to the next.
-pub(super) fn left_over(times_s: &[f64], states: &[State], controls: &[Control]) -> Reconstruction {
-    let mut left = Reconstruction { velocities: false, position_m: 0.0, velocity_mps: 0.0, load_factor: 0.0 };
-    // `max` would drop what is not a number
+/// Largest residuals of all intervals when `controls` lead from each state to the next.
+pub(super) fn residual(times_s: &[f64], states: &[State], controls: &[Control]) -> Reconstruction {
+    let mut largest = Reconstruction { velocities: false, position_m: 0.0, velocity_mps: 0.0, load_factor: 0.0 };
+    // f64::max would drop NaN.
     let larger = |old: f64, new: f64| if new.is_nan() || new > old { new } else { old };
     for k in 0..times_s.len() - 1 {
         let h = times_s[k + 1] - times_s[k];
-        let missed = missed(times_s, states, k, [controls[k], controls[k + 1]]);
-        let (dp, dv) = (missed.fixed_rows::<3>(0) * h, missed.fixed_rows::<3>(3).into_owned());
+        let residual = interval_residual(times_s, states, k, [controls[k], controls[k + 1]]);
+        let (dp, dv) = (residual.fixed_rows::<3>(0) * h, residual.fixed_rows::<3>(3).into_owned());
         // dv = h/2 (a_0 + a_1) and dp = h²/6 (2 a_0 + a_1), solved for the accelerations at both ends
         let a_0 = (dp * (3.0 / h) - dv) * (2.0 / h);
         let a_1 = dv * (2.0 / h) - a_0;
-        left.position_m = larger(left.position_m, dp.norm());
-        left.velocity_mps = larger(left.velocity_mps, dv.norm());
-        left.load_factor = larger(left.load_factor, a_0.norm() / GRAVITY_MPS2);
-        left.load_factor = larger(left.load_factor, a_1.norm() / GRAVITY_MPS2);
+        largest.position_m = larger(largest.position_m, dp.norm());
+        largest.velocity_mps = larger(largest.velocity_mps, dv.norm());
+        largest.load_factor = larger(largest.load_factor, a_0.norm() / GRAVITY_MPS2);
+        largest.load_factor = larger(largest.load_factor, a_1.norm() / GRAVITY_MPS2);
     }
-    left
+    largest
 }
 
-/// The flat outputs' second derivative as load factors: at each node the mean over its intervals of that of the cubic
-/// through positions and velocities.
+/// Load factors from the second derivative of the flat outputs: at each node the mean over its intervals, each with the
+/// cubic through positions and velocities.
 fn flat_guess(times_s: &[f64], states: &[State]) -> Vec<Control> {
     let mut accelerations = vec![(Vector3::zeros(), 0.0); states.len()];
     for k in 0..states.len() - 1 {
@@ -91,19 +91,19 @@ fn flat_guess(times_s: &[f64], states: &[State]) -> Vec<Control> {
     states.iter().zip(accelerations).map(load_factors).collect()
 }
 
-/// Solves the normal equations of the linearised problem, which are block tridiagonal, by a sweep over the nodes.
+/// Solves the normal equations of the linearised problem, which are block tridiagonal, by block elimination.
 fn newton_step(times_s: &[f64], states: &[State], controls: &[Control]) -> Vec<Vector3<f64>> {
     let nodes = states.len();
     let mut diagonal = vec![Matrix3::zeros(); nodes];
     let mut above = vec![Matrix3::zeros(); nodes];
     let mut right = vec![Vector3::zeros(); nodes];
     for k in 0..nodes - 1 {
-        let (missed, [from_first, from_last]) = linearised(times_s, states, k, [controls[k], controls[k + 1]]);
+        let (residual, [from_first, from_last]) = linearised(times_s, states, k, [controls[k], controls[k + 1]]);
         diagonal[k] += from_first.tr_mul(&from_first);
         diagonal[k + 1] += from_last.tr_mul(&from_last);
         above[k] = from_first.tr_mul(&from_last);
-        right[k] -= from_first.tr_mul(&missed);
-        right[k + 1] -= from_last.tr_mul(&missed);
+        right[k] -= from_first.tr_mul(&residual);
+        right[k + 1] -= from_last.tr_mul(&residual);
     }
     let mut eliminated = Vec::with_capacity(nodes);
     for k in 0..nodes {
@@ -123,29 +123,29 @@ fn newton_step(times_s: &[f64], states: &[State], controls: &[Control]) -> Vec<V
     step
 }
 
-/// What interval `k` misses, and its derivatives by the load factors at both ends.
-fn linearised(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> (Missed, [Effect; 2]) {
-    let here = missed(times_s, states, k, controls);
-    let effect = |end: usize| {
-        let mut effect = Effect::zeros();
+/// Residual of interval `k`, and its Jacobians by the load factors at both ends.
+fn linearised(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> (Residual, [Jacobian; 2]) {
+    let here = interval_residual(times_s, states, k, controls);
+    let jacobian = |end: usize| {
+        let mut jacobian = Jacobian::zeros();
         for axis in 0..3 {
             let mut changed = controls;
             let mut by = Vector3::zeros();
-            by[axis] = DIFFERENCE;
+            by[axis] = FINITE_DIFFERENCE;
             changed[end] = moved(changed[end], &by);
-            effect.set_column(axis, &((missed(times_s, states, k, changed) - here) / DIFFERENCE));
+            jacobian.set_column(axis, &((interval_residual(times_s, states, k, changed) - here) / FINITE_DIFFERENCE));
         }
-        effect
+        jacobian
     };
-    (here, [effect(0), effect(1)])
+    (here, [jacobian(0), jacobian(1)])
 }
 
-fn missed(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> Missed {
+fn interval_residual(times_s: &[f64], states: &[State], k: usize, controls: [Control; 2]) -> Residual {
     let h = times_s[k + 1] - times_s[k];
     let flown = propagate(&states[k], controls, times_s[k], h, STEP_S);
     let (end, next) = (flown[flown.len() - 1], Knot::new(&states[k + 1], times_s[k + 1]));
     let (dp, dv) = ((next.position_m - end.position_m) / h, next.velocity_mps - end.velocity_mps);
-    Missed::new(dp.x, dp.y, dp.z, dv.x, dv.y, dv.z)
+    Residual::new(dp.x, dp.y, dp.z, dv.x, dv.y, dv.z)
 }
 
 fn moved(control: Control, by: &Vector3<f64>) -> Control {

@@ -1,4 +1,4 @@
-//! What was taken away comes back, and what cannot come back is known.
+//! Removed velocities and controls are recovered, or their error is known.
 
 use scenarios::fixed_wing::states_from_velocities;
 use scenarios::fixed_wing::{Control, State};
@@ -31,54 +31,54 @@ fn largest_difference(a: &[Control], b: &[Control]) -> f64 {
 fn load_factors_that_are_linear_between_the_nodes_are_recovered_from_states() {
     for (step_s, count) in [(5.0, 20), (0.5, 60), (0.02, 300)] {
         let (times_s, states, controls) = flown(step_s, manoeuvre, count);
-        let (found, left) = controls::fit(&times_s, &states);
+        let (found, residual) = controls::fit(&times_s, &states);
         let error = largest_difference(&found, &controls);
         assert!(error < 1e-6, "{error} at steps of {step_s} s");
-        assert!(left.position_m < 1e-6 && left.load_factor < 1e-6, "{left:?}");
+        assert!(residual.position_m < 1e-6 && residual.load_factor < 1e-6, "{residual:?}");
     }
 }
 
 #[test]
-fn a_plan_that_was_whole_leaves_nothing_over() {
+fn a_complete_plan_has_no_residual() {
     let (times_s, states, controls) = flown(5.0, manoeuvre, 20);
-    let left = controls::left_over(&times_s, &states, &controls);
-    assert!(left.position_m < 1e-8, "{left:?}");
+    let residual = controls::residual(&times_s, &states, &controls);
+    assert!(residual.position_m < 1e-8, "{residual:?}");
 }
 
 #[test]
-fn positions_alone_are_enough_where_they_are_dense() {
+fn dense_positions_are_sufficient() {
     let (times_s, states, controls) = flown(0.1, manoeuvre, 300);
     let positions_m: Vec<[f64; 3]> = states.iter().map(State::position_m).collect();
     let velocities_mps = velocities::of(&times_s, &positions_m, states[0].velocity_mps());
     let rebuilt = states_from_velocities(&positions_m, &velocities_mps);
     let off = rebuilt.iter().zip(&states).map(|(a, b)| (a.speed_mps - b.speed_mps).abs()).fold(0.0, f64::max);
     assert!(off < 1e-4, "{off} m/s");
-    let (found, left) = controls::fit(&times_s, &rebuilt);
+    let (found, residual) = controls::fit(&times_s, &rebuilt);
     let error = largest_difference(&found, &controls);
-    assert!(error < 2e-3 && left.position_m < 1e-4, "{error}, {left:?}");
+    assert!(error < 2e-3 && residual.position_m < 1e-4, "{error}, {residual:?}");
 }
 
-/// A jump of 1 m between two nodes is no motion of an aircraft: it must stay visible in what is left over.
+/// A jump of 1 m between two nodes is not a motion of an aircraft: it must stay visible in the residual.
 #[test]
-fn a_jump_is_not_explained_away() {
+fn a_jump_stays_in_the_residual() {
     let (times_s, mut states, _) = flown(0.5, manoeuvre, 60);
     for state in &mut states[30..] {
         state.z_m += 1.0;
     }
-    let (found, left) = controls::fit(&times_s, &states);
-    assert!(left.position_m > 0.3, "{left:?}");
-    assert!(left.load_factor > 1.0 || found.iter().any(|control| (control.n_z - 1.0).abs() > 0.5), "{left:?}");
+    let (found, residual) = controls::fit(&times_s, &states);
+    assert!(residual.position_m > 0.3, "{residual:?}");
+    assert!(residual.load_factor > 1.0 || found.iter().any(|control| (control.n_z - 1.0).abs() > 0.5), "{residual:?}");
 }
 
-/// Whatever the numbers are: no panic, and no error that looks small.
+/// Extreme numbers: no panic, and no small residual.
 #[test]
-fn absurd_states_leave_errors_that_are_large_or_no_numbers() {
-    let absurd = [
+fn extreme_states_have_a_large_or_nan_residual() {
+    let extreme = [
         [State::from_array([0.0; 6]), State::from_array([1e9, 0.0, 0.0, 0.0, 0.0, 0.0])],
         [State::from_array([0.0, 0.0, 0.0, 1e300, 0.0, 0.0]), State::from_array([1e300, 0.0, 0.0, 1e300, 3.0, 1.5])],
     ];
-    for states in absurd {
-        let (_, left) = controls::fit(&[0.0, 1.0], &states);
-        assert!(!(left.position_m < 1e3 && left.load_factor < 1.0), "{left:?}");
+    for states in extreme {
+        let (_, residual) = controls::fit(&[0.0, 1.0], &states);
+        assert!(!(residual.position_m < 1e3 && residual.load_factor < 1.0), "{residual:?}");
     }
 }

@@ -6,8 +6,8 @@
 /// m_{k-1}/h_{k-1} + 2 (1/h_{k-1} + 1/h_k) m_k + m_{k+1}/h_k = 3 (d_{k-1}/h_{k-1} + d_k/h_k),   d_k = (p_{k+1} - p_k)/h_k
 /// ```
 ///
-/// It begins with the velocity `start_mps`, which the vehicle has when its flight begins, and its last two pieces are one
-/// cubic (not a knot), so that an error of order h³ remains everywhere. [de Boor, A Practical Guide to Splines, chapter IV]
+/// Its first slope is `start_mps`, the velocity at the start of the flight. At its end the not-a-knot condition holds, so
+/// that the error is of order h³ everywhere. [de Boor, A Practical Guide to Splines, chapter IV]
 ///
 /// - `times_s`: of the nodes, increasing, at least two
 /// - `positions_m`: at the nodes
@@ -21,7 +21,7 @@ pub(super) fn of(times_s: &[f64], positions_m: &[[f64; 3]], start_mps: [f64; 3])
     (0..times_s.len()).map(|node| [x[node], y[node], z[node]]).collect()
 }
 
-/// Slopes of one coordinate: the rows are eliminated from the start on, then solved from the end.
+/// Slopes of one coordinate, by elimination of the tridiagonal system.
 fn slopes(h: &[f64], values: &[f64], first: f64) -> Vec<f64> {
     let last = h.len();
     let d: Vec<f64> = values.windows(2).zip(h).map(|(pair, h)| (pair[1] - pair[0]) / h).collect();
@@ -48,7 +48,7 @@ fn row(k: usize, h: &[f64], d: &[f64]) -> (f64, f64, f64, f64) {
         let (before, after) = (1.0 / h[k - 1], 1.0 / h[k]);
         (before, 2.0 * (before + after), after, 3.0 * (d[k - 1] * before + d[k] * after))
     } else if k == 1 {
-        // a single piece: its second derivative is zero at the end
+        // A single piece: its second derivative is zero at the end.
         (1.0, 2.0, 0.0, 3.0 * d[0])
     } else {
         let (before, own) = (h[k - 2], h[k - 1]);

@@ -1,28 +1,18 @@
-//! Planners outside the harness, from the command line.
+//! External planners, from the command line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
+use crate::workplace::{PAIR, Workplace, code, has_python, stderr, stdout};
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/outside-planner").join(name)
-}
-
-/// Whether there is a Python with NumPy. A test without it is skipped, visibly; on a CI server, which sets `CI`, it fails.
-fn has_numpy() -> bool {
-    let found = Command::new("python3").args(["-c", "import numpy"]).output().is_ok_and(|out| out.status.success());
-    assert!(found || std::env::var_os("CI").is_none(), "python3 with numpy is missing: install it");
-    if !found {
-        eprintln!("SKIPPED: python3 with numpy is missing");
-    }
-    found
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/external-planner").join(name)
 }
 
 #[test]
 fn the_example_passes_its_scenario_and_a_shipped_one() {
-    if !has_numpy() {
+    if !has_python("numpy") {
         return;
     }
     let workplace = Workplace::new(&[]);
@@ -39,8 +29,8 @@ fn the_example_passes_its_scenario_and_a_shipped_one() {
 }
 
 #[test]
-fn a_planner_in_the_loop_flies_its_scenario() {
-    if !has_numpy() {
+fn an_in_loop_planner_flies_its_scenario() {
+    if !has_python("numpy") {
         return;
     }
     let workplace = Workplace::new(&[]);
@@ -55,13 +45,13 @@ fn a_planner_in_the_loop_flies_its_scenario() {
 }
 
 #[test]
-fn a_planner_that_crashes_is_a_verdict_and_the_others_go_on() {
-    let outside = PAIR
+fn a_planner_that_crashes_is_a_verdict_and_the_others_run() {
+    let external = PAIR
         .replace("\"pair\"", "\"broken\"")
         .replace("name = \"parallel-scp\"\nintervals = 20", "name = \"theirs\"\ncommand = [\"sh\", \"planner.sh\"]");
-    assert!(outside.contains("planner.sh"));
+    assert!(external.contains("planner.sh"));
     let script = "echo 'I give up' >&2\nexit 3\n";
-    let files = [("all/broken.toml", outside.as_str()), ("all/pair.toml", PAIR), ("all/planner.sh", script)];
+    let files = [("all/broken.toml", external.as_str()), ("all/pair.toml", PAIR), ("all/planner.sh", script)];
     let workplace = Workplace::new(&files);
     let output = workplace.harness(&["run", "all", "--record", "none"]);
     let page = stdout(&output);
@@ -74,18 +64,22 @@ fn a_planner_that_crashes_is_a_verdict_and_the_others_go_on() {
 }
 
 #[test]
-fn a_hang_is_ended_at_the_limit() {
+fn a_planner_that_hangs_is_terminated_at_its_time_limit() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let arguments = ["run", "pair.toml", "--record", "none", "--planner-command", "sleep 600", "--time-limit", "0.3"];
     let output = workplace.harness(&arguments);
     assert_eq!(code(&output), 1, "{}", stderr(&output));
-    assert!(stdout(&output).contains("it took longer than its limit of 0.3 s and was ended"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("it took longer than its limit of 0.3 s and was terminated"),
+        "{}",
+        stdout(&output)
+    );
 }
 
-/// Ctrl-C ends the planner too, although it is in a process group of its own.
+/// Ctrl-C terminates the planner as well, although it is in a process group of its own.
 #[test]
 #[cfg(unix)]
-fn a_run_that_is_stopped_takes_its_planner_along() {
+fn an_interrupted_run_terminates_its_planner() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let alive = workplace.path("alive");
     let script = format!("touch started; sleep 3; touch {}", alive.display());
@@ -102,15 +96,15 @@ fn a_run_that_is_stopped_takes_its_planner_along() {
     assert!(kill.success());
     assert_eq!(harness.wait().unwrap().code(), Some(130));
     std::thread::sleep(std::time::Duration::from_secs(4));
-    assert!(!alive.exists(), "the planner lived on");
+    assert!(!alive.exists(), "the planner survived");
 }
 
 #[test]
-fn settings_that_make_no_sense_are_pointed_to() {
+fn invalid_settings_are_errors_with_their_field() {
     let with = |planner: &str| PAIR.replace("name = \"parallel-scp\"\nintervals = 20", planner);
     for (planner, message) in [
         ("name = \"theirs\"\ncommand = []", "planner.command: found no program"),
-        ("name = \"parallel-scp\"\ncommand = [\"true\"]", "a name of its own"),
+        ("name = \"parallel-scp\"\ncommand = [\"true\"]", "another name for a planner"),
         ("name = \"a/b\"\ncommand = [\"true\"]", "planner.name: found \"a/b\""),
         ("name = \"theirs\"\ncommand = [\"true\"]\ntime_limit_s = 0", "planner.time_limit_s: found 0"),
         ("name = \"parallel-scp\"\noptions = { speed = 3 }", "planner.options: found an option of external planners"),

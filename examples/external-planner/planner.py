@@ -1,8 +1,8 @@
-"""A planner outside the harness: one aircraft at constant speed and altitude, on a cubic spline round the obstacles.
+"""An external planner: one aircraft at constant speed and altitude, on a cubic spline round the obstacles.
 
-Reads a request from standard input and writes a reply to standard output, both JSON (see docs/outside-planners.md).
-The spline goes from start to goal through two points off the straight line; of all that keep their distance from the
-obstacles and their load factor inside its limit, the shortest is taken.
+Reads a request from standard input and writes a reply to standard output, both JSON (see docs/external-planners.md).
+The spline passes through two points beside the straight line from start to goal. The fastest of all splines that keep
+their distance from obstacles and their load factor within its limit is the plan.
 """
 
 import itertools
