@@ -28,7 +28,7 @@ static SMALL: LazyLock<Vec<Subproblem>> = LazyLock::new(|| of_rendezvous(4));
 
 fn of_rendezvous(intervals: usize) -> Vec<Subproblem> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fixed-wing/rendezvous-7.toml");
-    subproblems::of_a_run(&scenarios::load(&path).expect("shipped scenario"), intervals)
+    subproblems::from_run(&scenarios::load(&path).expect("shipped scenario"), intervals)
 }
 
 fn full_size() -> impl Iterator<Item = Named> {
@@ -60,7 +60,7 @@ fn block(bencher: Bencher, subproblem: Named) {
 #[divan::bench(args = full_size())]
 fn block_x4(bencher: Bencher, Named(subproblem): Named) {
     let solvers = BatchSolver::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
-    bencher.bench_local(|| solvers.solve_all(&subproblem.together));
+    bencher.bench_local(|| solvers.solve_all(&subproblem.batch));
 }
 
 #[divan::bench(args = full_size())]

@@ -1,4 +1,4 @@
-//! What `harness bench` measures: the papers' tables, side by side with the baselines.
+//! Benchmarks: the tables of the papers, side by side with the baselines.
 
 pub mod cooperative;
 mod entry;

@@ -1,7 +1,7 @@
-//! Two runs side by side: what got worse, by more than it may.
+//! Comparison of two runs: what got worse by more than its tolerance.
 //!
-//! A [`Snapshot`] is what of a run is compared: verdicts, checks, margins, figures. It is taken from a result folder, or
-//! read from a baseline file that was accepted earlier.
+//! A [`Snapshot`] holds what is compared of a run: verdicts, checks, margins, figures. It is read from a result folder or
+//! from an accepted baseline file.
 
 mod baseline;
 mod rules;
@@ -19,52 +19,52 @@ pub use snapshot::{CheckEntry, Entry, Snapshot};
 use crate::number_format::{quantity, signed_quantity};
 use crate::verdict::Status;
 
-/// What differs between two runs, the worst first.
+/// Differences between two runs, the worst first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Results that were in both runs.
+    /// Number of results that are in both runs.
     pub compared: usize,
     /// Every difference beyond tolerance.
     pub differences: Vec<Difference>,
 }
 
-/// One thing that differs.
+/// One difference.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// Is it a loss?
+    /// Its severity.
     pub rating: Severity,
     /// Scenario.
     pub scenario: String,
     /// Planner.
     pub planner: String,
-    /// What differs: a check, a margin, a figure.
+    /// The subject: a check, a margin, a figure.
     pub what: String,
-    /// How it was.
+    /// The old value.
     pub old: String,
-    /// How it is.
+    /// The new value.
     pub new: String,
-    /// By how much, and how much would have been tolerated; empty for what is no number.
+    /// The change of a figure with its tolerance; empty for other subjects.
     pub change: String,
 }
 
-/// What a difference means.
+/// Severity of a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Severity {
-    /// A loss beyond tolerance: the comparison fails.
+    /// Worse by more than the tolerance: the comparison fails.
     Worse,
-    /// A gain beyond tolerance.
+    /// Better by more than the tolerance.
     Better,
-    /// Worth knowing, and neither.
+    /// For information only.
     Note,
 }
 
-/// Which results have to be there.
+/// Which results of the old run must be in the new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// All of the old run: one that is gone is a loss.
+    /// All: a missing one counts as worse.
     Everything,
-    /// Those of the new run: it may be a part.
+    /// None: the new run may be a part of the old one.
     NewRunOnly,
 }
 
@@ -74,7 +74,7 @@ impl Comparison {
         self.differences.iter().filter(|difference| difference.rating == rating).count()
     }
 
-    /// Did nothing get worse?
+    /// Whether nothing got worse.
     pub fn is_good(&self) -> bool {
         self.count(Severity::Worse) == 0
     }
@@ -102,7 +102,7 @@ impl Comparison {
     }
 }
 
-/// Holds `new` against `old`.
+/// Compares `new` with `old`.
 pub fn compare(old: &Snapshot, new: &Snapshot, scope: Scope) -> Comparison {
     let mut comparison = Comparison::default();
     for before in &old.entries {
@@ -155,7 +155,7 @@ fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Opti
     let rule = rules::rule(name, unit);
     let tolerance = rule.tolerance(before);
     let change = after - before;
-    // a change that is no number is a change
+    // NaN is a change.
     if change.abs() <= tolerance {
         return None;
     }
@@ -172,7 +172,7 @@ fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Opti
 }
 
 fn status_severity(old: &CheckEntry, new: &CheckEntry) -> Severity {
-    // a check that is not made any more says less than one that passes
+    // A check that is skipped now is worse than one that passes.
     let rank = |status: Status| match status {
         Status::Pass => 0,
         Status::Skip => 1,

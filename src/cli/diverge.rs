@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::campaign::first_difference::{Difference, Parting, first_difference};
+use crate::campaign::first_difference::{Difference, FirstDifference, first_difference};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::number_format;
@@ -51,7 +51,7 @@ impl Diverge {
         }
         match first_difference(&one, &other) {
             None => same(),
-            Some(parting) => console::print(&in_words(&parting)).map(|()| Exit::Failed),
+            Some(first) => console::print(&in_words(&first)).map(|()| Exit::Failed),
         }
     }
 
@@ -82,7 +82,7 @@ fn same() -> Result<Exit, Error> {
     console::print("the flights are the same to the last bit").map(|()| Exit::Passed)
 }
 
-fn in_words(Parting { t_s, vehicle, difference, largest_m }: &Parting) -> String {
+fn in_words(FirstDifference { t_s, vehicle, difference, largest_m }: &FirstDifference) -> String {
     let apart = format!("later they are up to {} apart", number_format::quantity(*largest_m, "m"));
     match difference {
         Difference::Number { field, values: [one, other], ulps } => {

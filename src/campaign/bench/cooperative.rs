@@ -1,5 +1,5 @@
-//! `harness bench cooperative`: fleets of one to seven on two missions, with our interior-point method and with a general
-//! one (Wang, Xu, Long 2020, section 5, figures 11 to 18).
+//! `harness bench cooperative`: fleets of one to seven on two missions, with the block interior-point method and with a
+//! general solver (Wang, Xu, Long 2020, section 5, figures 11 to 18).
 
 mod show;
 
@@ -12,28 +12,28 @@ use crate::error::Error;
 use crate::metrics::PlanMetrics;
 pub use show::{markdown, text};
 
-/// The solvers, ours first.
+/// The solvers and their names; the baseline is the last.
 const SOLVERS: [(Solver, &str); 2] = [(Solver::Block, "block"), (Solver::Clarabel, "clarabel")];
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The missions with their largest fleet: smaller ones are its first vehicles.
+    /// The missions with their largest fleet; a smaller fleet is its first vehicles.
     pub missions: Vec<Scenario>,
-    /// Numbers of vehicles.
+    /// Fleet sizes.
     pub sizes: Vec<usize>,
     /// Time limit of an entry, s.
     pub limit_s: f64,
 }
 
-/// Everything that was measured.
+/// The results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     /// Time limit of an entry, s.
     pub limit_s: f64,
-    /// Threads that were at hand.
+    /// Number of worker threads.
     pub threads: usize,
     /// One row per mission, size and solver.
     pub rows: Vec<Row>,
@@ -46,11 +46,11 @@ pub struct Results {
 pub struct Row {
     /// Scenario that the vehicles come from.
     pub mission: String,
-    /// How many of its vehicles.
+    /// Number of its vehicles.
     pub vehicles: usize,
     /// Solver of the subproblems.
     pub solver: &'static str,
-    /// How it ended.
+    /// Its outcome.
     #[serde(rename = "ending")]
     pub outcome: Outcome,
     /// Iterations of the planner.
@@ -72,11 +72,13 @@ pub struct Mean {
     pub flight_time_s: Option<f64>,
     /// Mean planning time, s.
     pub planning_s: Option<f64>,
-    /// Mean over the sizes of Clarabel's planning time over this one's, -.
+    /// Ratio of Clarabel's planning time to this one, mean over the sizes.
     pub speedup: Option<f64>,
 }
 
-/// Measures everything in `plan`; `progress` is told what comes next.
+/// Runs the benchmark.
+///
+/// - `progress`: receives a description of each entry
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
     let mut rows = Vec::new();
     for mission in &plan.missions {
@@ -95,7 +97,7 @@ pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error
 fn row(mission: &Scenario, vehicles: usize, solver: Solver, name: &'static str, limit_s: f64) -> Result<Row, Error> {
     let mut fleet = mission.clone();
     fleet.vehicles.truncate(vehicles);
-    // everything else is the paper's
+    // All other settings are defaults, which are the paper's.
     fleet.planner =
         PlannerSettings { name: PLANNER.name.to_owned(), solver: Some(solver), ..PlannerSettings::default() };
     let Entry { outcome, report } = entry::run(&fleet, PLANNER.name, limit_s)?;

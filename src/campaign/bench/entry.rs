@@ -1,4 +1,4 @@
-//! One entry of a table: a planner on a scenario, in a process of its own, so that a time limit can end it.
+//! One entry of a benchmark: a planner on a scenario, in a process of its own, so that a time limit can terminate it.
 
 use std::fs;
 use std::path::Path;
@@ -14,10 +14,10 @@ use crate::output;
 use crate::plan_source::external::group::{self, Guard};
 use crate::report::Report;
 
-/// Time between two looks at the process.
+/// Polling interval of the process.
 const POLL: Duration = Duration::from_millis(5);
 
-/// How an entry ended.
+/// Outcome of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -27,12 +27,12 @@ pub enum Outcome {
     Fail,
     /// The planner found no plan.
     NoPlan,
-    /// The time limit came first.
+    /// The time limit was reached.
     TimedOut,
 }
 
 impl Outcome {
-    /// In a table.
+    /// Its name in a table.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pass => "pass",
@@ -43,28 +43,32 @@ impl Outcome {
     }
 }
 
-/// What came out of it.
+/// Result of an entry.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
-    /// The report; nothing if the time limit came first.
+    /// The report; `None` after a timeout.
     pub report: Option<Report>,
 }
 
-/// Plans, flies and judges `scenario` with `planner`; all of it within `limit_s`.
+/// Plans, flies and judges `scenario` with `planner`, within `limit_s` seconds.
+///
+/// # Errors
+///
+/// [`Error::Bench`] if the process cannot be started or leaves no report.
 pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Error> {
     let folder = tempfile::tempdir().map_err(|error| environment("make a temporary folder", &error))?;
-    let _with_us = RemoveOnInterrupt::new(folder.path());
+    let _cleanup = RemoveOnInterrupt::new(folder.path());
     let file = folder.path().join(format!("{}.toml", scenario.name));
     output::write_file(&file, |writer| writer.write_all(scenario.to_toml().as_bytes()))?;
     let out = folder.path().join("out");
     let mut child = start(&file, planner, &out)?;
     let guard = Guard::of(&child);
-    let is_over = ends_within(&guard, &mut child, limit_s);
+    let has_ended = ends_within(&guard, &mut child, limit_s);
     guard.end(&mut child);
     let _ = child.wait();
-    if !is_over {
+    if !has_ended {
         return Ok(Entry { outcome: Outcome::TimedOut, report: None });
     }
     let path = out.join(&scenario.name).join(planner).join("report.json");
@@ -83,7 +87,7 @@ fn start(file: &Path, planner: &str, out: &Path) -> Result<Child, Error> {
     child.map_err(|error| environment("start this program once more", &error))
 }
 
-/// Waits for the end, or for the end of the time.
+/// Waits for the end of the process. Returns false after `limit_s` seconds.
 fn ends_within(guard: &Guard, child: &mut Child, limit_s: f64) -> bool {
     let started = Instant::now();
     while !guard.has_exited(child) {

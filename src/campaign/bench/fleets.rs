@@ -1,5 +1,5 @@
-//! `harness bench fleets`: the ways to decouple a fleet side by side, over fleets of several sizes, and how the cost of
-//! ours grows with the fleet (Xu, Wang, Cao, Sun, Long 2022, figures 8 and 9, section 4).
+//! `harness bench fleets`: methods to decouple a fleet, over fleets of several sizes, and the growth of the cost of fleet-scp
+//! with the size of the fleet (Xu, Wang, Cao, Sun, Long 2022, figures 8 and 9, section 4).
 
 mod show;
 
@@ -10,16 +10,16 @@ use super::entry::{self, Entry, Outcome};
 use crate::error::Error;
 pub use show::{markdown, text};
 
-/// The planners, in the paper's order, ours last.
-const PLANNERS: [&str; 5] = ["coupled-scp", "serial-scp", "parallel-scp", "dpd-scp", OURS];
+/// The planners: those of the paper in its order, then fleet-scp.
+const PLANNERS: [&str; 5] = ["coupled-scp", "serial-scp", "parallel-scp", "dpd-scp", FLEET_SCP];
 
-/// Our own.
-const OURS: &str = "fleet-scp";
+/// The planner whose growth is measured.
+const FLEET_SCP: &str = "fleet-scp";
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Scenario and numbers of vehicles: the first so many of it.
+    /// Scenarios and fleet sizes N: the first N vehicles of the scenario.
     pub missions: Vec<(Scenario, Vec<usize>)>,
     /// Scenario whose first n vehicles have the same density for every n, and the numbers n.
     pub growth: Option<(Scenario, Vec<usize>)>,
@@ -27,18 +27,18 @@ pub struct Plan {
     pub limit_s: f64,
 }
 
-/// Everything that was measured.
+/// The results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     /// Time limit of an entry, s.
     pub limit_s: f64,
-    /// Threads that were at hand.
+    /// Number of worker threads.
     pub threads: usize,
     /// One row per mission, size and planner.
     pub rows: Vec<Row>,
-    /// The same for our planner at constant density.
+    /// The same for fleet-scp at constant density.
     pub growth: Vec<Row>,
 }
 
@@ -47,22 +47,22 @@ pub struct Results {
 pub struct Row {
     /// Scenario that the vehicles come from.
     pub scenario: String,
-    /// How many of its vehicles.
+    /// Number of its vehicles.
     pub vehicles: usize,
     /// The planner.
     pub planner: &'static str,
-    /// How it ended.
+    /// Its outcome.
     #[serde(rename = "ending")]
     pub outcome: Outcome,
-    /// What was measured; nothing if the time limit came first.
+    /// The figures; `None` after a timeout.
     #[serde(flatten)]
     pub measured: Option<Measured>,
 }
 
-/// Figures of an entry. Distances are absent where there is no plan, or nothing to measure.
+/// Figures of an entry. Distances are absent without a plan.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measured {
-    /// What the planner says of its plan.
+    /// Status of the plan by the planner.
     pub status: scenarios::PlanStatus,
     /// Iterations.
     pub iterations: usize,
@@ -76,15 +76,17 @@ pub struct Measured {
     pub flight_time_s: Option<f64>,
     /// Smallest separation at the nodes, of the plan, in flight, m.
     pub separation_m: [Option<f64>; 3],
-    /// Largest defect of an interval by the judge's integration, m.
+    /// Largest defect of an interval by the judge's integrator, m.
     pub defect_m: Option<f64>,
-    /// End error of the plan's controls flown open loop, m.
+    /// End error of the open-loop rollout of the controls, m.
     pub rollout_m: Option<f64>,
     /// Simulation and judging, s.
     pub flight_and_verdict_s: f64,
 }
 
-/// Measures everything in `plan`; `progress` is told what comes next.
+/// Runs the benchmark.
+///
+/// - `progress`: receives a description of each entry
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
     let mut results = Results {
         schema: 1,
@@ -102,7 +104,7 @@ pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error
     }
     if let Some((scenario, sizes)) = &plan.growth {
         for &vehicles in sizes {
-            results.growth.push(row(scenario, vehicles, OURS, plan.limit_s, progress)?);
+            results.growth.push(row(scenario, vehicles, FLEET_SCP, plan.limit_s, progress)?);
         }
     }
     Ok(results)

@@ -1,4 +1,4 @@
-//! `harness bench horizon`: the five experiments of the paper on RHC-FPSO in the simulator, and the samplers at equal budget.
+//! `harness bench horizon`: the five experiments of the paper on RHC-FPSO in the simulator, and samplers at equal budget.
 
 mod cases;
 mod show;
@@ -15,7 +15,7 @@ use crate::metrics;
 use crate::plan_source::{Flown, PlanSource};
 use crate::verdict;
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The paper's map, known from the start.
@@ -28,37 +28,37 @@ pub struct Plan {
     pub seeds: u64,
 }
 
-/// Everything that was measured.
+/// The results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     /// Flights of every row.
     pub seeds: u64,
-    /// Threads that were at hand.
+    /// Number of worker threads.
     pub threads: usize,
     /// One row per case.
     pub rows: Vec<Row>,
 }
 
-/// One case over all seeds: means, unless said otherwise. What could not be measured is absent.
+/// One case: means over all seeds unless stated otherwise. Figures that could not be measured are absent.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Which experiment.
+    /// The experiment.
     pub experiment: Experiment,
     /// Scenario.
     pub scenario: String,
-    /// What is special about it.
+    /// Name of the case.
     pub case: &'static str,
     /// Flights that passed every check.
     pub passed: u64,
-    /// Flights in which speed and acceleration kept their limits, as the judge says.
+    /// Flights in which speed and acceleration kept their limits.
     pub within_limits: u64,
     /// Flight time of those that passed, s.
     pub flight_time_s: Option<f64>,
     /// Length of the flown path of those that passed, m.
     pub path_m: Option<f64>,
-    /// Smallest distance between body and obstacles or frame, over all flights, m.
+    /// Smallest distance between body and obstacles or map bounds, over all flights, m.
     pub clearance_m: Option<f64>,
     /// The same distance, mean over time, m.
     pub mean_clearance_m: Option<f64>,
@@ -75,17 +75,19 @@ pub struct InLoop {
     pub iterations: f64,
     /// First iteration with a feasible particle, from 0.
     pub first_feasible: Option<f64>,
-    /// Share of the particles that were feasible, -.
+    /// Fraction of feasible particles.
     pub feasible: Option<f64>,
-    /// Share of replans in which no particle was feasible, -.
+    /// Fraction of replans without a feasible particle.
     pub empty: f64,
-    /// Stab of eq. 22, m/s².
+    /// Stability by eq. 22, m/s².
     pub stability_mps2: f64,
 }
 
-/// Measures everything in `plan`; `progress` is told what comes next.
+/// Runs the benchmark.
 ///
-/// All cases fly once, then all once more, and so on: a machine that becomes slower does so for all of them.
+/// - `progress`: receives a description of each entry
+///
+/// All cases fly once per seed in turn, so that a change of the machine's speed affects all of them.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
     let cases = cases::all(plan);
     let mut flown: Vec<Vec<CaseFlight>> = cases.iter().map(|_| Vec::new()).collect();
@@ -153,7 +155,7 @@ fn path_m(flight: &Flight) -> f64 {
     steps.map(|ends| (Point::from(ends[0].position_m) - Point::from(ends[1].position_m)).norm()).sum()
 }
 
-/// Distance of the bodies from what stands still, mean over the samples.
+/// Distance between bodies and static obstacles, mean over the samples, m.
 fn mean_clearance_m(scenario: &Scenario, flight: &Flight) -> Option<f64> {
     let space = FreeSpace::from_world(&scenario.world, scenario.is_planar());
     let distances = flight.vehicles.iter().zip(&scenario.vehicles).flat_map(|(log, vehicle)| {

@@ -1,5 +1,5 @@
-//! `harness bench ipm`: our block sweep beside the paper's three ways to the Newton direction (Wang, Xu, Long 2020,
-//! Table 1) and a general interior-point solver, on the same subproblems to the same tolerance.
+//! `harness bench ipm`: the block factorisation, the paper's three methods for the Newton direction (Wang, Xu, Long 2020,
+//! Table 1), and a general interior-point solver, on the same subproblems to the same tolerance.
 
 mod cost;
 mod measure;
@@ -15,42 +15,42 @@ pub use measure::Measured;
 use measure::Stopwatch;
 pub use show::{markdown, text};
 
-/// Relative gap to which everybody solves.
+/// Relative gap of all solvers.
 pub const TOLERANCE: f64 = 1e-8;
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Numbers K of intervals.
     pub intervals: Vec<usize>,
-    /// Most repetitions of a solve, after one to warm up; the best counts.
+    /// Largest number of repetitions of a solve after a warm-up; the fastest counts.
     pub repetitions: usize,
-    /// A backend whose solve is expected to take longer than this is not run, s.
-    pub patience_s: f64,
+    /// Backends whose solve is expected to take longer than this are not run, s.
+    pub max_solve_s: f64,
 }
 
 impl Plan {
     /// The whole table.
     pub fn full() -> Self {
-        Self { intervals: vec![4, 8, 20, 40, 80], repetitions: 9, patience_s: 4.0 }
+        Self { intervals: vec![4, 8, 20, 40, 80], repetitions: 9, max_solve_s: 4.0 }
     }
 
-    /// The smallest size only, to see that everything runs.
+    /// The smallest size only, as a smoke test.
     pub fn quick() -> Self {
-        Self { intervals: vec![4], repetitions: 2, patience_s: 1.0 }
+        Self { intervals: vec![4], repetitions: 2, max_solve_s: 1.0 }
     }
 }
 
-/// Everything that was measured.
+/// The results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     /// Scenario that the subproblems come from.
     pub scenario: String,
-    /// Relative gap to which everybody solves, -.
+    /// Relative gap of all solvers.
     pub tolerance: f64,
-    /// Most repetitions of a solve; the best counts.
+    /// Largest number of repetitions of a solve; the fastest counts.
     pub repetitions: usize,
     /// One row per subproblem and backend.
     pub rows: Vec<Row>,
@@ -61,7 +61,7 @@ pub struct Results {
 pub struct Row {
     /// The subproblem.
     pub shape: String,
-    /// Who solved it: a backend of ours, `block x4` (four subproblems in one pass, times per subproblem), or `clarabel`.
+    /// The solver: a backend of the interior-point method, `block x4` (four subproblems in one pass, times per subproblem), or `clarabel`.
     #[serde(rename = "backend")]
     pub solver: &'static str,
     /// Number K of intervals.
@@ -73,25 +73,26 @@ pub struct Row {
     /// Sizes of the paper's form.
     #[serde(flatten)]
     pub sizes: Sizes,
-    /// What the paper's Table 1 counts for one iteration by this method, floating-point operations; only the leading
-    /// term for method II.
+    /// Floating-point operations of one iteration by Table 1 of the paper; for method II the leading term only.
     pub paper_flops: Option<f64>,
-    /// What was measured; nothing where `not_run` says why.
+    /// The figures; `None` if it was not run.
     #[serde(flatten)]
     pub measured: Option<Measured>,
-    /// Time of Clarabel over the time of this row, -.
+    /// Ratio of the time of Clarabel to the time of this row.
     pub speedup_vs_clarabel: Option<f64>,
-    /// Why this was not run.
+    /// Why it was not run.
     pub not_run: Option<String>,
 }
 
-/// Measures everything in `plan`; `progress` is told what comes next.
+/// Runs the benchmark.
+///
+/// - `progress`: receives a description of each entry
 pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
     let mut rows = Vec::new();
-    let mut stopwatch = Stopwatch::new(plan.repetitions, plan.patience_s);
+    let mut stopwatch = Stopwatch::new(plan.repetitions, plan.max_solve_s);
     for &intervals in &plan.intervals {
         progress(&format!("planning with {intervals} intervals"));
-        for subproblem in subproblems::of_a_run(scenario, intervals) {
+        for subproblem in subproblems::from_run(scenario, intervals) {
             progress(&format!("measuring {}", subproblem.name));
             rows.extend(rows_of(&subproblem, &mut stopwatch));
         }
@@ -104,10 +105,10 @@ fn rows_of(subproblem: &Subproblem, stopwatch: &mut Stopwatch) -> Vec<Row> {
     let program = &subproblem.program;
     let clarabel = stopwatch.clarabel(program);
     let baseline_us = clarabel.time_us;
-    let together = stopwatch.together(&subproblem.together);
+    let batch = stopwatch.together(&subproblem.batch);
     let mut rows = vec![
         row(subproblem, "clarabel", None, Ok(clarabel), baseline_us),
-        row(subproblem, "block x4", None, Ok(together), baseline_us),
+        row(subproblem, "block x4", None, Ok(batch), baseline_us),
     ];
     for backend in Backend::ALL {
         let paper_flops = Sizes::of(program).paper_flops(backend);

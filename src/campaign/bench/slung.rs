@@ -1,5 +1,5 @@
-//! `harness bench slung`: the slung-load planner's nonlinear programmes by mesh and formulation, to their optima from a cold
-//! start, on either side of the obstacles.
+//! `harness bench slung`: the nonlinear programs of the slung-load planner by mesh and formulation, solved from a cold start
+//! on every route round the obstacles.
 
 mod show;
 
@@ -12,12 +12,12 @@ use serde::Serialize;
 
 pub use show::{markdown, text};
 
-/// What is measured.
+/// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Fixed meshes: segments and points of each.
+    /// Fixed meshes: numbers of segments and of collocation points per segment.
     pub meshes: Vec<(usize, usize)>,
-    /// Repetitions of a solve, after one to warm up; the best counts.
+    /// Repetitions of a solve after a warm-up; the fastest counts.
     pub repetitions: usize,
 }
 
@@ -27,22 +27,22 @@ impl Plan {
         Self { meshes: vec![(10, 3), (20, 3), (20, 4), (40, 4)], repetitions: 9 }
     }
 
-    /// The smallest mesh and the refined one, to see that everything runs.
+    /// The smallest mesh and the refined one, as a smoke test.
     pub fn quick() -> Self {
         Self { meshes: vec![(10, 3)], repetitions: 1 }
     }
 }
 
-/// Everything that was measured.
+/// The results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Results {
-    /// Version of this form.
+    /// Version of this format.
     pub schema: u32,
     /// Scenario that poses the problem.
     pub scenario: String,
-    /// Repetitions of a solve; the best counts.
+    /// Repetitions of a solve; the fastest counts.
     pub repetitions: usize,
-    /// Threads that solve the ways of a row.
+    /// Number of worker threads.
     pub threads: usize,
     /// One row per mesh and formulation.
     pub rows: Vec<Row>,
@@ -55,39 +55,41 @@ pub struct Row {
     pub mesh: String,
     /// `taut`, with the tension in closed form, or `complementarity`.
     pub formulation: &'static str,
-    /// Time until all ways are solved, side by side, ms.
+    /// Time to solve all routes in parallel, ms.
     pub all_ways_ms: f64,
-    /// One by one.
-    pub ways: Vec<Way>,
+    /// The routes, solved one by one.
+    pub ways: Vec<RouteResult>,
 }
 
-/// One way round the obstacles.
+/// One route round the obstacles.
 #[derive(Clone, Debug, Serialize)]
-pub struct Way {
-    /// Which one.
+pub struct RouteResult {
+    /// Name of the route.
     pub name: String,
-    /// Whether the optimality conditions hold, and the mesh is as fine as was asked for.
+    /// Whether the optimality conditions hold and the mesh meets its tolerances.
     pub is_solved: bool,
     /// Segments of the last mesh.
     pub segments: usize,
-    /// Variables of the nonlinear programme on it.
+    /// Variables of the nonlinear program on the last mesh.
     pub variables: usize,
     /// Newton steps on all meshes.
     pub iterations: usize,
     /// Meshes.
     pub meshes: usize,
-    /// Best time, alone on one thread, ms.
+    /// Shortest time on one thread, ms.
     pub time_ms: f64,
-    /// J.
+    /// Objective J.
     pub objective: f64,
-    /// Largest error of the states between the nodes, relative to 1 + their size on the segment: the planned controls
-    /// through the equations, by a rule of higher order.
+    /// Largest relative error of the states between the nodes, with respect to an integration of the controls by a
+    /// higher-order rule; relative to 1 + the magnitude of the state on the segment.
     pub error_between_nodes: f64,
-    /// Smallest distance of the envelope's circle from the obstacles, between the nodes too, m.
+    /// Smallest distance between the envelope circle and the obstacles, between the nodes as well, m.
     pub clearance_m: f64,
 }
 
-/// Measures everything in `plan`; `progress` is told what comes next.
+/// Runs the benchmark.
+///
+/// - `progress`: receives a description of each entry
 pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
     let problem = slung::problem(scenario);
     let usual = Options { solver: slung::options(scenario).solver, ..Options::default() };
@@ -110,28 +112,28 @@ pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> 
 /// The same problem with the tension as a control in all phases.
 fn free_tension(problem: &Problem) -> Problem {
     let mut problem = problem.clone();
-    for stage in &mut problem.phases {
-        stage.mode = CableMode::COMPLEMENTARITY;
+    for phase in &mut problem.phases {
+        phase.mode = CableMode::COMPLEMENTARITY;
     }
     problem
 }
 
 fn row(problem: &Problem, options: &Options, (mesh, formulation): (&str, &'static str), repetitions: usize) -> Row {
     let routes = slung::candidate_routes(problem);
-    let ways = routes.iter().map(|route| way(problem, route, options, repetitions)).collect();
+    let ways = routes.iter().map(|route| route_result(problem, route, options, repetitions)).collect();
     let all = || {
         let candidates: Vec<Candidate> =
             routes.par_iter().map(|route| slung::optimise(problem, route, options)).collect();
         candidates
     };
-    let (_, all_ways_ms) = best(repetitions, all);
+    let (_, all_ways_ms) = fastest(repetitions, all);
     Row { mesh: mesh.to_owned(), formulation, all_ways_ms, ways }
 }
 
-fn way(problem: &Problem, route: &Route, options: &Options, repetitions: usize) -> Way {
-    let (candidate, time_ms) = best(repetitions, || slung::optimise(problem, route, options));
+fn route_result(problem: &Problem, route: &Route, options: &Options, repetitions: usize) -> RouteResult {
+    let (candidate, time_ms) = fastest(repetitions, || slung::optimise(problem, route, options));
     let last = candidate.last();
-    Way {
+    RouteResult {
         name: slung::route_name(route, problem),
         is_solved: candidate.is_solved() && candidate.is_refined,
         segments: last.segments,
@@ -145,14 +147,14 @@ fn way(problem: &Problem, route: &Route, options: &Options, repetitions: usize) 
     }
 }
 
-/// What `solve` answers, and its best time after one run to warm up, ms.
-fn best<T>(repetitions: usize, mut solve: impl FnMut() -> T) -> (T, f64) {
+/// The result of `solve` and its shortest time after a warm-up, ms.
+fn fastest<T>(repetitions: usize, mut solve: impl FnMut() -> T) -> (T, f64) {
     let mut answer = solve();
-    let mut best_ms = f64::INFINITY;
+    let mut shortest_ms = f64::INFINITY;
     for _ in 0..repetitions {
         let started = Instant::now();
         answer = solve();
-        best_ms = best_ms.min(1e3 * started.elapsed().as_secs_f64());
+        shortest_ms = shortest_ms.min(1e3 * started.elapsed().as_secs_f64());
     }
-    (answer, best_ms)
+    (answer, shortest_ms)
 }

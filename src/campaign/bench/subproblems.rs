@@ -1,4 +1,4 @@
-//! Subproblems to measure with, taken from a real run of the planner.
+//! Subproblems for benchmarks, taken from a run of the planner.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -6,10 +6,10 @@ use planners::convex::Program;
 use planners::scp::parallel::plan_and_inspect;
 use scenarios::{PlannerSettings, Scenario, Transcription};
 
-/// Distance kept beyond obstacles and separation, m: it brings more rows.
+/// Distance kept beyond obstacles and separation, m. It adds avoidance constraints.
 const MARGIN_M: f64 = 80.0;
 
-/// Share by which the common time bound is released, so that the run comes to a good end.
+/// Fraction by which the common time bound is released, so that the run converges.
 const TIME_BOUND_RELEASE: f64 = 0.08;
 
 /// One subproblem of a run.
@@ -21,31 +21,31 @@ pub struct Subproblem {
     pub iteration: usize,
     /// The subproblem.
     pub program: Program,
-    /// It and others of the same iteration, four in all or as many as there are: what the planner solves in one pass.
-    pub together: Vec<Program>,
+    /// The subproblem and others of the same iteration, up to four: what the planner solves in one pass.
+    pub batch: Vec<Program>,
 }
 
 /// Number of subproblems in one pass.
-const TOGETHER: usize = 4;
+const BATCH_SIZE: usize = 4;
 
-/// An early, a middle and a late subproblem of a run of `scenario` with `intervals` intervals: of the first iteration
-/// and of one a third of the way the vehicle with the most avoidance rows, of the last (rows out of reach are dropped, and by then
-/// most are) the one with the fewest.
-pub fn of_a_run(scenario: &Scenario, intervals: usize) -> Vec<Subproblem> {
+/// An early, a middle and a late subproblem of a run of `scenario` with `intervals` intervals. The early one (of the first
+/// iteration) and the middle one (after a third of the iterations) are those with the most avoidance constraints, the late one
+/// (of the last iteration) has the fewest.
+pub fn from_run(scenario: &Scenario, intervals: usize) -> Vec<Subproblem> {
     let iterations = iterations(scenario, intervals);
     let (middle, last) = (iterations.len() / 3, iterations.len() - 1);
     let most = |programs: &[Program]| programs.iter().rev().cloned().collect();
     let fewest = |programs: &[Program]| programs.to_vec();
     let pick = |what: &str, iteration: usize, order: &dyn Fn(&[Program]) -> Vec<Program>| {
-        let mut together = order(&iterations[iteration]);
-        together.truncate(TOGETHER);
-        let (name, program) = (format!("K={intervals} {what}"), together[0].clone());
-        Subproblem { name, iteration: iteration + 1, program, together }
+        let mut batch = order(&iterations[iteration]);
+        batch.truncate(BATCH_SIZE);
+        let (name, program) = (format!("K={intervals} {what}"), batch[0].clone());
+        Subproblem { name, iteration: iteration + 1, program, batch }
     };
     vec![pick("early", 0, &most), pick("middle", middle, &most), pick("late", last, &fewest)]
 }
 
-/// The subproblems of every iteration, the one with the fewest avoidance rows first, whatever thread was faster.
+/// The subproblems of every iteration, in the order of their numbers of avoidance constraints.
 fn iterations(scenario: &Scenario, intervals: usize) -> Vec<Vec<Program>> {
     let mut scenario = scenario.clone();
     scenario.planner = PlannerSettings {

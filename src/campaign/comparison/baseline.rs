@@ -1,4 +1,4 @@
-//! A run that was accepted as the one to compare with: a file to commit beside the scenarios.
+//! Baseline files: accepted results, to be committed beside the scenarios.
 
 use std::fs;
 use std::path::Path;
@@ -9,26 +9,26 @@ use super::{Snapshot, rules};
 use crate::error::Error;
 use crate::output;
 
-/// Version of the form of a baseline file.
+/// Version of the format of a baseline file.
 const SCHEMA: u32 = 1;
 
 /// A baseline file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baseline {
-    /// Version of this form: 1.
+    /// Version of this format: 1.
     pub schema: u32,
-    /// Why it is what it is, the latest reason last.
+    /// The reasons of all acceptances, the latest last.
     pub accepted: Vec<Acceptance>,
     /// The results.
     pub results: Snapshot,
 }
 
-/// One time that results were accepted.
+/// One acceptance of results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Acceptance {
-    /// Why.
+    /// The reason.
     pub reason: String,
     /// Version of the harness.
     pub harness: String,
@@ -36,23 +36,24 @@ pub struct Acceptance {
 
 impl Baseline {
     /// Reads a baseline file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Results`] if it cannot be read, or is not a baseline of this version.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(|reason| Error::results(path, reason.to_string()))?;
         let baseline: Self = serde_json::from_str(&text)
-            .map_err(|reason| Error::results(path, format!("is no baseline of this version: {reason}")))?;
+            .map_err(|reason| Error::results(path, format!("not a baseline of this version: {reason}")))?;
         if baseline.schema != SCHEMA {
-            return Err(Error::results(
-                path,
-                format!("is of form {}, this harness reads form {SCHEMA}", baseline.schema),
-            ));
+            return Err(Error::results(path, format!("format version {}; expected {SCHEMA}", baseline.schema)));
         }
         Ok(baseline)
     }
 
-    /// Accepts `results`, for `reason`. What an earlier baseline held of other scenarios stays; its reasons stay all.
+    /// Accepts `results` for `reason`. Results of an earlier baseline for other scenarios and all its reasons are kept.
     pub fn accept(earlier: Option<Self>, mut results: Snapshot, reason: &str) -> Self {
         for entry in &mut results.entries {
-            // of this machine, today
+            // It depends on the machine.
             entry.figures.remove(rules::PLANNING_TIME);
         }
         let mut accepted = Vec::new();
@@ -68,7 +69,11 @@ impl Baseline {
         Self { schema: SCHEMA, accepted, results }
     }
 
-    /// Writes the file, all or nothing.
+    /// Writes the file atomically.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Write`] if it cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         output::write_json(path, self)
     }

@@ -1,4 +1,4 @@
-//! Which way is better, and how much of a change is none.
+//! Directions and tolerances of the compared figures.
 
 /// Prefix of the names of margins among the figures, before the name of the check.
 pub const MARGIN_OF: &str = "margin of ";
@@ -10,29 +10,29 @@ pub const FLOWN_TIME: &str = "flown time";
 pub const TRACKING_MAX: &str = "tracking error, largest";
 /// Name of the root mean square of that distance among the figures.
 pub const TRACKING_RMS: &str = "tracking error, rms";
-/// Name of the time that planning took among the figures.
+/// Name of the planning time among the figures.
 pub const PLANNING_TIME: &str = "planning time";
 
 /// How one figure is compared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
-    /// Is more of it better?
+    /// Whether larger values are better.
     pub more_is_better: bool,
-    /// Change that is tolerated whatever the figure is, in its unit.
+    /// Absolute tolerance, in the unit of the figure.
     pub absolute: f64,
-    /// Share of the old figure that its change may have.
+    /// Tolerance relative to the old figure.
     pub relative: f64,
-    /// Does a loss fail the comparison, or is it only told?
+    /// Whether a change for the worse fails the comparison.
     pub decides: bool,
 }
 
 impl Rule {
-    /// Largest change that is none.
+    /// Largest tolerated change.
     pub fn tolerance(&self, old: f64) -> f64 {
         self.absolute.max(self.relative * old.abs())
     }
 
-    /// Is this change, beyond tolerance, one for the better? NaN is not.
+    /// Whether a change is for the better. NaN is not.
     pub fn is_gain(&self, change: f64) -> bool {
         if self.more_is_better { change > 0.0 } else { change < 0.0 }
     }
@@ -44,7 +44,7 @@ pub fn rule(name: &str, unit: &str) -> Rule {
     match name {
         PLANNED_TIME | FLOWN_TIME => less(0.05, 0.005),
         TRACKING_MAX | TRACKING_RMS => less(0.005, 0.02),
-        // another machine, another load: a doubling is worth a line, and no more
+        // It depends on the machine and its load.
         PLANNING_TIME => Rule { more_is_better: false, absolute: 0.1, relative: 1.0, decides: false },
         _ => {
             let absolute = match unit {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::report::Report;
 use crate::verdict::{Outcome, Status};
 
-/// What of a run is compared: one entry per scenario and planner, in the order of their names.
+/// What is compared of a run: one entry per scenario and planner, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// The results.
@@ -26,11 +26,11 @@ pub struct Entry {
     pub planner: String,
     /// Seed of planning and flight.
     pub seed: u64,
-    /// The whole in one word.
+    /// The outcome.
     pub verdict: Outcome,
     /// Every check, by its full name.
     pub checks: BTreeMap<String, CheckEntry>,
-    /// What is compared as a number: margins (`margin of flight.separation`), flight time, tracking errors, planning time.
+    /// The compared numbers: margins (`margin of flight.separation`), flight time, tracking errors, planning time.
     pub figures: BTreeMap<String, f64>,
 }
 
@@ -38,17 +38,17 @@ pub struct Entry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CheckEntry {
-    /// The answer.
+    /// Its status.
     pub status: Status,
     /// Unit of its margin.
     pub unit: String,
-    /// Shown, not deciding.
+    /// Whether it is advisory.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub advisory: bool,
 }
 
 impl Snapshot {
-    /// Of reports, in any order.
+    /// The snapshot of reports, in any order.
     pub fn of<'r>(reports: impl IntoIterator<Item = &'r Report>) -> Self {
         let mut entries: Vec<Entry> = reports.into_iter().map(Entry::of).collect();
         entries.sort_by(|a, b| (&a.scenario, &a.planner).cmp(&(&b.scenario, &b.planner)));
@@ -56,6 +56,10 @@ impl Snapshot {
     }
 
     /// Reads a result folder (`out`), a single `report.json`, or a baseline file.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Results`] if there is no such file, or it is invalid.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let metadata = fs::metadata(path).map_err(|reason| Error::results(path, reason.to_string()))?;
         if !metadata.is_dir() {
@@ -71,7 +75,7 @@ impl Snapshot {
             }
         }
         if reports.is_empty() {
-            return Err(Error::results(path, "found no <scenario>/<planner>/report.json below it".into()));
+            return Err(Error::results(path, "found no <scenario>/<planner>/report.json in it".into()));
         }
         Ok(Self::of(&reports))
     }
@@ -136,7 +140,7 @@ fn read_file(path: &Path) -> Result<Snapshot, Error> {
 fn read_report(path: &Path) -> Result<Report, Error> {
     let text = fs::read_to_string(path).map_err(|reason| Error::results(path, reason.to_string()))?;
     serde_json::from_str(&text)
-        .map_err(|reason| Error::results(path, format!("is no report of this version: {reason}")))
+        .map_err(|reason| Error::results(path, format!("not a report of this version: {reason}")))
 }
 
 fn folders_in(path: &Path) -> Result<Vec<std::path::PathBuf>, Error> {

@@ -1,4 +1,4 @@
-//! The same is the same, and a planted loss is found.
+//! Equal runs do not differ, and an injected change is found.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ fn snapshot(change: impl Fn(&mut Entry)) -> Snapshot {
     Snapshot { entries: vec![entry] }
 }
 
-/// Ratings and subjects of what changed.
+/// Severities and subjects of the differences after a change.
 fn found(change: impl Fn(&mut Entry)) -> Vec<(Severity, String)> {
     let comparison = compare(&snapshot(|_| {}), &snapshot(change), Scope::Everything);
     comparison.differences.into_iter().map(|difference| (difference.rating, difference.what)).collect()
@@ -49,7 +49,7 @@ fn nothing_differs_from_itself() {
 }
 
 #[test]
-fn a_loss_of_three_per_cent_is_found_in_every_figure_that_decides_and_a_tenth_of_a_per_cent_in_none() {
+fn a_change_of_three_percent_is_found_in_every_deciding_figure_and_one_of_a_tenth_of_a_percent_in_none() {
     for (figure, worse) in
         [("margin of flight.separation", 0.97), (rules::FLOWN_TIME, 1.03), (rules::TRACKING_MAX, 1.03)]
     {
@@ -60,18 +60,18 @@ fn a_loss_of_three_per_cent_is_found_in_every_figure_that_decides_and_a_tenth_of
 }
 
 #[test]
-fn rounding_in_a_margin_of_nothing_is_no_change() {
+fn rounding_in_a_zero_margin_is_no_change() {
     assert_eq!(found(scaled("margin of nodes.state_limits", -3.0)), []);
 }
 
 #[test]
-fn wall_times_are_told_and_decide_nothing() {
+fn planning_times_are_notes() {
     assert_eq!(found(scaled(rules::PLANNING_TIME, 1.5)), []);
     assert_eq!(found(scaled(rules::PLANNING_TIME, 9.0)), [(Severity::Note, rules::PLANNING_TIME.to_owned())]);
 }
 
 #[test]
-fn what_is_no_number_is_worse() {
+fn nan_is_worse() {
     let lost = |entry: &mut Entry| *entry.figures.get_mut(rules::FLOWN_TIME).expect("a figure") = f64::NAN;
     assert_eq!(found(lost), [(Severity::Worse, rules::FLOWN_TIME.to_owned())]);
 }
@@ -91,7 +91,7 @@ fn statuses_and_verdicts_have_an_order() {
 }
 
 #[test]
-fn an_advisory_check_is_told_and_decides_nothing() {
+fn differences_of_advisory_checks_are_notes() {
     let advisory = |entry: &mut Entry| {
         let check = entry.checks.get_mut("flight.separation").unwrap();
         (check.advisory, check.status) = (true, Status::Fail);
@@ -101,7 +101,7 @@ fn an_advisory_check_is_told_and_decides_nothing() {
 }
 
 #[test]
-fn a_result_that_is_gone_is_a_loss_unless_only_a_part_was_run() {
+fn a_missing_result_is_worse_unless_only_a_part_was_run() {
     let (old, new) = (snapshot(|_| {}), Snapshot::default());
     assert!(!compare(&old, &new, Scope::Everything).is_good());
     assert!(compare(&old, &new, Scope::NewRunOnly).is_good());
@@ -109,7 +109,7 @@ fn a_result_that_is_gone_is_a_loss_unless_only_a_part_was_run() {
 }
 
 #[test]
-fn a_baseline_keeps_its_reasons_and_what_was_not_run_again() {
+fn a_baseline_keeps_its_reasons_and_the_results_that_were_not_run() {
     let first = Baseline::accept(None, snapshot(|_| {}), "first");
     let other = snapshot(|entry| entry.scenario = "other".into());
     let second = Baseline::accept(Some(first), other, "second");

@@ -1,4 +1,4 @@
-//! The results as tables on the terminal and as a page.
+//! The results as tables on the terminal and as a page in Markdown.
 
 use super::{Measured, Results, Row};
 use crate::output::report::table;
@@ -22,7 +22,7 @@ const HEADER: [&str; 13] = [
 const GROWTH: [&str; 7] =
     ["scenario", "N", "verdict", "its", "planning s", "µs per vehicle and iteration", "flight and verdict s"];
 
-/// The tables on the terminal, with what has to be known to read them.
+/// The tables on the terminal, with notes.
 pub fn text(results: &Results) -> String {
     let mut fleets = table::with_header(&HEADER, &[1, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
     results.rows.iter().for_each(|row| {

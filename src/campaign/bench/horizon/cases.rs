@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::Plan;
 
-/// Iterations without improvement after which searches that are timed against each other end: with a fixed number of
-/// iterations no sooner end can show.
+/// Iterations without improvement after which a search ends, in the experiment that compares search times: with a fixed
+/// number of iterations, an earlier end could not show.
 const STALL: usize = 10;
 
 /// The paper's experiments (its section 5), and ours.
@@ -16,7 +16,7 @@ const STALL: usize = 10;
 pub enum Experiment {
     /// Voronoi against visibility.
     CostMaps,
-    /// Against sparse A* and random trees.
+    /// Against sparse A* and rapidly exploring random trees.
     Baselines,
     /// FPSO against PSO, the two savings apart.
     Swarms,
@@ -29,7 +29,7 @@ pub enum Experiment {
 }
 
 impl Experiment {
-    /// In a table.
+    /// Its name in a table.
     pub fn name(self) -> &'static str {
         match self {
             Self::CostMaps => "1 cost maps",
@@ -47,15 +47,15 @@ impl Experiment {
 pub struct Case {
     /// Which experiment it belongs to.
     pub experiment: Experiment,
-    /// What is special about it.
+    /// Name of the case.
     pub name: &'static str,
-    /// The scenario with the options.
+    /// The scenario with the options of the case.
     pub scenario: Scenario,
-    /// Who plans.
+    /// The planner.
     pub planner: &'static Planner,
 }
 
-/// Names of the cases that the text compares.
+/// Names of the cases that the notes compare.
 pub const PSO_ALL: &str = "PSO, cost of all";
 /// See above.
 pub const PSO_SKIP: &str = "PSO, infeasible skipped";
@@ -70,7 +70,7 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     let mut add = |experiment, scenario: &Scenario, name, planner: &str, options: Horizon| {
         let planner = planners::find(planner).expect("a planner of the registry");
         let mut scenario = scenario.clone();
-        // the scenario's own grid and swarm, the case's rules
+        // Grid and swarm of the scenario, options of the case.
         let own = scenario.planner.horizon.take().unwrap_or_default();
         scenario.planner.horizon = Some(Horizon {
             step_s: own.step_s,

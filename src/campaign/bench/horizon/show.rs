@@ -1,4 +1,4 @@
-//! The results as a table on the terminal and as a page.
+//! The results as a table on the terminal and as a page in Markdown.
 
 use super::cases::{FPSO_ALL, FPSO_SKIP, PSO_ALL, PSO_SKIP};
 use super::{Experiment, InLoop, Results, Row};
@@ -22,7 +22,7 @@ const HEADER: [&str; 15] = [
     "Stab m/s²",
 ];
 
-/// The table on the terminal, with what has to be known to read it.
+/// The table on the terminal, with notes.
 pub fn text(results: &Results) -> String {
     let mut table = table::with_header(&HEADER, &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]);
     for row in &results.rows {
@@ -97,7 +97,7 @@ fn notes(results: &Results) -> Vec<String> {
     notes
 }
 
-/// The paper's 42 %, taken apart.
+/// The paper's saving of 42 %, by its causes.
 fn savings(results: &Results, scenario: &str) -> Option<String> {
     let replan_s = |case: &str| {
         let is_it = |row: &&Row| row.experiment == Experiment::Swarms && row.scenario == scenario && row.case == case;

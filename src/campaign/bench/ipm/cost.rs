@@ -19,8 +19,8 @@ impl Sizes {
         Self { n_x: n_z + n_eq + n_in, n_a: 2 * (n_z + n_eq + n_in) }
     }
 
-    /// The paper's count for one iteration, Table 1; nothing for our own method. Of method II our copy of the table has
-    /// the leading term only.
+    /// Operations of one iteration by Table 1 of the paper; `None` for the block method. Of method II our copy of the table
+    /// has the leading term only.
     pub fn paper_flops(&self, backend: Backend) -> Option<f64> {
         let (n_x, n_a) = (self.n_x as f64, self.n_a as f64);
         match backend {
@@ -31,7 +31,7 @@ impl Sizes {
         }
     }
 
-    /// Order of the matrix that a backend factors as a dense one; nothing for the others.
+    /// Order of the dense matrix that a backend factorises; `None` for sparse backends.
     pub fn dense_order(&self, backend: Backend) -> Option<usize> {
         match backend {
             Backend::Block | Backend::SparseLdl => None,

@@ -1,4 +1,4 @@
-//! Time per solve: the best of several, after one to warm up.
+//! Time per solve: the fastest of several after a warm-up.
 
 use std::time::Instant;
 
@@ -8,90 +8,94 @@ use serde::Serialize;
 use super::TOLERANCE;
 use super::cost::Sizes;
 
-/// A solve is not repeated any more once its repetitions have taken this long together, s.
-const ENOUGH_S: f64 = 2.0;
+/// Total time of the repetitions after which a solve is not repeated, s.
+const MAX_TOTAL_S: f64 = 2.0;
 
-/// Iterations that a solve is expected to take.
-const USUAL_ITERATIONS: f64 = 12.0;
+/// Expected number of iterations of a solve.
+const TYPICAL_ITERATIONS: f64 = 12.0;
 
-/// Time per n^3 of a dense factorisation until one has been measured, s.
-const FIRST_GUESS_S: f64 = 1e-10;
+/// Time per n^3 of a dense factorisation before the first measurement, s.
+const INITIAL_CUBIC_S: f64 = 1e-10;
 
 /// One backend on one subproblem.
 #[derive(Clone, Debug, Serialize)]
 pub struct Measured {
     /// `solved`, `stalled` or `iteration-limit`.
     pub status: &'static str,
-    /// Iterations to the end.
+    /// Number of iterations.
     pub iterations: usize,
-    /// Time of the first solve, which makes work memory and symbolic analysis, µs.
+    /// Time of the first solve, with allocation and symbolic analysis, µs.
     pub first_us: f64,
-    /// Best time of a solve, µs.
+    /// Shortest time of a solve, µs.
     pub time_us: f64,
-    /// The same by iteration, µs.
+    /// The same per iteration, µs.
     pub time_per_iteration_us: f64,
-    /// Objective at the end.
+    /// Final objective.
     pub objective: f64,
-    /// Relative gap at the end, of Clarabel the larger of gap and residuals, -.
+    /// Final relative gap; for Clarabel the larger of gap and residuals.
     pub gap: f64,
 }
 
-/// Measures, and knows from what it has measured what will take too long.
+/// Measures solve times, and estimates from earlier measurements which solves would take too long.
 #[derive(Debug)]
 pub struct Stopwatch {
     repetitions: usize,
-    patience_s: f64,
-    /// Time per iteration and n^3 of every backend, where it is dense.
+    max_solve_s: f64,
+    /// Time per iteration and n^3 of every dense backend.
     cubic_s: [f64; Backend::ALL.len()],
 }
 
 impl Stopwatch {
-    /// Nothing measured yet; `repetitions` >= 1, `patience_s` for one solve.
-    pub fn new(repetitions: usize, patience_s: f64) -> Self {
-        Self { repetitions, patience_s, cubic_s: [FIRST_GUESS_S; Backend::ALL.len()] }
+    /// Without measurements; `repetitions` >= 1, `max_solve_s` per solve.
+    pub fn new(repetitions: usize, max_solve_s: f64) -> Self {
+        Self { repetitions, max_solve_s, cubic_s: [INITIAL_CUBIC_S; Backend::ALL.len()] }
     }
 
     /// Clarabel on `program`.
     pub fn clarabel(&self, program: &Program) -> Measured {
-        self.best(1, || convex::solve_with_clarabel(program, TOLERANCE))
+        self.fastest(1, || convex::solve_with_clarabel(program, TOLERANCE))
     }
 
-    /// Ours on several programmes in one pass, on one thread: time per programme, of the rest the first one's.
+    /// The block method on several programs in one pass, on one thread: times per program, other figures of the first.
     pub fn together(&self, programs: &[Program]) -> Measured {
         let solvers = BatchSolver::new(Settings { tolerance: TOLERANCE, ..Settings::default() });
-        self.best(programs.len(), || solvers.solve_all(programs).swap_remove(0))
+        self.fastest(programs.len(), || solvers.solve_all(programs).swap_remove(0))
     }
 
-    /// A backend of ours on `program`; refused if a solve would take longer than there is patience for.
+    /// A backend on `program`.
+    ///
+    /// # Errors
+    ///
+    /// If a solve is expected to take longer than `max_solve_s`.
     pub fn backend(&mut self, program: &Program, backend: Backend) -> Result<Measured, String> {
         let cube = Sizes::of(program).dense_order(backend).map(|n| (n as f64).powi(3));
-        let expected_s = cube.map_or(0.0, |cube| cube * self.cubic_s[backend as usize] * USUAL_ITERATIONS);
-        if expected_s > self.patience_s {
+        let expected_s = cube.map_or(0.0, |cube| cube * self.cubic_s[backend as usize] * TYPICAL_ITERATIONS);
+        if expected_s > self.max_solve_s {
             return Err(format!("not run: about {expected_s:.0} s"));
         }
         let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
         let mut solver = InteriorPoint::with_backend(settings, backend);
-        let measured = self.best(1, || solver.solve(program));
+        let measured = self.fastest(1, || solver.solve(program));
         if let Some(cube) = cube {
             self.cubic_s[backend as usize] = 1e-6 * measured.time_per_iteration_us / cube;
         }
         Ok(measured)
     }
 
-    fn best(&self, programs: usize, mut solve: impl FnMut() -> Solution) -> Measured {
+    fn fastest(&self, programs: usize, mut solve: impl FnMut() -> Solution) -> Measured {
         let began = Instant::now();
-        let mut solution = solve(); // to warm up
+        let mut solution = solve(); // warm-up
         let first_s = began.elapsed().as_secs_f64();
-        let (begin, mut best_s) = (Instant::now(), f64::INFINITY);
+        let (begin, mut shortest_s) = (Instant::now(), f64::INFINITY);
         for _ in 0..self.repetitions {
             let started = Instant::now();
             solution = solve();
-            best_s = best_s.min(started.elapsed().as_secs_f64());
-            if begin.elapsed().as_secs_f64() > ENOUGH_S {
+            shortest_s = shortest_s.min(started.elapsed().as_secs_f64());
+            if begin.elapsed().as_secs_f64() > MAX_TOTAL_S {
                 break;
             }
         }
-        let time_us = 1e6 * best_s / programs as f64;
+        let time_us = 1e6 * shortest_s / programs as f64;
         Measured {
             status: status(solution.status),
             iterations: solution.iterations,

@@ -1,4 +1,4 @@
-//! The results as a table on the terminal and as a page.
+//! The results as a table on the terminal and as a page in Markdown.
 
 use super::measure::Measured;
 use super::{Results, Row};
@@ -10,7 +10,7 @@ const HEADER: [&str; 10] =
 /// Columns of numbers, for the terminal.
 const NUMBERS: [usize; 7] = [1, 3, 4, 5, 6, 7, 8];
 
-/// The table on the terminal, with what has to be known to read it.
+/// The table on the terminal, with notes.
 pub fn text(results: &Results) -> String {
     let mut table = table::with_header(&HEADER, &NUMBERS);
     for cells in rows(results) {

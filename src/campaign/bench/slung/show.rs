@@ -1,17 +1,17 @@
-//! The results as a table on the terminal and as a page.
+//! The results as a table on the terminal and as a page in Markdown.
 
-use super::{Results, Row, Way};
+use super::{Results, RouteResult, Row};
 use crate::output::report::table;
 
 const HEADER: [&str; 12] = [
     "mesh",
     "formulation",
-    "way",
+    "route",
     "segments",
     "variables",
     "its",
     "ms",
-    "all ways ms",
+    "all routes ms",
     "J",
     "error",
     "clearance m",
@@ -21,7 +21,7 @@ const HEADER: [&str; 12] = [
 /// Columns of numbers, for the terminal.
 const NUMBERS: [usize; 8] = [3, 4, 5, 6, 7, 8, 9, 10];
 
-/// The table on the terminal, with what has to be known to read it.
+/// The table on the terminal, with notes.
 pub fn text(results: &Results) -> String {
     let mut table = table::with_header(&HEADER, &NUMBERS);
     for cells in rows(results) {
@@ -47,7 +47,7 @@ fn rows(results: &Results) -> impl Iterator<Item = [String; HEADER.len()]> + '_ 
     results.rows.iter().flat_map(|row| row.ways.iter().enumerate().map(move |(i, way)| cells(row, way, i == 0)))
 }
 
-fn cells(row: &Row, way: &Way, is_first: bool) -> [String; HEADER.len()] {
+fn cells(row: &Row, way: &RouteResult, is_first: bool) -> [String; HEADER.len()] {
     let once = |text: String| if is_first { text } else { String::new() };
     [
         once(row.mesh.clone()),
@@ -67,16 +67,16 @@ fn cells(row: &Row, way: &Way, is_first: bool) -> [String; HEADER.len()] {
 
 fn notes(results: &Results) -> [String; 4] {
     [
-        "taut: the tension in closed form. complementarity: the tension as a control, λ (l_0 - ρ) <= 1e-6 N m at every node. \
-         refined: from a graded mesh, until error, clearance and thrusts hold between the nodes too."
+        "taut: tension in closed form. complementarity: tension as a control, λ (l_0 - ρ) <= 1e-6 N m at every node. \
+         refined: from a graded mesh, until error, clearance and thrusts hold between the nodes as well."
             .to_owned(),
         format!(
-            "ms: cold, best of {} after one to warm up; one way alone on one thread, and all ways on {} threads.",
+            "ms: from a cold start, fastest of {} solves after a warm-up; one route on one thread, and all routes on {} threads.",
             results.repetitions, results.threads
         ),
-        "its: Newton steps, and on how many meshes. variables, segments: of the last mesh.".to_owned(),
-        "error: of the states between the nodes, relative to 1 + their size. clearance: of the envelope's circle, between \
-         the nodes too."
+        "its: Newton steps, and the number of meshes. variables, segments: on the last mesh.".to_owned(),
+        "error: of the states between the nodes, relative to 1 + their magnitude. clearance: of the envelope circle, between \
+         the nodes as well."
             .to_owned(),
     ]
 }
