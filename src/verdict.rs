@@ -7,6 +7,7 @@ mod bernstein;
 mod broad_phase;
 pub mod case;
 mod closest;
+mod collision;
 mod compare;
 mod conditions;
 mod evidence;
@@ -14,22 +15,23 @@ pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
+mod in_loop_planning;
 mod integration;
 mod integrity;
 mod judge;
 mod map_bounds;
+mod missing_evidence;
 mod motion;
 pub mod multirotor;
 mod physics;
 mod provenance;
-
-mod collision;
 #[cfg(test)]
 mod random;
 mod rotors;
 mod separation;
 pub mod slung_load;
 mod tracking;
+mod trajectory_defect;
 mod worst;
 
 use std::fmt;
@@ -43,12 +45,14 @@ pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
 pub use judge::{judge, judge_imported, judge_with};
+pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, Motion};
 pub use provenance::{Provenance, Reconstruction};
 pub use separation::at_nodes as separation_at_nodes;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
 };
+pub use trajectory_defect::TrajectoryDefect;
 
 /// Checks whose margins say most about how close it was, by their names without the group.
 pub const KEY_CHECKS: [&str; 3] = ["separation", "clearance", "tracking_max"];

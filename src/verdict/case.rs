@@ -1,90 +1,116 @@
-//! What is put before the judge, and the evidence that the families share.
+//! A plan and its flight as the judge sees them, and the checks that all families share.
 
 use rayon::prelude::*;
 use scenarios::{CheckSpec, Family, Group, Plan, Scenario, checks_of};
 use sim::Flight;
 
-use crate::verdict::evidence::{Decide, Evidence};
+use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::flown::FlownMotions;
+use crate::verdict::missing_evidence::MissingEvidence;
+use crate::verdict::motion::Motion;
 use crate::verdict::{Check, arrival, conditions, flight_integrity, integrity, tracking};
 
 /// Why the groups `nodes` and `plan` are skipped for a plan that came into being during the flight.
-const PLANNED_IN_FLIGHT: &str = "planned in the loop: before the flight there was no plan";
+const PLANNED_IN_LOOP: &str = "planned in the loop: there was no plan before the flight";
 
-/// A plan, its flight, and what can be said of both whatever the family.
+/// A plan, its flight, and the evidence that all families share.
 pub struct Case<'a> {
     /// The scenario.
     pub scenario: &'a Scenario,
     /// The plan, flyable or not.
     pub plan: &'a Plan,
-    flyable: Result<(), String>,
-    flight: Result<&'a Flight, String>,
-    flown: Result<FlownMotions<'a>, String>,
+    flyable: Result<(), MissingEvidence>,
+    flight: Result<&'a Flight, MissingEvidence>,
+    flown: Result<FlownMotions<'a>, MissingEvidence>,
 }
+
+/// The rows of a table of checks: the name of a check, and the function that makes it from a case of type `C`.
+pub type CheckTable<F> = [(&'static str, F)];
+
+/// The checks that are made alike for all families.
+const SHARED_CHECKS: &CheckTable<fn(&CheckSpec, &Case<'_>) -> CheckResult> = &[
+    ("plan.finite", |spec, it| Ok(integrity::check_plan_finite(spec, it.plan))),
+    ("plan.complete", |spec, it| Ok(integrity::check_plan_complete(spec, it.scenario, it.plan))),
+    ("plan.arrival", |spec, it| arrival::check_planned_arrival(spec, it.scenario, it.flyable())),
+    ("plan.duration", |spec, it| arrival::check_planned_duration(spec, it.scenario, it.flyable()?)),
+    ("flight.finite", |spec, it| Ok(flight_integrity::check_finite(spec, it.flight()?))),
+    ("flight.conditions", |spec, it| Ok(conditions::check(spec, it.scenario, it.plan, it.flight()?))),
+    ("flight.arrival", |spec, it| arrival::check_flown_arrival(spec, it.scenario, it.flown())),
+    ("flight.duration", |spec, it| Ok(arrival::check_flown_duration(spec, it.scenario, it.flown()?))),
+    ("flight.tracking_rms", |spec, it| tracking::check_root_mean_square(spec, it.scenario, it.flown()?)),
+    ("flight.tracking_max", |spec, it| tracking::check_largest(spec, it.scenario, it.flown()?)),
+    ("flight.saturation", |spec, it| tracking::check_saturation(spec, it.scenario, it.flown()?)),
+];
 
 impl<'a> Case<'a> {
     /// - `flight`: `None` when the plan was not flown
     pub fn new(scenario: &'a Scenario, plan: &'a Plan, flight: Option<&'a Flight>) -> Self {
         let flyable = integrity::is_flyable(scenario, plan);
-        let flight = flyable.clone().and_then(|()| flight.ok_or_else(|| "the plan was not flown".to_owned()));
+        let flight = flyable.clone().and_then(|()| flight.ok_or(MissingEvidence::NotFlown));
         let flown = flight.clone().and_then(|flight| FlownMotions::new(scenario, plan, flight));
         Self { scenario, plan, flyable, flight, flown }
     }
 
     /// The plan, if it is flyable.
     pub fn flyable(&self) -> Evidence<'_, Plan> {
-        self.flyable.as_ref().map(|()| self.plan).map_err(String::as_str)
+        self.flyable.as_ref().map(|()| self.plan)
     }
 
-    /// The flight.
+    /// The flight of a flyable plan.
     pub fn flight(&self) -> Evidence<'_, Flight> {
-        self.flight.as_ref().map(|flight| *flight).map_err(String::as_str)
+        self.flight.as_ref().map(|flight| *flight)
     }
 
     /// The flight, its logs matched with the vehicles.
     pub fn flown(&self) -> Evidence<'_, FlownMotions<'a>> {
-        self.flown.as_ref().map_err(String::as_str)
+        self.flown.as_ref()
     }
 
-    /// Every check that is put to `family`, in the order of a verdict, made by `check` on all threads.
-    pub fn checks(&self, family: Family, check: impl Fn(&CheckSpec) -> Check + Sync) -> Vec<Check> {
-        let planned_in_flight = self.flight().is_ok_and(|flight| flight.planning.is_some());
-        let specs: Vec<&CheckSpec> = checks_of(family).collect();
-        let make = |spec: &CheckSpec| match spec.group {
-            Group::Nodes | Group::Plan if planned_in_flight => spec.skip(PLANNED_IN_FLIGHT),
-            Group::Nodes | Group::Plan | Group::Flight => check(spec),
-        };
-        specs.into_par_iter().map(make).collect()
+    /// The motion of every vehicle while it is judged.
+    pub fn flown_motions(&self) -> Evidence<'_, [Motion]> {
+        self.flown().map(|flown| flown.motions.as_slice())
     }
 
-    /// A check that is made alike for all families.
-    pub fn shared(&self, spec: &CheckSpec) -> Check {
-        let (scenario, plan, flyable, flown) = (self.scenario, self.plan, self.flyable(), self.flown());
-        match spec.name {
-            "plan.finite" => integrity::check_plan_finite(spec, plan),
-            "plan.complete" => integrity::check_plan_complete(spec, scenario, plan),
-            "plan.arrival" => arrival::check_planned_arrival(spec, scenario, flyable),
-            "plan.duration" => arrival::check_planned_duration(spec, scenario, flyable),
-            "flight.finite" => self.logged(spec, |flight| flight_integrity::check_finite(spec, flight)),
-            "flight.complete" => self.logged(spec, |it| flight_integrity::check_complete(spec, scenario, plan, it)),
-            "flight.conditions" => self.logged(spec, |flight| conditions::check(spec, scenario, plan, flight)),
-            "flight.arrival" => arrival::check_flown_arrival(spec, scenario, flown),
-            "flight.duration" => arrival::check_flown_duration(spec, scenario, flown),
-            "flight.tracking_rms" => tracking::check_root_mean_square(spec, scenario, flown),
-            "flight.tracking_max" => tracking::check_largest(spec, scenario, flown),
-            "flight.saturation" => tracking::check_saturation(spec, scenario, flown),
-            _ => spec.fail("the judge has no such check for this family of vehicles"),
-        }
-    }
-
-    /// The number of crashes.
+    /// Makes every check of `family`, in the order of a verdict, on all threads.
     ///
-    /// - `flown`: to look for contacts that the log does not tell of
-    pub fn crash(&self, spec: &CheckSpec, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
-        self.logged(spec, |flight| flight_integrity::check_crash(spec, self.scenario, flight, flown))
+    /// - `own`: the family's function for a check, applied; `None` if the check is one that all families share
+    ///
+    /// # Panics
+    ///
+    /// If a check has no function, which is a bug.
+    pub fn checks(&self, family: Family, own: impl Fn(&CheckSpec) -> Option<CheckResult> + Sync) -> Vec<Check> {
+        let planned_in_loop = self.flight().is_ok_and(|flight| flight.planning.is_some());
+        let check = |spec: &&CheckSpec| match spec.group {
+            Group::Nodes | Group::Plan if planned_in_loop => spec.skip(PLANNED_IN_LOOP),
+            Group::Nodes | Group::Plan | Group::Flight => {
+                let shared = || Some(function_of(SHARED_CHECKS, spec)?(spec, self));
+                let made = own(spec).or_else(shared).expect("every check has a function");
+                made.unwrap_or_else(|missing| spec.fail(missing))
+            }
+        };
+        let specs: Vec<&CheckSpec> = checks_of(family).collect();
+        specs.par_iter().map(check).collect()
     }
+}
 
-    fn logged(&self, spec: &CheckSpec, check: impl FnOnce(&Flight) -> Check) -> Check {
-        self.flight().map_or_else(|reason| spec.fail(reason), check)
+/// The function of a check in a table.
+pub fn function_of<F: Copy>(table: &CheckTable<F>, spec: &CheckSpec) -> Option<F> {
+    table.iter().find(|(name, _)| *name == spec.name).map(|(_, function)| *function)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use scenarios::{Family, check_names};
+
+    use super::{CheckTable, SHARED_CHECKS};
+
+    /// Every check of `family` has exactly one function, in its own table or in the shared one, and every function a check.
+    pub fn assert_complete<F>(family: Family, own: &CheckTable<F>) {
+        let shared = SHARED_CHECKS.iter().map(|(name, _)| *name);
+        let mut functions: Vec<&str> = own.iter().map(|(name, _)| *name).chain(shared).collect();
+        let mut checks: Vec<&str> = check_names(family).collect();
+        functions.sort_unstable();
+        checks.sort_unstable();
+        assert_eq!(functions, checks, "{family}");
     }
 }

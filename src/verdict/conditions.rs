@@ -9,8 +9,8 @@ use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
+use crate::verdict::in_loop_planning;
 use crate::verdict::integrity::none_of;
-use crate::verdict::multirotor::planning;
 
 /// Air without gusts is known to this, m/s: what rounding leaves.
 const AIR_MPS: f64 = 1e-6;
@@ -36,7 +36,7 @@ pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight
             .or_else(|| sensor_defect(scenario, log));
         defect.map(|defect| format!("{}: {defect}", log.vehicle))
     };
-    let defects = flight.vehicles.iter().filter_map(odd).chain(planning::defect(scenario, plan, flight));
+    let defects = flight.vehicles.iter().filter_map(odd).chain(in_loop_planning::defect(scenario, plan, flight));
     let defects: Vec<String> = defects.collect();
     none_of(spec, defects.len(), &[], defects.first())
 }

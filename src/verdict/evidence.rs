@@ -1,19 +1,25 @@
-//! From a measured value to a check: the comparisons, written so that NaN never passes.
+//! Comparison of a measured value with a limit. NaN never passes.
+
+use std::fmt;
 
 use scenarios::CheckSpec;
 
 use crate::verdict::closest::ClosestApproach;
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::{Check, Status};
 
-/// What a check is made from, or why there is nothing to make it from.
-pub type Evidence<'a, T> = Result<&'a T, &'a str>;
+/// What a check measures, or why it is missing.
+pub type Evidence<'a, T> = Result<&'a T, &'a MissingEvidence>;
 
-/// The worst value found: bounds (equal for a value known exactly), and where it stands.
+/// A check, or why there is nothing to measure; then the check fails.
+pub type CheckResult = Result<Check, MissingEvidence>;
+
+/// The worst value found: its bounds (equal for a value known exactly), its time, and what it is between.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     lower: f64,
     upper: f64,
-    /// Was it bounded, rather than measured?
+    /// Whether only bounds are known.
     is_bounded: bool,
     at_s: Option<f64>,
     between: Vec<String>,
@@ -31,12 +37,12 @@ impl Measurement {
         Self { lower, is_bounded: true, ..Self::value(upper) }
     }
 
-    /// A distance known within bounds, at its instant.
+    /// A distance known within bounds, at its time.
     pub fn approach(approach: &ClosestApproach) -> Self {
         Self::bounds(approach.lower_m, approach.upper_m).at(approach.at_s)
     }
 
-    /// Adds the instant, s.
+    /// Adds the time, s.
     pub fn at(mut self, t_s: f64) -> Self {
         self.at_s = t_s.is_finite().then_some(t_s);
         self
@@ -48,31 +54,31 @@ impl Measurement {
         self
     }
 
-    /// Adds what a person should know.
+    /// Adds a remark for the reader of the report.
     pub fn with_reason(mut self, reason: impl Into<String>) -> Self {
         self.reason = Some(reason.into());
         self
     }
 }
 
-/// Compares what was measured for a declared check with its limit.
+/// Compares the measurement of a declared check with its limit.
 pub trait Decide {
-    /// Passes if the value is certainly not below `limit`; undecided if the bounds lie on both sides of it.
-    /// The value reported is the lower bound, so that it never flatters.
+    /// Passes if the lower bound is at least `limit`; undecided if `limit` lies between the bounds.
+    /// The check reports the lower bound, the conservative one.
     fn at_least(&self, measured: Measurement, limit: f64) -> Check;
 
-    /// Passes if the value is certainly not above `limit`; undecided if the bounds lie on both sides of it.
-    /// The value reported is the upper bound, so that it never flatters.
+    /// Passes if the upper bound is at most `limit`; undecided if `limit` lies between the bounds.
+    /// The check reports the upper bound, the conservative one.
     fn at_most(&self, measured: Measurement, limit: f64) -> Check;
 
-    /// The check of a value whose distance from its limit is known: `margin`, positive inside.
+    /// The check of a value with a known `margin` to `limit`, positive inside.
     fn inside(&self, measured: Measurement, limit: f64, margin: f64) -> Check;
 
-    /// Does not apply, for the reason given.
-    fn skip(&self, reason: impl Into<String>) -> Check;
+    /// The check does not apply, for this reason.
+    fn skip(&self, reason: impl fmt::Display) -> Check;
 
-    /// Could not be measured, and so has failed.
-    fn fail(&self, reason: impl Into<String>) -> Check;
+    /// The check fails without a value, for this reason.
+    fn fail(&self, reason: impl fmt::Display) -> Check;
 }
 
 impl Decide for CheckSpec {
@@ -93,16 +99,16 @@ impl Decide for CheckSpec {
         compared(self, decide(margin >= 0.0, false), value, limit, margin, measured)
     }
 
-    fn skip(&self, reason: impl Into<String>) -> Check {
+    fn skip(&self, reason: impl fmt::Display) -> Check {
         without_value(self, Status::Skip, reason)
     }
 
-    fn fail(&self, reason: impl Into<String>) -> Check {
+    fn fail(&self, reason: impl fmt::Display) -> Check {
         without_value(self, Status::Fail, reason)
     }
 }
 
-fn without_value(spec: &CheckSpec, status: Status, reason: impl Into<String>) -> Check {
+fn without_value(spec: &CheckSpec, status: Status, reason: impl fmt::Display) -> Check {
     Check {
         name: spec.name.to_owned(),
         status,
@@ -115,7 +121,7 @@ fn without_value(spec: &CheckSpec, status: Status, reason: impl Into<String>) ->
         at_s: None,
         between: Vec::new(),
         advisory: false,
-        reason: Some(reason.into()),
+        reason: Some(reason.to_string()),
         limit_key: None,
     }
 }

@@ -5,48 +5,104 @@ mod dynamics;
 mod limits;
 mod physics;
 mod planned;
+mod reference;
+
+use std::ops::Deref;
 
 use scenarios::{CheckSpec, Family};
 
 pub use clearance::at_nodes as clearance_at_nodes;
 pub use planned::PlannedMotions;
 
-use crate::verdict::case::Case;
-use crate::verdict::evidence::{Decide, Evidence};
-use crate::verdict::{Check, arrival, separation};
+use crate::verdict::case::{Case, CheckTable, function_of};
+use crate::verdict::evidence::{CheckResult, Decide, Evidence};
+use crate::verdict::missing_evidence::MissingEvidence;
+use crate::verdict::motion::Motion;
+use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
 
-/// Every check of a fixed-wing fleet.
+/// Every check of a fixed-wing fleet, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
-    let planned = case.flyable().map_err(str::to_owned).and_then(|plan| PlannedMotions::new(case.scenario, plan));
-    let planned = planned.as_ref().map_err(String::as_str);
-    case.checks(Family::FixedWing, |spec| check(spec, case, planned))
+    let fleet = FleetCase::new(case);
+    case.checks(Family::FixedWing, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)))
 }
 
-fn check(spec: &CheckSpec, case: &Case<'_>, planned: Evidence<'_, PlannedMotions>) -> Check {
-    let (scenario, plan, flyable, flown) = (case.scenario, case.plan, case.flyable(), case.flown());
-    let planned_motions = planned.map(|planned| planned.motions.as_slice());
-    let flown_motions = flown.map(|flown| flown.motions.as_slice());
-    match spec.name {
-        "nodes.separation" => separation::check_nodes(spec, scenario, flyable),
-        "nodes.clearance" => clearance::check_nodes(spec, scenario, flyable),
-        "nodes.state_limits" => limits::check_node_states(spec, scenario, flyable),
-        "nodes.control_limits" => limits::check_planned_controls(spec, scenario, flyable),
-        "nodes.goal" => arrival::check_node_goals(spec, scenario, flyable),
-        "plan.separation" => separation::check(spec, scenario, planned_motions),
-        "plan.clearance" => clearance::check(spec, scenario, planned_motions),
-        "plan.state_limits" => limits::check_planned_states(spec, scenario, planned_motions),
-        "plan.control_limits" => limits::check_planned_controls(spec, scenario, flyable),
-        "plan.dynamics" => dynamics::check_defects(spec, scenario, plan, planned),
-        "plan.rollout" => dynamics::check_rollout(spec, scenario, plan, planned),
-        "plan.goal" => arrival::check_planned_goals(spec, scenario, planned_motions),
-        "flight.crash" => case.crash(spec, flown),
-        "flight.separation" => separation::check(spec, scenario, flown_motions),
-        "flight.clearance" => clearance::check(spec, scenario, flown_motions),
-        "flight.state_limits" => limits::check_flown_states(spec, scenario, flown),
-        "flight.control_limits" => limits::check_flown_controls(spec, scenario, flown),
-        "flight.dynamics" => physics::check(spec, scenario, case.flight()),
-        "flight.goal" => arrival::check_flown_goals(spec, scenario, flown),
-        "flight.tension" | "flight.slack" | "flight.swing" => spec.skip("no vehicle carries a load"),
-        _ => case.shared(spec),
+/// A fleet's plan and flight, with the plan as a continuous motion.
+struct FleetCase<'a> {
+    shared: &'a Case<'a>,
+    planned: Result<PlannedMotions, MissingEvidence>,
+}
+
+const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?)),
+    ("nodes.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
+    ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
+    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned_motions())),
+    ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
+    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?)),
+    ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
+    ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?)),
+    ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.plan, it.planned()?)),
+    ("plan.goal", |spec, it| arrival::check_planned_goals(spec, it.scenario, it.planned_motions()?)),
+    ("flight.complete", |spec, it| {
+        Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
+    }),
+    ("flight.crash", |spec, it| {
+        let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_cylinder);
+        Ok(flight_integrity::check_crash(spec, it.flight()?, contact))
+    }),
+    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown_motions())),
+    ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
+    ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
+    ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
+    ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
+    ("flight.goal", |spec, it| arrival::check_flown_goals(spec, it.scenario, it.flown()?)),
+    ("flight.tension", no_load),
+    ("flight.slack", no_load),
+    ("flight.swing", no_load),
+];
+
+impl<'a> FleetCase<'a> {
+    fn new(shared: &'a Case<'a>) -> Self {
+        let plan = shared.flyable().map_err(MissingEvidence::from);
+        Self { shared, planned: plan.and_then(|plan| PlannedMotions::new(shared.scenario, plan)) }
+    }
+
+    fn planned(&self) -> Evidence<'_, PlannedMotions> {
+        self.planned.as_ref()
+    }
+
+    fn planned_motions(&self) -> Evidence<'_, [Motion]> {
+        self.planned().map(|planned| planned.motions.as_slice())
+    }
+
+    fn flown_motions(&self) -> Evidence<'_, [Motion]> {
+        self.shared.flown_motions()
+    }
+}
+
+impl<'a> Deref for FleetCase<'a> {
+    type Target = Case<'a>;
+
+    fn deref(&self) -> &Case<'a> {
+        self.shared
+    }
+}
+
+fn no_load(spec: &CheckSpec, _: &FleetCase<'_>) -> CheckResult {
+    Ok(spec.skip("no vehicle carries a load"))
+}
+
+#[cfg(test)]
+mod tests {
+    use scenarios::Family;
+
+    use super::CHECKS;
+    use crate::verdict::case::tests::assert_complete;
+
+    #[test]
+    fn every_check_has_one_function() {
+        assert_complete(Family::FixedWing, CHECKS);
     }
 }

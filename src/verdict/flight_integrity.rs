@@ -1,76 +1,76 @@
-//! Is the flight log whole, is everything in it a number, and did nobody crash?
+//! Flight log integrity: the logs are whole, every number in them is finite, and no vehicle crashed.
 
 use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
 use sim::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
 use crate::verdict::Check;
-use crate::verdict::collision;
 use crate::verdict::compare::exceeds;
-use crate::verdict::evidence::{Decide, Evidence, Measurement};
-use crate::verdict::flown::FlownMotions;
-use crate::verdict::flown_reference;
-use crate::verdict::integrity::{TIME_TOLERANCE_S, none_of, start_defect};
-use crate::verdict::multirotor::planning;
+use crate::verdict::evidence::{Decide, Measurement};
+use crate::verdict::flown_reference::ReferenceDefect;
+use crate::verdict::in_loop_planning;
+use crate::verdict::integrity::none_of;
+use crate::verdict::trajectory_defect::{TIME_TOLERANCE_S, start_defect};
 
-/// Longest distance between two samples, in steps of the simulator: what rounding leaves above 1.
-const LONGEST_GAP_STEPS: f64 = 1.001;
+/// Largest time between two samples, in simulator steps; the excess over 1 is rounding.
+const MAX_GAP_STEPS: f64 = 1.001;
 
-/// Number of numbers in the log that are not finite.
+/// Number of values in the log that are not finite.
 pub fn check_finite(spec: &CheckSpec, flight: &Flight) -> Check {
     let times = flight.events.iter().map(|event| event.t_s).chain([flight.step_s, flight.plan_end_s, flight.wall_s]);
     let amounts = flight.events.iter().filter_map(|event| amount(&event.kind));
-    let planning = flight.planning.iter().flat_map(planning::numbers);
-    let mut count = times.chain(amounts).chain(planning).filter(|value| !value.is_finite()).count();
-    let mut odd = Vec::new();
+    let replans = flight.planning.iter().flat_map(in_loop_planning::numbers);
+    let mut count = times.chain(amounts).chain(replans).filter(|value| !value.is_finite()).count();
+    let mut concerned = Vec::new();
     for log in &flight.vehicles {
         let numbers =
             log.samples.iter().flat_map(Sample::numbers).chain(log.loads.iter().flat_map(LoadSample::numbers));
-        let here = numbers.filter(|value| !value.is_finite()).count();
-        if here > 0 {
-            odd.push(log.vehicle.as_str());
+        let own = numbers.filter(|value| !value.is_finite()).count();
+        if own > 0 {
+            concerned.push(log.vehicle.as_str());
         }
-        count += here;
+        count += own;
     }
-    none_of(spec, count, &odd, None)
+    none_of(spec, count, &concerned, None)
 }
 
-/// Number of vehicles whose log is missing, misnamed, empty, with gaps, out of order in time, not from the vehicle's
-/// start, shorter than the plan, or with another reference than the plan's; and of logs without a vehicle. A start may be
-/// off by as much as the tracking: a disturbed start is a matter for the tracker.
+/// Number of vehicles whose log is missing, misnamed or empty, has gaps or decreasing times, does not begin at the vehicle's
+/// start, ends before the plan, or has another reference than the plan; and of logs without a vehicle. A start may be off
+/// by the tracking limit: the simulation may disturb it.
 ///
-/// - `plan`: one that is flyable
-pub fn check_complete(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
+/// - `plan`: flyable
+/// - `reference_defect`: the family's comparison of logged and planned references
+pub fn check_complete(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    flight: &Flight,
+    reference_defect: ReferenceDefect,
+) -> Check {
     let of_vehicle = |(index, vehicle): (usize, &Vehicle)| {
         let trajectory = &plan.trajectories[index];
         let planned_end_s = trajectory.end_s().unwrap_or(f64::NAN);
         let defect = match flight.vehicles.get(index) {
             None => Some("there is no log".to_owned()),
             Some(log) => log_defect(scenario, vehicle, planned_end_s, log)
-                .or_else(|| flown_reference::defect(scenario, vehicle, trajectory, log)),
+                .or_else(|| reference_defect(scenario, vehicle, trajectory, log)),
         };
         defect.map(|defect| format!("{}: {defect}", vehicle.name))
     };
     let surplus = flight.vehicles.iter().skip(scenario.vehicles.len());
-    let no_vehicle = surplus.map(|log| format!("{}: no such vehicle, or twice", log.vehicle));
+    let no_vehicle = surplus.map(|log| format!("{}: there is no such vehicle, or its log is there twice", log.vehicle));
     let defects: Vec<String> = scenario.vehicles.iter().enumerate().filter_map(of_vehicle).chain(no_vehicle).collect();
     none_of(spec, defects.len(), &[], defects.first())
 }
 
-/// Number of crashes. A flight that goes through something without a word of it in its log has crashed too.
+/// Number of crashes. A contact that the log has no event of counts as one.
 ///
-/// `flown`: the same flight, to look for oneself
-pub fn check_crash(
-    spec: &CheckSpec,
-    scenario: &Scenario,
-    flight: &Flight,
-    flown: Evidence<'_, FlownMotions<'_>>,
-) -> Check {
+/// - `contact`: the deepest contact in the logged motion; called if the log has no crash
+pub fn check_crash(spec: &CheckSpec, flight: &Flight, contact: impl FnOnce() -> Option<Measurement>) -> Check {
     let mut crashes = flight.events.iter().filter_map(crash);
     let Some((t_s, concerned)) = crashes.next() else {
-        let unlogged = flown.ok().and_then(|flown| collision::deepest(scenario, &flown.motions));
-        return match unlogged {
+        return match contact() {
             None => spec.at_most(Measurement::value(0.0), 0.0),
-            Some(touch) => spec.at_most(touch.with_reason("they touch, although the log tells of no crash"), 0.0),
+            Some(contact) => spec.at_most(contact.with_reason("a contact that the log has no crash for"), 0.0),
         };
     };
     let count = 1 + crashes.count();
@@ -78,7 +78,7 @@ pub fn check_crash(
     spec.at_most(measured, 0.0)
 }
 
-/// The number that an event tells of, if it tells of one.
+/// The number that an event carries, if any.
 fn amount(kind: &EventKind) -> Option<f64> {
     match kind {
         EventKind::CableTaut { impulse_ns } => Some(*impulse_ns),
@@ -93,7 +93,7 @@ fn amount(kind: &EventKind) -> Option<f64> {
     }
 }
 
-/// When, and who is concerned, if an event is a crash.
+/// Time of a crash, s, and the names of vehicles and obstacle; `None` for any other event.
 fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
     match &event.kind {
         EventKind::Crash { obstacle } => Some((event.t_s, event.vehicles.iter().chain(obstacle))),
@@ -110,24 +110,25 @@ fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
 
 fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &VehicleLog) -> Option<String> {
     if log.vehicle != vehicle.name {
-        return Some(format!("the log of {} stands in its place", log.vehicle));
+        return Some(format!("the log of {} is in its place", log.vehicle));
     }
     let step_s = scenario.simulation.step_s;
     let (Some(first), Some(last)) = (log.samples.first(), log.samples.last()) else {
         return Some("the log is empty".to_owned());
     };
     if exceeds(first.t_s.abs(), TIME_TOLERANCE_S) {
-        return Some(format!("the log begins at {} s, which should be 0 s", first.t_s));
+        return Some(format!("the log begins at {} s, it should begin at 0 s", first.t_s));
     }
     let is_step = |pair: &[Sample]| {
         let gap_s = pair[1].t_s - pair[0].t_s;
-        gap_s > 0.0 && gap_s <= LONGEST_GAP_STEPS * step_s
+        gap_s > 0.0 && gap_s <= MAX_GAP_STEPS * step_s
     };
     if let Some(pair) = log.samples.windows(2).find(|pair| !is_step(pair)) {
-        return Some(format!("after the sample at {} s comes one at {} s", pair[0].t_s, pair[1].t_s));
+        return Some(format!("the sample at {} s is followed by one at {} s", pair[0].t_s, pair[1].t_s));
     }
     if exceeds(planned_end_s, last.t_s + step_s) {
-        return Some(format!("the log ends at {:.3} s, before the plan, which ends at {planned_end_s:.3} s", last.t_s));
+        return Some(format!("the log ends at {:.3} s, before the plan ends at {planned_end_s:.3} s", last.t_s));
     }
-    start_defect("m", first.position_m, vehicle.start.position_m(), scenario.limits().tracking_max_m)
+    let tolerance_m = scenario.limits().tracking_max_m;
+    start_defect("m", first.position_m, vehicle.start.position_m(), tolerance_m).map(|defect| defect.to_string())
 }

@@ -1,21 +1,22 @@
-//! The flight as the judge looks at it: which part of it counts, and when each vehicle arrived.
+//! The part of a flight that is judged, and when each vehicle arrived.
 
 use rayon::prelude::*;
 use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::closest::{self, ClosestApproach};
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 
-/// An arrival is looked for from this long before the planned one to the end of the log, s.
+/// An arrival is searched for from this long before the planned one to the end of the log, s.
 const ARRIVAL_WINDOW_S: f64 = 10.0;
-/// A closest approach within this of the log's end is no arrival: the vehicle was still on its way, s.
+/// A closest approach this close to the end of the log is no arrival, since the vehicle was still approaching, s.
 const LOG_END_S: f64 = 1e-6;
 
 /// A flight whose logs can be matched with the vehicles.
 ///
-/// A vehicle is judged until its planned end, or until it arrives if that is later; a vehicle that does not arrive,
-/// until its log ends. The coasting after that is no part of the mission.
+/// A vehicle is judged until its planned end, or until it arrives if that is later; a vehicle that does not arrive is judged
+/// until the end of its log. The coasting after that is not part of the mission.
 #[derive(Clone, Debug)]
 pub struct FlownMotions<'a> {
     /// The motion of every vehicle while it is judged.
@@ -40,14 +41,18 @@ pub struct FlownVehicle<'a> {
 }
 
 impl<'a> FlownMotions<'a> {
-    /// Matches the logs with the vehicles of a flyable plan. Refuses with the reason if they cannot be.
-    pub fn new(scenario: &'a Scenario, plan: &Plan, flight: &'a Flight) -> Result<Self, String> {
+    /// Matches the logs with the vehicles of a flyable plan.
+    ///
+    /// # Errors
+    ///
+    /// The logs are not those of the scenario's vehicles, or a log cannot be judged.
+    pub fn new(scenario: &'a Scenario, plan: &Plan, flight: &'a Flight) -> Result<Self, MissingEvidence> {
         let (logs, vehicles) = (flight.vehicles.len(), scenario.vehicles.len());
         if logs != vehicles {
-            return Err(format!("the flight has the logs of {logs} vehicles, the scenario has {vehicles} vehicles"));
+            return Err(MissingEvidence::LogCount { logs, vehicles });
         }
         let matched = scenario.vehicles.par_iter().zip(&plan.trajectories).zip(&flight.vehicles);
-        let parts = matched.map(|((vehicle, trajectory), log)| part_that_counts(vehicle, trajectory, log));
+        let parts = matched.map(|((vehicle, trajectory), log)| judged_part(vehicle, trajectory, log));
         let mut flown = Self { motions: Vec::new(), vehicles: Vec::new() };
         for part in parts.collect::<Vec<_>>() {
             let (motion, vehicle) = part?;
@@ -59,19 +64,19 @@ impl<'a> FlownMotions<'a> {
 }
 
 impl FlownVehicle<'_> {
-    /// When it arrived, s; `None` if it did not.
+    /// Time of its arrival, s; `None` if it did not arrive.
     pub fn arrival_s(&self) -> Option<f64> {
         self.approach.map(|approach| approach.at_s).filter(|&at_s| at_s < self.log_end_s - LOG_END_S)
     }
 }
 
-fn part_that_counts<'a>(
+fn judged_part<'a>(
     vehicle: &'a Vehicle,
     trajectory: &Trajectory,
     log: &'a VehicleLog,
-) -> Result<(Motion, FlownVehicle<'a>), String> {
+) -> Result<(Motion, FlownVehicle<'a>), MissingEvidence> {
     if log.vehicle != vehicle.name {
-        return Err(format!("the log of {} stands where that of {} belongs", log.vehicle, vehicle.name));
+        return Err(MissingEvidence::LogOrder { found: log.vehicle.clone(), expected: vehicle.name.clone() });
     }
     let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?.sampled();
     let planned_end_s = trajectory.end_s().unwrap_or(0.0);
@@ -81,11 +86,10 @@ fn part_that_counts<'a>(
         judged: &log.samples,
         tracked: until(&log.samples, planned_end_s),
         log_end_s: motion.end_s(),
-        approach: match trajectory {
-            Trajectory::FixedWing(_) => closest::to_point(&motion, window_s, vehicle.goal.position_m()),
-            Trajectory::SlungLoad(_) | Trajectory::Multirotor(_) => {
-                hovering(&motion, planned_end_s, vehicle.goal.position_m())
-            }
+        approach: if matches!(trajectory, Trajectory::FixedWing(_)) {
+            closest::to_point(&motion, window_s, vehicle.goal.position_m())
+        } else {
+            hovering(&motion, planned_end_s, vehicle.goal.position_m())
         },
     };
     let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(planned_end_s);
@@ -94,7 +98,7 @@ fn part_that_counts<'a>(
     Ok((motion, flown))
 }
 
-/// A vehicle that hovers at its goal has arrived when its plan ends; `None` if the log ends before.
+/// The arrival of a vehicle that hovers at its goal: the end of its plan. `None` if the log ends before.
 fn hovering(motion: &Motion, planned_end_s: f64, goal_m: [f64; 3]) -> Option<ClosestApproach> {
     let position_m = motion.position_m(planned_end_s)?;
     let distance_m = (0..3).map(|axis| (position_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();

@@ -1,9 +1,10 @@
-//! The motion of a vehicle as the judge sees it: a continuous curve, not samples.
+//! The motion of a vehicle as a continuous curve.
 
 use crate::verdict::bernstein;
+use crate::verdict::missing_evidence::MissingEvidence;
 
-/// Numbers beyond this are not positions of an aircraft, m and m/s. Up to here squares and products keep their digits.
-const LARGEST_M: f64 = 1e9;
+/// Largest magnitude of a coordinate that is judged, m and m/s: up to here squares and products are accurate.
+const MAX_MAGNITUDE: f64 = 1e9;
 
 /// Position and velocity at one instant, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,9 +19,9 @@ pub struct Knot {
 
 /// A curve through knots: between two of them the cubic Hermite of their positions and velocities.
 ///
-/// Knots are dense (50 ms apart at most in a plan, one simulator step apart in a flight), so that the cubic follows the
-/// true motion within micrometres. Two knots may share one time; what lies between them is a jump, not motion:
-/// it is not looked at here, but by `plan.dynamics`.
+/// Knots are dense (at most 50 ms apart in a plan, one simulator step apart in a flight), so that the cubic is within
+/// micrometres of the true motion. Two knots may share one time. The jump between them is not motion; `plan.dynamics`
+/// measures it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     vehicle: String,
@@ -29,30 +30,32 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion of `vehicle` through `knots`, at least two, their times in order.
+    /// The motion of `vehicle` through `knots`.
     ///
-    /// Refuses knots that are too few, out of order, not finite, or too large to be judged, with the reason.
-    pub fn new(vehicle: &str, knots: Vec<Knot>) -> Result<Self, String> {
+    /// # Errors
+    ///
+    /// Fewer than two knots; decreasing times; values that are not finite or larger than 1e9.
+    pub fn new(vehicle: &str, knots: Vec<Knot>) -> Result<Self, MissingEvidence> {
+        let body = vehicle.to_owned();
         if knots.len() < 2 {
-            return Err(format!("the motion of {vehicle} has {} instants, at least 2 are needed", knots.len()));
+            return Err(MissingEvidence::TooFewKnots { body, knots: knots.len() });
         }
-        if let Some(knot) = knots.iter().find(|knot| !is_judgeable(knot)) {
-            return Err(format!("the motion of {vehicle} leaves the numbers that can be judged at {} s", knot.t_s));
+        if let Some(Knot { t_s, .. }) = knots.iter().find(|knot| !is_judgeable(knot)) {
+            return Err(MissingEvidence::OutOfRange { body, t_s: *t_s });
         }
         if let Some(pair) = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s) {
-            return Err(format!("the motion of {vehicle} goes back in time at {} s", pair[0].t_s));
+            return Err(MissingEvidence::DecreasingTime { body, t_s: pair[0].t_s });
         }
         Ok(Self { vehicle: vehicle.to_owned(), knots, deviation_m: 0.0 })
     }
 
-    /// Takes the knots for samples of a smooth motion, from which the curve deviates between them: bounds of distances are
-    /// widened by that.
+    /// Treats the knots as samples of a smooth motion. Bounds of distances are widened by the interpolation error:
     ///
     /// ```text
     /// |p - cubic| <= h⁴/384 max|p''''|                                                  error of Hermite interpolation
     /// ```
     ///
-    /// with p'''' from the changes of the third derivative from segment to segment, doubled.
+    /// with twice the p'''' that the third derivatives of adjacent segments give.
     pub fn sampled(mut self) -> Self {
         let jerks: Vec<(f64, [f64; 3])> = self
             .segments()
@@ -68,7 +71,7 @@ impl Motion {
         self
     }
 
-    /// How far the true motion may be from the curve between two knots, m.
+    /// Largest distance of the true motion from the curve between two knots, m.
     pub fn deviation_m(&self) -> f64 {
         self.deviation_m
     }
@@ -98,7 +101,7 @@ impl Motion {
         Some(segment.during(segment.t_s[0], t_s).points_m[3])
     }
 
-    /// Forgets what comes after the first knot at or beyond `t_s`.
+    /// Drops the knots after the first one at or beyond `t_s`.
     pub fn end_at(&mut self, t_s: f64) {
         let kept = self.knots.partition_point(|knot| knot.t_s < t_s) + 1;
         self.knots.truncate(kept.max(2));
@@ -121,10 +124,10 @@ impl Motion {
 }
 
 fn is_judgeable(knot: &Knot) -> bool {
-    knot.t_s.is_finite() && knot.position_m.iter().chain(&knot.velocity_mps).all(|value| value.abs() <= LARGEST_M)
+    knot.t_s.is_finite() && knot.position_m.iter().chain(&knot.velocity_mps).all(|value| value.abs() <= MAX_MAGNITUDE)
 }
 
-/// A cubic in Bernstein form over a span of time.
+/// A cubic in Bernstein form over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// Beginning and end, s.
@@ -142,7 +145,7 @@ impl Segment {
         Self { t_s: [a.t_s, b.t_s], points_m: [a.position_m, leaving, entering, b.position_m] }
     }
 
-    /// The part of the curve during [`from_s`, `to_s`], which lies inside the segment's span.
+    /// The part of the curve in [`from_s`, `to_s`], a subinterval of the segment.
     pub fn during(&self, from_s: f64, to_s: f64) -> Self {
         let [begin_s, end_s] = self.t_s;
         if from_s <= begin_s && to_s >= end_s {
@@ -167,12 +170,12 @@ impl Segment {
         std::array::from_fn(|axis| 6.0 * (p3[axis] - p0[axis] + 3.0 * (p1[axis] - p2[axis])) / duration_s.powi(3))
     }
 
-    /// Is it motion, or a jump between two knots at the same time?
+    /// Whether it takes time; otherwise it is a jump between two knots at the same time.
     pub fn lasts(&self) -> bool {
         self.t_s[0] < self.t_s[1]
     }
 
-    /// The instant at the share `u` of the span, s.
+    /// The time at the fraction `u` of the interval, s.
     pub fn instant_s(&self, u: f64) -> f64 {
         if u == 1.0 { self.t_s[1] } else { self.t_s[0] + u * (self.t_s[1] - self.t_s[0]) }
     }

@@ -1,71 +1,108 @@
-//! The judge of multirotors: plans that were there before the flight, and flights that were planned in the loop.
+//! The judge of multirotors, with plans made before the flight or in the loop.
 
 mod clearance;
 mod limits;
 mod physics;
-pub mod planning;
+mod reference;
 mod rest;
 
+use std::ops::Deref;
+
+use scenarios::in_loop::Node;
+use scenarios::multirotor::Trajectory;
 use scenarios::{CheckSpec, Family, Plan};
 
 pub use clearance::{Clearances, ObstacleApproach, closest};
 
-use crate::verdict::case::Case;
-use crate::verdict::evidence::{Decide, Evidence};
+use crate::verdict::case::{Case, CheckTable, function_of};
+use crate::verdict::evidence::{CheckResult, Decide, Evidence};
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
-use crate::verdict::{Check, arrival, separation};
+use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
 
-/// Why a plan of positions and velocities has no defects of its own.
-const NO_DYNAMICS: &str =
-    "positions and velocities name the accelerations that lead from one to the next: see control_limits";
-/// Why a plan is not flown open loop.
+/// Why a plan of positions and velocities has no defects.
+const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
+/// Why a plan is not rolled out in open loop.
 const NO_ROLLOUT: &str = "without feedback a double integrator drifts, whatever its plan";
 
-/// Every check of multirotors.
+/// Every check of multirotors, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
-    let planned = case.flyable().map_err(str::to_owned).and_then(planned_motions);
-    let planned = planned.as_deref().map_err(String::as_str);
-    case.checks(Family::Multirotor, |spec| check(spec, case, planned))
+    let fleet = FleetCase::new(case);
+    case.checks(Family::Multirotor, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)))
 }
 
-fn check(spec: &CheckSpec, case: &Case<'_>, planned: Evidence<'_, [Motion]>) -> Check {
-    let (scenario, flyable, flown) = (case.scenario, case.flyable(), case.flown());
-    let flown_motions = flown.map(|flown| flown.motions.as_slice());
-    match spec.name {
-        "nodes.separation" => separation::check_nodes(spec, scenario, flyable),
-        "nodes.clearance" => clearance::check_nodes(spec, scenario, planned),
-        "nodes.state_limits" => limits::check_node_states(spec, scenario, planned),
-        "nodes.control_limits" | "plan.control_limits" => limits::check_accelerations(spec, scenario, planned),
-        "nodes.goal" => arrival::check_node_goals(spec, scenario, flyable),
-        "plan.separation" => separation::check(spec, scenario, planned),
-        "plan.clearance" => clearance::check(spec, scenario, planned),
-        "plan.state_limits" => limits::check_planned_states(spec, scenario, planned),
-        "plan.dynamics" => spec.skip(NO_DYNAMICS),
-        "plan.rollout" => spec.skip(NO_ROLLOUT),
-        "plan.goal" => arrival::check_planned_goals(spec, scenario, planned),
-        "plan.rest" => rest::check_planned(spec, scenario, planned),
-        "flight.crash" => case.crash(spec, flown),
-        "flight.separation" => separation::check(spec, scenario, flown_motions),
-        "flight.clearance" => clearance::check(spec, scenario, flown_motions),
-        "flight.state_limits" => limits::check_flown_states(spec, scenario, flown),
-        "flight.control_limits" => limits::check_flown_controls(spec, scenario, flown),
-        "flight.dynamics" => physics::check(spec, scenario, case.flight()),
-        "flight.goal" => arrival::check_flown_goals(spec, scenario, flown),
-        "flight.rest" => rest::check_flown(spec, scenario, case.plan, flown),
-        _ => case.shared(spec),
+/// A fleet's plan and flight, with the plan as a continuous motion.
+struct FleetCase<'a> {
+    shared: &'a Case<'a>,
+    planned: Result<Vec<Motion>, MissingEvidence>,
+}
+
+const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
+    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?)),
+    ("nodes.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
+    ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
+    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned())),
+    ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned()?)),
+    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?)),
+    ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
+    ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
+    ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
+    ("plan.goal", |spec, it| arrival::check_planned_goals(spec, it.scenario, it.planned()?)),
+    ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?)),
+    ("flight.complete", |spec, it| {
+        Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
+    }),
+    ("flight.crash", |spec, it| {
+        let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_obstacle);
+        Ok(flight_integrity::check_crash(spec, it.flight()?, contact))
+    }),
+    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown_motions())),
+    ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions()?)),
+    ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
+    ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
+    ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
+    ("flight.goal", |spec, it| arrival::check_flown_goals(spec, it.scenario, it.flown()?)),
+    ("flight.rest", |spec, it| rest::check_flown(spec, it.scenario, it.plan, it.flown()?)),
+];
+
+impl<'a> FleetCase<'a> {
+    fn new(shared: &'a Case<'a>) -> Self {
+        let plan = shared.flyable().map_err(MissingEvidence::from);
+        Self { shared, planned: plan.and_then(planned_motions) }
+    }
+
+    fn planned(&self) -> Evidence<'_, [Motion]> {
+        self.planned.as_deref()
     }
 }
 
-/// The plan as continuous motions: its own cubics between its nodes.
-fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, String> {
-    let motion = |trajectory: &scenarios::multirotor::Trajectory| {
-        let knots = trajectory.nodes().into_iter();
-        let knot = |node: scenarios::in_loop::Node| Knot {
-            t_s: node.t_s,
-            position_m: node.position_m,
-            velocity_mps: node.velocity_mps,
-        };
-        Motion::new(&trajectory.vehicle, knots.map(knot).collect())
-    };
+impl<'a> Deref for FleetCase<'a> {
+    type Target = Case<'a>;
+
+    fn deref(&self) -> &Case<'a> {
+        self.shared
+    }
+}
+
+/// The plan as continuous motions: the cubics between its nodes.
+fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, MissingEvidence> {
+    let knot = |node: Node| Knot { t_s: node.t_s, position_m: node.position_m, velocity_mps: node.velocity_mps };
+    let motion =
+        |trajectory: &Trajectory| Motion::new(&trajectory.vehicle, trajectory.nodes().into_iter().map(knot).collect());
     plan.trajectories.iter().map(|trajectory| motion(trajectory.multirotor())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use scenarios::Family;
+
+    use super::CHECKS;
+    use crate::verdict::case::tests::assert_complete;
+
+    #[test]
+    fn every_check_has_one_function() {
+        assert_complete(Family::Multirotor, CHECKS);
+    }
 }

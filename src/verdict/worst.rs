@@ -1,23 +1,24 @@
-//! Of all limited quantities, the one that uses most of its range.
+//! The limited quantity that uses most of its range.
 
 use scenarios::{CheckSpec, Range};
 
 use crate::number_format::given_range;
-use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::evidence::{CheckResult, Decide, Measurement};
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::{Check, LimitKey};
 
-/// How far a node may be outside a planning limit, as a share of the limit's range: what a solver's tolerance leaves.
-/// The limit that the check reports includes it. The physical limits know no such mercy.
+/// How far a node may be outside a planning limit, as a fraction of the limit's range: the tolerance of a solver.
+/// The limit that a check reports includes it. The physical limits have no tolerance.
 pub const SOLVER_TOLERANCE: f64 = 1e-6;
 
 /// Something limited to a range.
 #[derive(Clone, Copy)]
 pub struct Quantity {
-    /// What it is.
+    /// Its name, with which the remark of the check begins.
     pub name: &'static str,
     /// Unit of the range.
     pub unit: &'static str,
-    /// What it has to stay inside.
+    /// Its limits, in `unit`.
     pub range: Range,
     /// Where the range stands.
     pub key: LimitKey,
@@ -26,12 +27,11 @@ pub struct Quantity {
 /// The value that uses most of its range so far.
 pub struct Worst<'a> {
     relative: f64,
-    /// `None` until something was considered.
-    pub found: Option<Found<'a>>,
+    found: Option<Found<'a>>,
 }
 
-/// A value, and where it was found.
-pub struct Found<'a> {
+/// A value of a vehicle at a time.
+struct Found<'a> {
     vehicle: &'a str,
     quantity: Quantity,
     value: f64,
@@ -39,12 +39,12 @@ pub struct Found<'a> {
 }
 
 impl<'a> Worst<'a> {
-    /// Nothing so far.
-    pub fn new() -> Self {
+    fn new() -> Self {
         Self { relative: f64::INFINITY, found: None }
     }
 
-    /// Margins of different units are compared as shares of their ranges. NaN is worse than anything.
+    /// Keeps `value` if it uses more of its range than those before it. Margins of different units are compared as fractions of
+    /// their ranges. NaN counts as the worst.
     pub fn consider(&mut self, vehicle: &'a str, quantity: Quantity, value: f64, t_s: f64) {
         let Range { min, max } = quantity.range;
         let margin = (value - min).min(max - value);
@@ -59,8 +59,7 @@ impl<'a> Worst<'a> {
 }
 
 impl Found<'_> {
-    /// The check of the value found.
-    pub fn into_check(self, spec: &CheckSpec) -> Check {
+    fn into_check(self, spec: &CheckSpec) -> Check {
         let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, t_s } = self;
         let limit = if value - range.min < range.max - value { range.min } else { range.max };
         let margin = range.margin(value);
@@ -71,21 +70,9 @@ impl Found<'_> {
     }
 }
 
-/// The check of whichever limited quantity uses most of its range; `look` considers them all.
-pub fn check_limits<'a, T: ?Sized>(
-    spec: &CheckSpec,
-    evidence: Evidence<'_, T>,
-    look: impl Fn(&T, &mut Worst<'a>),
-) -> Check {
+/// The check of the limited quantity that uses most of its range; `consider` passes each one to [`Worst::consider`].
+pub fn check_limits<'a>(spec: &CheckSpec, consider: impl FnOnce(&mut Worst<'a>)) -> CheckResult {
     let mut worst = Worst::new();
-    match evidence {
-        Err(reason) => spec.fail(reason),
-        Ok(evidence) => {
-            look(evidence, &mut worst);
-            match worst.found {
-                None => spec.fail("there was nothing to hold against a limit"),
-                Some(found) => found.into_check(spec),
-            }
-        }
-    }
+    consider(&mut worst);
+    Ok(worst.found.ok_or(MissingEvidence::NoValue)?.into_check(spec))
 }

@@ -1,27 +1,18 @@
-//! Does the plan obey the equations of motion?
+//! Dynamics of the plan: its defects and its open-loop rollout.
 //!
-//! The planned controls go through the simulator's nonlinear equations, never through the planner's model: once
+//! The planned controls are integrated with the simulator's nonlinear equations, never with the planner's model: once
 //! restarted at every node, once open loop over the whole horizon.
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
 use super::planned::PlannedMotions;
-use crate::verdict::Check;
 use crate::verdict::compare::is_larger;
-use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::evidence::{CheckResult, Decide, Measurement};
+use crate::verdict::missing_evidence::MissingEvidence;
 
 /// Largest distance between the end of an interval and the next node: the larger of |Δp| and |Δv| times the interval's
-/// length, m.
-pub fn check_defects(
-    spec: &CheckSpec,
-    scenario: &Scenario,
-    plan: &Plan,
-    planned: Evidence<'_, PlannedMotions>,
-) -> Check {
-    let planned = match planned {
-        Err(reason) => return spec.fail(reason),
-        Ok(planned) => planned,
-    };
+/// duration, m.
+pub fn check_defects(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: &PlannedMotions) -> CheckResult {
     let defects = plan.trajectories.iter().zip(&planned.ends).flat_map(|(trajectory, ends)| {
         let (nodes, times_s) = (trajectory.nodes(), trajectory.times_s());
         ends.iter().enumerate().map(move |(interval, end)| {
@@ -37,17 +28,8 @@ pub fn check_defects(
     largest(spec, defects, scenario.limits().dynamics_m)
 }
 
-/// Largest distance between the last node and where the controls lead, open loop from the start, m.
-pub fn check_rollout(
-    spec: &CheckSpec,
-    scenario: &Scenario,
-    plan: &Plan,
-    planned: Evidence<'_, PlannedMotions>,
-) -> Check {
-    let planned = match planned {
-        Err(reason) => return spec.fail(reason),
-        Ok(planned) => planned,
-    };
+/// Largest distance between the last node and the end of the open-loop integration from the start, m.
+pub fn check_rollout(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: &PlannedMotions) -> CheckResult {
     let errors = plan.trajectories.iter().zip(&planned.open_loop_ends).filter_map(|(trajectory, end)| {
         let last = trajectory.times_s().len().checked_sub(1)?;
         Some((distance(end.position_m, trajectory.nodes().position_m(last)), end.t_s, trajectory.vehicle()))
@@ -55,11 +37,10 @@ pub fn check_rollout(
     largest(spec, errors, scenario.limits().rollout_m)
 }
 
-fn largest<'a>(spec: &CheckSpec, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> Check {
-    match errors.reduce(|worst, error| if is_larger(error.0, worst.0) { error } else { worst }) {
-        None => spec.fail("the plan has no interval"),
-        Some((error_m, t_s, vehicle)) => spec.at_most(Measurement::value(error_m).at(t_s).with(vehicle), limit_m),
-    }
+fn largest<'a>(spec: &CheckSpec, errors: impl Iterator<Item = (f64, f64, &'a str)>, limit_m: f64) -> CheckResult {
+    let worst = errors.reduce(|worst, error| if is_larger(error.0, worst.0) { error } else { worst });
+    let (error_m, t_s, vehicle) = worst.ok_or(MissingEvidence::NoInterval)?;
+    Ok(spec.at_most(Measurement::value(error_m).at(t_s).with(vehicle), limit_m))
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {

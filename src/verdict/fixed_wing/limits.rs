@@ -11,16 +11,16 @@
 use scenarios::fixed_wing::{Control, Limits, Model};
 use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
-use crate::verdict::evidence::Evidence;
+use crate::verdict::LimitKey;
+use crate::verdict::evidence::CheckResult;
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::Motion;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
-use crate::verdict::{Check, LimitKey};
 
 /// States at the nodes against the planning limits.
-pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
-    check_limits(spec, plan, |plan, worst| {
+pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, trajectory) in limited_vehicles(scenario, promised).zip(&plan.trajectories) {
             let trajectory = trajectory.fixed_wing();
             for (state, &t_s) in trajectory.states.iter().zip(&trajectory.times_s) {
@@ -32,8 +32,8 @@ pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    check_limits(spec, motions, |motions, worst| {
+pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario, physical).zip(motions) {
             limited.path(worst, motion);
             for knot in motion.knots() {
@@ -44,8 +44,8 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evid
 }
 
 /// FlownMotions states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
-    check_limits(spec, flown, |flown, worst| {
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+    check_limits(spec, |worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);
@@ -57,9 +57,9 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence
 }
 
 /// Controls at the nodes: the planning limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
-pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> Check {
+pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
     let limits = if spec.group == Group::Nodes { promised } else { physical };
-    check_limits(spec, plan, |plan, worst| {
+    check_limits(spec, |worst| {
         for (limited, trajectory) in limited_vehicles(scenario, limits).zip(&plan.trajectories) {
             let trajectory = trajectory.fixed_wing();
             for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
@@ -70,8 +70,8 @@ pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: Evide
 }
 
 /// Controls that acted in flight against the physical limits.
-pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
-    check_limits(spec, flown, |flown, worst| {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, vehicle) in limited_vehicles(scenario, physical).zip(&flown.vehicles) {
             for sample in vehicle.judged {
                 limited.control(worst, &sample.load_factors().control, sample.t_s);

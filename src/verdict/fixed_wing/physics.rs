@@ -1,26 +1,25 @@
-//! Does a fixed wing's flight obey the equations of motion? Its controls and the air in its log must explain it.
+//! Replay of a fixed wing's log: its controls and air determine its motion.
 
 use scenarios::{CheckSpec, Scenario};
 use sim::fixed_wing::{AppliedControls, Knot, replayed};
 use sim::{Flight, Sample, VehicleLog};
 
-use crate::verdict::Check;
-use crate::verdict::evidence::Evidence;
-use crate::verdict::physics::{Defect, LIMIT_M, answer, difference_m};
+use crate::verdict::evidence::CheckResult;
+use crate::verdict::physics::{Defect, check_largest, difference_m};
 
-/// Largest distance between a log and where controls and air of that log lead by an independent integrator, restarted at
+/// Largest distance between a log and the motion that an independent integrator makes of its controls and air, restarted at
 /// the beginning of every window.
 ///
-/// A window is 2/ω long, ω the natural frequency of the tracker: a constant error d of the acceleration makes d/2 (2/ω)²
-/// = 2 d/ω² there, twice what is left of it in closed loop. So the value is also an estimate, to the safe side, of how far
-/// a flight by the better integrator would be from this one.
-pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: Evidence<'_, Flight>) -> Check {
+/// A window is 2/ω long, with the natural frequency ω of the tracker. A constant error d of the acceleration grows to
+/// d/2 (2/ω)² = 2 d/ω² within it, twice its steady state in closed loop. So the value is also a conservative estimate of the
+/// distance between this flight and one with the better integrator.
+pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: &Flight) -> CheckResult {
     let window_s = 2.0 / scenario.simulation.tracker.natural_frequency_radps;
     let mass_ratio = scenario.simulation.mismatch.mass_ratio;
-    answer(spec, scenario, flight, LIMIT_M, |_, log| Ok(largest_defect(log, window_s, mass_ratio)))
+    check_largest(spec, scenario, flight, |_, log| Ok(largest_defect(log, window_s, mass_ratio)))
 }
 
-/// Of one aircraft. `None` if its log holds no step.
+/// Of one aircraft. `None` if its log has no step.
 fn largest_defect(log: &VehicleLog, window_s: f64, mass_ratio: f64) -> Option<Defect> {
     let mut worst: Option<Defect> = None;
     let mut began_s = f64::NEG_INFINITY;

@@ -1,4 +1,4 @@
-//! The plan as a continuous motion: its controls through the nonlinear equations, restarted at every node.
+//! The plan as a continuous motion: its controls integrated with the nonlinear equations, restarted at every node.
 
 use rayon::prelude::*;
 use scenarios::fixed_wing::Trajectory;
@@ -6,33 +6,38 @@ use scenarios::{Plan, Scenario};
 use sim::fixed_wing::{self, propagate, rollout};
 
 use crate::verdict::compare::exceeds;
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 
-/// Longest step of the integration, and distance between knots, s.
+/// Largest integration step, and largest time between two knots, s.
 const MAX_STEP_S: f64 = 0.05;
-/// Longest step of the open-loop integration, of which only the end is looked at, s.
+/// Largest step of the open-loop integration, of which only the end is used, s.
 const OPEN_LOOP_STEP_S: f64 = 0.25;
 
-/// The motions that a plan's controls cause.
+/// The motions that result from a plan's controls.
 #[derive(Clone, Debug)]
 pub struct PlannedMotions {
     /// One per vehicle. At every node the motion jumps from where the interval before it ends to the node itself.
     pub motions: Vec<Motion>,
     /// Per vehicle, the end of every interval.
     pub ends: Vec<Vec<Knot>>,
-    /// Per vehicle, the end of the whole when it is not restarted at the nodes.
+    /// Per vehicle, the end of the open-loop integration, which is not restarted at the nodes.
     pub open_loop_ends: Vec<Knot>,
 }
 
 impl PlannedMotions {
-    /// Integrates `plan`, which is flyable. Refuses one that lasts longer than the scenario allows, or whose controls
-    /// lead out of the numbers that can be judged.
-    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {
-        let longest_s = scenario.simulation.max_duration_s;
-        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, longest_s)) {
-            return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
+    /// Integrates a flyable plan.
+    ///
+    /// # Errors
+    ///
+    /// The plan takes longer than is simulated, or its controls lead to values that cannot be judged.
+    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, MissingEvidence> {
+        let max_s = scenario.simulation.max_duration_s;
+        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, max_s)) {
+            return Err(MissingEvidence::PlanTooLong { duration_s, max_s });
         }
-        let vehicles: Vec<_> = plan.trajectories.par_iter().map(|trajectory| flown(trajectory.fixed_wing())).collect();
+        let vehicles: Vec<_> =
+            plan.trajectories.par_iter().map(|trajectory| integrated(trajectory.fixed_wing())).collect();
         let mut planned = Self { motions: Vec::new(), ends: Vec::new(), open_loop_ends: Vec::new() };
         for vehicle in vehicles {
             let (motion, ends, open_loop_end) = vehicle?;
@@ -44,8 +49,8 @@ impl PlannedMotions {
     }
 }
 
-/// One vehicle's motion, the ends of its intervals, and the end of the whole when it is not restarted.
-fn flown(trajectory: &Trajectory) -> Result<(Motion, Vec<Knot>, Option<Knot>), String> {
+/// One vehicle's motion, the ends of its intervals, and the end of the open-loop integration.
+fn integrated(trajectory: &Trajectory) -> Result<(Motion, Vec<Knot>, Option<Knot>), MissingEvidence> {
     let intervals: Vec<Vec<Knot>> = (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
     let ends = intervals.iter().filter_map(|knots| knots.last().copied()).collect();
     let motion = Motion::new(&trajectory.vehicle, intervals.concat())?.sampled();

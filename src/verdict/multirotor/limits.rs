@@ -11,11 +11,11 @@ use sim::{Actuation, Commanded, Sample};
 
 use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
-use crate::verdict::evidence::Evidence;
+use crate::verdict::evidence::CheckResult;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
-use crate::verdict::{Check, FlownMotions, LimitKey};
+use crate::verdict::{FlownMotions, LimitKey};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
 const ROTATION_TOLERANCE: f64 = 1e-6;
@@ -23,8 +23,8 @@ const ROTATION_TOLERANCE: f64 = 1e-6;
 const RESOLUTION_M2PS2: f64 = 1e-9;
 
 /// States at the nodes against the planning limits.
-pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    check_limits(spec, motions, |motions, worst| {
+pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             for knot in motion.knots() {
                 limited.map.place(worst, knot.position_m, knot.t_s);
@@ -35,8 +35,8 @@ pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidenc
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    check_limits(spec, motions, |motions, worst| {
+pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             limited.map.path(worst, motion);
             for segment in motion.segments().filter(Segment::lasts) {
@@ -48,8 +48,8 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: Evid
 }
 
 /// FlownMotions states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
-    check_limits(spec, flown, |flown, worst| {
+pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+    check_limits(spec, |worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
             limited.map.path(worst, motion);
@@ -63,8 +63,8 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: Evidence
 
 /// PlannedMotions accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
 /// limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
-pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> Check {
-    check_limits(spec, motions, |motions, worst| {
+pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
             for segment in motion.segments().filter(Segment::lasts) {
@@ -77,8 +77,8 @@ pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: Evide
 }
 
 /// What acted in flight against the physical limits.
-pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: Evidence<'_, FlownMotions<'_>>) -> Check {
-    check_limits(spec, flown, |flown, worst| {
+pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+    check_limits(spec, |worst| {
         for (limited, vehicle) in limited_vehicles(scenario).zip(&flown.vehicles) {
             for sample in vehicle.judged {
                 limited.control(worst, sample);

@@ -1,5 +1,4 @@
-//! Does the flight obey the equations of motion? What carries the vehicle stands in its log, and so does the air: they must
-//! explain where it goes.
+//! Replay of a multirotor's log: its thrust or acceleration, and the air, determine its motion.
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::multirotor::Model;
@@ -7,22 +6,21 @@ use scenarios::{CheckSpec, GRAVITY_MPS2, Scenario};
 use sim::multirotor::{AppliedControls, Replay};
 use sim::{Actuation, Flight, Sample, VehicleLog};
 
-use crate::verdict::Check;
-use crate::verdict::evidence::Evidence;
-use crate::verdict::physics::{self, Defect, difference_m};
+use crate::verdict::evidence::CheckResult;
+use crate::verdict::physics::{Defect, check_largest, difference_m};
 use crate::verdict::rotors::Rotors;
 
-/// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
+/// Length of the windows at whose beginning the replay is restarted, s: about the time constant of the feedback.
 const WINDOW_S: f64 = 0.2;
 
-/// Largest distance between a log and where its forces lead, restarted at the beginning of every window.
-pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: Evidence<'_, Flight>) -> Check {
-    physics::answer(spec, scenario, flight, physics::LIMIT_M, |vehicle, log| {
+/// Largest distance between a log and the motion that results from its forces, restarted at the beginning of every window.
+pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: &Flight) -> CheckResult {
+    check_largest(spec, scenario, flight, |vehicle, log| {
         Ok(largest_defect(scenario.multirotor_model(vehicle), scenario.simulation.mismatch.mass_ratio, log))
     })
 }
 
-/// Of one vehicle. `None` if its log holds no step.
+/// Of one vehicle. `None` if its log has no step.
 fn largest_defect(model: &Model, mass_ratio: f64, log: &VehicleLog) -> Option<Defect> {
     let replay = Replay::new(model, mass_ratio);
     let mut rotors = hovering(model);
@@ -44,13 +42,13 @@ fn largest_defect(model: &Model, mass_ratio: f64, log: &VehicleLog) -> Option<De
     worst
 }
 
-/// The rotors as they hover.
+/// The rotors in hover.
 fn hovering(model: &Model) -> Rotors {
     let time_constant_s = model.airframe.as_ref().and_then(|airframe| airframe.rotor_time_constant_s);
     Rotors::new(model.mass_kg * GRAVITY_MPS2, time_constant_s)
 }
 
-/// What carries the vehicle over the step between two samples.
+/// The lift over the step between two samples.
 fn lift(rotors: &mut Rotors, [from, to]: [&Sample; 2], step_s: f64) -> AppliedControls {
     match &from.actuation {
         Actuation::Acceleration(told) => AppliedControls::Acceleration(told.control.into()),

@@ -1,9 +1,9 @@
 //! The smallest signed distance over continuous time, by branch and bound.
 //!
-//! Within a span of time no point of a shape moves farther from where it is in the middle than its largest speed allows,
-//! which bounds the distance from below; and nothing is nearer than the [plane](super::separating_plane) between the two, which is a
-//! bound of second order. Spans are halved until the bounds meet. No sampling: an edge that is cut between two samples is
-//! found.
+//! Within an interval of time, two lower bounds hold. The largest speed of a shape limits how far its points move from where
+//! they are at the middle of the interval (first order); and the distance is at least that from the
+//! [separating plane](super::separating_plane) at the middle (second order). Intervals are halved until the bounds meet. An
+//! edge that is touched between two samples is found, since nothing is sampled.
 
 use std::collections::BinaryHeap;
 
@@ -16,28 +16,30 @@ use super::separating_plane;
 use super::shape_pairs::{Shape, ShapePairs};
 use crate::verdict::compare::{exceeds, is_smaller};
 
-/// Distance between the bounds that counts as close enough, m.
+/// The search stops when the bounds are this close, m.
 const RESOLUTION_M: f64 = 1e-6;
-/// Distance between the segments of the first round, in segments.
+/// The first round searches every so many segments.
 const STRIDE: usize = 16;
-/// Most spans looked at: beyond them the bounds stay apart, and the check becomes undecided rather than wrong.
-const MOST_SPANS: usize = 400_000;
+/// Largest number of intervals searched; beyond it the bounds stay apart and the check may be undecided.
+const MAX_INTERVALS: usize = 400_000;
 
-/// A smallest distance with bounds, deviations of the true motion from the curves taken off.
+/// A smallest distance with bounds. The deviation of the true motion from the curves is subtracted.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestApproach {
-    /// Bounds, m.
+    /// Lower bound, m.
     pub lower_m: f64,
+    /// Upper bound, m.
     pub upper_m: f64,
-    /// What both are less than the distance of the curves, m.
+    /// The deviation subtracted from both, m.
     pub deviation_m: f64,
-    /// When, s, and of what.
+    /// Its time, s.
     pub at_s: f64,
+    /// What it is between.
     pub shape: Shape,
 }
 
 impl ShapePairs<'_> {
-    /// Smallest distance at the planner's own nodes.
+    /// Smallest distance at the planner's nodes.
     pub fn closest_node(&self, trajectory: &Trajectory, shapes: &[Shape]) -> Option<ClosestApproach> {
         let mut best: Option<ClosestApproach> = None;
         for node in trajectory.planner_nodes() {
@@ -61,62 +63,63 @@ impl ShapePairs<'_> {
 
     /// Smallest distance of any of the shapes over the whole motion. `None` without a segment.
     pub fn closest(&self, motion: &SlungLoadMotion, shapes: &[Shape]) -> Option<ClosestApproach> {
-        let mut spans = BinaryHeap::new();
+        let mut intervals = BinaryHeap::new();
         let mut best: Option<ClosestApproach> = None;
         // In wide strides first, so that most of what lies between is known to be farther away at a glance.
         let segments: Vec<usize> = motion.segments().collect();
         for segment in (0..STRIDE).flat_map(|first| segments.iter().copied().skip(first).step_by(STRIDE)) {
             let speeds = motion.speeds(segment);
-            spans.extend(
+            intervals.extend(
                 shapes
                     .iter()
                     .filter_map(|&shape| self.measured(motion, shape, segment, [0.0, 1.0], &speeds, &mut best)),
             );
         }
-        let mut looked_at = spans.len();
-        while let Some(span) = spans.pop() {
-            let lower_m = -span.bound;
+        let mut searched = intervals.len();
+        while let Some(interval) = intervals.pop() {
+            let lower_m = -interval.bound;
             let upper_m = best?.upper_m;
             let is_close = lower_m >= upper_m - RESOLUTION_M;
-            if is_close || looked_at >= MOST_SPANS || lower_m.is_nan() {
+            if is_close || searched >= MAX_INTERVALS || lower_m.is_nan() {
                 let known_m = lower_m.min(upper_m - RESOLUTION_M);
                 return best.map(|best| ClosestApproach { lower_m: known_m, ..best }.or_nan(lower_m));
             }
-            let speeds = motion.speeds(span.segment);
-            for half in span.halves() {
-                spans.extend(self.measured(motion, span.of, span.segment, half, &speeds, &mut best));
+            let speeds = motion.speeds(interval.segment);
+            for half in interval.halves() {
+                intervals.extend(self.measured(motion, interval.of, interval.segment, half, &speeds, &mut best));
             }
-            looked_at += 2;
+            searched += 2;
         }
-        // Nothing was left to look at: everything else is farther away than this, but for the resolution.
+        // No interval is left: nothing is closer than this by more than the resolution.
         best.map(|best| ClosestApproach { lower_m: best.upper_m - RESOLUTION_M, ..best })
     }
 
-    /// Looks at the middle of a span, and bounds what it cannot be below. `None` if that is no closer than the best.
+    /// Measures the distance at the middle of an interval and bounds it from below over the interval. `None` if the bound is not
+    /// below the best distance so far.
     fn measured(
         &self,
         motion: &SlungLoadMotion,
         shape: Shape,
         segment: usize,
-        share: [f64; 2],
+        fraction: [f64; 2],
         speeds: &Speeds,
         best: &mut Option<ClosestApproach>,
     ) -> Option<SearchInterval<Shape>> {
-        let middle = f64::midpoint(share[0], share[1]);
+        let middle = f64::midpoint(fraction[0], fraction[1]);
         let body = motion.at(segment, middle);
         let deviation_m = self.deviation_m(shape, motion.deviation(segment));
-        let moved_m = self.speed_mps(shape, speeds) * motion.duration_s(segment) * (share[1] - share[0]) / 2.0;
+        let moved_m = self.speed_mps(shape, speeds) * motion.duration_s(segment) * (fraction[1] - fraction[0]) / 2.0;
         let is_far = |distance_m: f64, best: &Option<ClosestApproach>| {
             best.is_some_and(|best| distance_m - moved_m >= best.upper_m - RESOLUTION_M)
         };
-        if is_far(self.at_least_m(shape, &body) - deviation_m, best) {
+        if is_far(self.distance_lower_bound_m(shape, &body) - deviation_m, best) {
             return None;
         }
         let (distance_m, plane) = self.distance_and_plane(shape, &body);
         let distance_m = distance_m - deviation_m;
         let lower_m = match (shape, plane) {
             (Shape::Part(part, _), Some(plane)) if moved_m < OVERHANG_M && !distance_m.is_nan() => {
-                let in_front_m = separating_plane::in_front_m(&plane, &self.parts, part, motion, segment, share);
+                let in_front_m = separating_plane::in_front_m(&plane, &self.parts, part, motion, segment, fraction);
                 (distance_m - moved_m).max(in_front_m - deviation_m)
             }
             _ => distance_m - moved_m,
@@ -126,7 +129,7 @@ impl ShapePairs<'_> {
             *best = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, deviation_m, at_s, shape });
         }
         let is_worth = best.is_none_or(|best| exceeds(best.upper_m - RESOLUTION_M, lower_m));
-        is_worth.then_some(SearchInterval { bound: -lower_m, segment, share, of: shape })
+        is_worth.then_some(SearchInterval { bound: -lower_m, segment, fraction, of: shape })
     }
 }
 
@@ -177,7 +180,7 @@ mod tests {
         }
     }
 
-    /// A level disc passes a corner of the wall along a straight line, its centre 1 m from it at the nearest.
+    /// A level disc passes a corner of the wall along a straight line; its centre comes within 1 m of the corner.
     #[test]
     fn a_corner_is_passed_where_geometry_says() {
         for (steps, offset_s) in [(1, 0.0), (7, 0.3), (600, 0.123)] {
@@ -194,7 +197,7 @@ mod tests {
         }
     }
 
-    fn wild(uniform: &mut Uniform) -> SlungLoadMotion {
+    fn random_motion(uniform: &mut Uniform) -> SlungLoadMotion {
         let mut t_s = 0.0;
         let samples = (0..12).map(|_| {
             let mut vector = |most: f64| Vector3::from_fn(|_, _| uniform.between(-most, most));
@@ -216,14 +219,14 @@ mod tests {
         SlungLoadMotion::new(samples.collect())
     }
 
-    /// A million samples of wild motions among two obstacles, one that ends below and above, one that does not.
+    /// A million samples of random motions among two obstacles, one of finite height and one of infinite height.
     #[test]
-    fn no_instant_of_wild_motions_is_nearer_than_the_bound() {
+    fn random_motions_are_never_closer_than_the_lower_bound() {
         let mut uniform = Uniform::seeded(11);
         let far = Prism { name: "far".into(), corners_m: vec![[2.6, 2.0], [1.7, 2.4], [1.8, 1.5]], z_m: None };
         for round in 0..25 {
             let shape_pairs = shape_pairs(vec![wall(Some(scenarios::Range::new(-0.2, 0.3))), far.clone()]);
-            let motion = wild(&mut uniform);
+            let motion = random_motion(&mut uniform);
             for part in Part::ALL {
                 let shapes = [Shape::Part(part, 0), Shape::Part(part, 1)];
                 let closest = shape_pairs.closest(&motion, &shapes).unwrap();
@@ -235,7 +238,7 @@ mod tests {
                         shapes.iter().map(|shape| shape_pairs.distance_m(*shape, &body)).fold(sampled_m, f64::min);
                 }
                 assert!(sampled_m >= closest.lower_m - 1e-9, "{round} {part:?}: {sampled_m} below {closest:?}");
-                // Overlapping shapes have a depth, which is no distance; it is not bounded from both sides.
+                // The depth of an overlap is bounded from one side only.
                 let is_apart = closest.lower_m > 0.0;
                 assert!(!is_apart || closest.upper_m - closest.lower_m <= 1.1e-6, "{round} {part:?}: {closest:?}");
             }

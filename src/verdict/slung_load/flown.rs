@@ -1,4 +1,4 @@
-//! The flight of a quadrotor with its load, as the judge looks at it.
+//! The logged flight of a quadrotor and its load as a continuous motion.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use sim::slung_load::SlungLoadState;
@@ -6,9 +6,10 @@ use sim::{Flight, LoadSample, Sample, VehicleLog};
 
 use super::motion::{MotionSample, SlungLoadMotion};
 use super::planned::motions;
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
 
-/// A log that can be judged: quadrotor and load over continuous time, hovering after the plan's end included.
+/// A log that can be judged: quadrotor and load over continuous time, including the hover after the plan's end.
 #[derive(Clone, Debug)]
 pub struct FlownMotion<'a> {
     /// The vehicle's log.
@@ -20,26 +21,32 @@ pub struct FlownMotion<'a> {
 }
 
 impl<'a> FlownMotion<'a> {
-    /// Refuses, with the reason, a log that cannot be judged.
-    pub fn new(flight: &'a Flight) -> Result<Self, String> {
+    /// The motion of the scenario's one vehicle.
+    ///
+    /// # Errors
+    ///
+    /// There is not exactly one log; vehicle and load differ in their number of samples; the motion or the attitude cannot be
+    /// judged.
+    pub fn new(flight: &'a Flight) -> Result<Self, MissingEvidence> {
         let [log] = flight.vehicles.as_slice() else {
-            return Err(format!("the flight has the logs of {} vehicles, the scenario has one", flight.vehicles.len()));
+            return Err(MissingEvidence::LogCount { logs: flight.vehicles.len(), vehicles: 1 });
         };
-        if log.loads.len() != log.samples.len() {
-            let (loads, samples) = (log.loads.len(), log.samples.len());
-            return Err(format!("the log has {samples} samples of the vehicle and {loads} of its load"));
+        let vehicle = log.vehicle.clone();
+        let (samples, loads) = (log.samples.len(), log.loads.len());
+        if loads != samples {
+            return Err(MissingEvidence::LoadSampleCount { vehicle, samples, loads });
         }
-        let samples: Vec<MotionSample> = log.samples.iter().zip(&log.loads).map(instant).collect();
+        let samples: Vec<MotionSample> = log.samples.iter().zip(&log.loads).map(motion_sample).collect();
         let motions = motions(&log.vehicle, &samples)?;
         if let Some(sample) = log.samples.iter().find(|sample| !is_attitude(sample.world_from_body)) {
-            return Err(format!("the attitude of {} is none at {} s", log.vehicle, sample.t_s));
+            return Err(MissingEvidence::NotARotation { vehicle, t_s: sample.t_s });
         }
         Ok(Self { log, motion: SlungLoadMotion::new(samples).sampled(), motions })
     }
 }
 
-/// Quadrotor and load at the instant of a sample.
-pub fn instant((sample, load): (&Sample, &LoadSample)) -> MotionSample {
+/// Quadrotor and load at a sample of their logs.
+pub fn motion_sample((sample, load): (&Sample, &LoadSample)) -> MotionSample {
     let body = SlungLoadState {
         position_m: sample.position_m.into(),
         velocity_mps: sample.velocity_mps.into(),

@@ -1,7 +1,7 @@
-//! Is every gate passed: is there an instant at which the quadrotor is in its window and the load in the load's?
+//! Gates: a gate is passed if, at some instant, the quadrotor is inside its window and the load inside the load's window.
 //!
-//! How deep inside they are at the best instant, over continuous time, by branch and bound: within a span of time the
-//! depth grows by no more than the faster of the two moves.
+//! The depth inside both windows is maximised over continuous time by branch and bound: within an interval of time it cannot
+//! grow by more than the faster of the two bodies moves.
 
 use std::collections::BinaryHeap;
 
@@ -11,74 +11,70 @@ use sim::slung_load::SlungLoadState;
 
 use super::motion::SlungLoadMotion;
 use super::search_interval::SearchInterval;
-use crate::verdict::Check;
 use crate::verdict::compare::{is_larger, is_smaller};
-use crate::verdict::evidence::{Decide, Evidence, Measurement};
+use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
+use crate::verdict::missing_evidence::MissingEvidence;
 
-/// Distance between the bounds that counts as close enough, m.
+/// The search stops when the bounds are this close, m.
 const RESOLUTION_M: f64 = 1e-6;
-/// Most spans looked at: beyond them the bounds stay apart, and the check becomes undecided rather than wrong.
-const MOST_SPANS: usize = 100_000;
+/// Largest number of intervals searched; beyond it the bounds stay apart and the check may be undecided.
+const MAX_INTERVALS: usize = 100_000;
 
-/// A vehicle and the gates that it has to pass, in whatever order.
+/// A vehicle and the gates that it has to pass, in any order.
 pub struct Gates<'a> {
     vehicle: &'a str,
     gates: &'a [Gate],
 }
 
-/// How deep in a gate's windows they are at most, with bounds, deviations of the true motion from the curves taken off.
+/// Largest depth in a gate's windows, with bounds. The deviation of the true motion from the curves is subtracted.
 #[derive(Clone, Copy, Debug)]
 struct Deepest {
     lower_m: f64,
     upper_m: f64,
-    /// What both are less than the depth of the curves, m.
+    /// The deviation subtracted from both, m.
     deviation_m: f64,
     at_s: f64,
 }
 
 impl<'a> Gates<'a> {
-    /// Of a vehicle of the scenario.
-    pub fn of(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
+    /// The gates of the scenario, for one of its vehicles.
+    pub fn new(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
         Self { vehicle: &vehicle.name, gates: &scenario.world.gates }
     }
 
-    /// At the planner's own nodes.
-    pub fn check_nodes(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
-        self.answer(spec, trajectory, deepest_node)
+    /// At the planner's nodes.
+    pub fn check_nodes(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> CheckResult {
+        self.check_shallowest(spec, trajectory, deepest_node)
     }
 
     /// Over continuous time.
-    pub fn check(&self, spec: &CheckSpec, motion: Evidence<'_, SlungLoadMotion>) -> Check {
-        self.answer(spec, motion, deepest)
+    pub fn check(&self, spec: &CheckSpec, motion: Evidence<'_, SlungLoadMotion>) -> CheckResult {
+        self.check_shallowest(spec, motion, deepest)
     }
 
-    /// The gate in which they are least deep decides.
-    fn answer<T>(
+    /// The gate that is passed least deeply decides.
+    fn check_shallowest<T>(
         &self,
         spec: &CheckSpec,
         evidence: Evidence<'_, T>,
         deepest: fn(&Gate, &T) -> Option<Deepest>,
-    ) -> Check {
+    ) -> CheckResult {
         if self.gates.is_empty() {
-            return spec.skip("there are no gates");
+            return Ok(spec.skip("there are no gates"));
         }
-        let evidence = match evidence {
-            Err(reason) => return spec.fail(reason),
-            Ok(evidence) => evidence,
-        };
+        let evidence = evidence?;
         let mut worst: Option<(Deepest, &str)> = None;
         for gate in self.gates {
-            let Some(deepest) = deepest(gate, evidence) else {
-                return spec.fail(format!("there was no time at which gate {} could have been passed", gate.name));
-            };
+            let deepest =
+                deepest(gate, evidence).ok_or_else(|| MissingEvidence::NoGateDepth { gate: gate.name.clone() })?;
             if worst.is_none_or(|(worst, _)| is_smaller(deepest.lower_m, worst.lower_m)) {
                 worst = Some((deepest, &gate.name));
             }
         }
-        let (deepest, gate) = worst.expect("a gate");
+        let (deepest, gate) = worst.expect("at least one gate");
         let measured =
             Measurement::bounds(deepest.lower_m, deepest.upper_m + 2.0 * deepest.deviation_m).at(deepest.at_s);
-        spec.at_least(measured.with(self.vehicle).with(gate), 0.0)
+        Ok(spec.at_least(measured.with(self.vehicle).with(gate), 0.0))
     }
 }
 
@@ -95,11 +91,11 @@ fn deepest_node(gate: &Gate, trajectory: &Trajectory) -> Option<Deepest> {
     nodes.reduce(|best, next| if is_larger(next.lower_m, best.lower_m) { next } else { best })
 }
 
-/// `None` where nothing is known of any time.
+/// `None` if the motion has no segment, or no finite position.
 fn deepest(gate: &Gate, motion: &SlungLoadMotion) -> Option<Deepest> {
     let mut best: Option<Deepest> = None;
-    let mut measured = |segment: usize, share: [f64; 2]| {
-        let middle = f64::midpoint(share[0], share[1]);
+    let mut measured = |segment: usize, fraction: [f64; 2]| {
+        let middle = f64::midpoint(fraction[0], fraction[1]);
         let deviation = motion.deviation(segment);
         let deviation_m = deviation.quadrotor_m.max(deviation.load_m);
         let depth_m = depth_m(gate, &motion.at(segment, middle)) - deviation_m;
@@ -109,21 +105,21 @@ fn deepest(gate: &Gate, motion: &SlungLoadMotion) -> Option<Deepest> {
         }
         let speeds = motion.speeds(segment);
         let moved_m =
-            speeds.quadrotor_mps.max(speeds.load_mps) * motion.duration_s(segment) * (share[1] - share[0]) / 2.0;
-        let span = SearchInterval { bound: depth_m + moved_m, segment, share, of: () };
-        (best, Some(span).filter(|span| best.is_some_and(|best| span.bound > best.lower_m + RESOLUTION_M)))
+            speeds.quadrotor_mps.max(speeds.load_mps) * motion.duration_s(segment) * (fraction[1] - fraction[0]) / 2.0;
+        let interval = SearchInterval { bound: depth_m + moved_m, segment, fraction, of: () };
+        (best, Some(interval).filter(|interval| best.is_some_and(|best| interval.bound > best.lower_m + RESOLUTION_M)))
     };
-    let mut spans: BinaryHeap<SearchInterval<()>> =
+    let mut intervals: BinaryHeap<SearchInterval<()>> =
         motion.segments().filter_map(|segment| measured(segment, [0.0, 1.0]).1).collect();
-    let mut looked_at = spans.len();
-    while let Some(span) = spans.pop() {
-        let halves = span.halves().map(|half| measured(span.segment, half));
+    let mut searched = intervals.len();
+    while let Some(interval) = intervals.pop() {
+        let halves = interval.halves().map(|half| measured(interval.segment, half));
         let best = halves[1].0?;
-        looked_at += 2;
-        if span.bound <= best.lower_m + RESOLUTION_M || looked_at >= MOST_SPANS {
-            return Some(Deepest { upper_m: span.bound.max(best.lower_m + RESOLUTION_M), ..best });
+        searched += 2;
+        if interval.bound <= best.lower_m + RESOLUTION_M || searched >= MAX_INTERVALS {
+            return Some(Deepest { upper_m: interval.bound.max(best.lower_m + RESOLUTION_M), ..best });
         }
-        spans.extend(halves.into_iter().filter_map(|(_, half)| half));
+        intervals.extend(halves.into_iter().filter_map(|(_, half)| half));
     }
     best.map(|best| Deepest { upper_m: best.lower_m + RESOLUTION_M, ..best })
 }

@@ -11,11 +11,11 @@ use scenarios::{CheckSpec, Range, Scenario, Vehicle};
 use sim::slung_load::SlungLoadState;
 use sim::{Actuation, VehicleLog};
 
-use super::planned::PlannedMotion;
-use crate::verdict::evidence::Evidence;
+use super::{FlownMotion, PlannedMotion};
+use crate::verdict::LimitKey;
+use crate::verdict::evidence::CheckResult;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
-use crate::verdict::{Check, LimitKey};
 
 /// A vehicle and what it has to stay inside.
 pub struct LimitChecks<'a> {
@@ -27,7 +27,7 @@ pub struct LimitChecks<'a> {
 
 impl<'a> LimitChecks<'a> {
     /// A vehicle of the scenario.
-    pub fn of(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
+    pub fn new(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
         let model = scenario.slung_load_model(vehicle);
         let widened = |range: Range| {
             let tolerance = SOLVER_TOLERANCE * range.width();
@@ -48,8 +48,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// States at the planner's nodes against the planning limits.
-    pub fn check_node_states(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
-        check_limits(spec, trajectory, |trajectory, worst| {
+    pub fn check_node_states(&self, spec: &CheckSpec, trajectory: &Trajectory) -> CheckResult {
+        check_limits(spec, |worst| {
             for node in trajectory.planner_nodes() {
                 let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
                 for position_m in [state.position_m, state.load_position_m] {
@@ -62,8 +62,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// States of the continuous plan against the physical limits.
-    pub fn check_planned_states(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
-        check_limits(spec, planned, |planned, worst| {
+    pub fn check_planned_states(&self, spec: &CheckSpec, planned: &PlannedMotion) -> CheckResult {
+        check_limits(spec, |worst| {
             for motion in &planned.motions {
                 self.map.path(worst, motion);
             }
@@ -73,9 +73,9 @@ impl<'a> LimitChecks<'a> {
         })
     }
 
-    /// FlownMotion states against the physical limits.
-    pub fn check_flown_states(&self, spec: &CheckSpec, flown: Evidence<'_, super::FlownMotion<'_>>) -> Check {
-        check_limits(spec, flown, |flown, worst| {
+    /// Flown states against the physical limits.
+    pub fn check_flown_states(&self, spec: &CheckSpec, flown: &FlownMotion<'_>) -> CheckResult {
+        check_limits(spec, |worst| {
             for motion in &flown.motions {
                 self.map.path(worst, motion);
             }
@@ -87,8 +87,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// Thrusts at the planner's nodes against the planning limits.
-    pub fn check_node_thrusts(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
-        check_limits(spec, trajectory, |trajectory, worst| {
+    pub fn check_node_thrusts(&self, spec: &CheckSpec, trajectory: &Trajectory) -> CheckResult {
+        check_limits(spec, |worst| {
             for node in trajectory.planner_nodes() {
                 let thrust_n = trajectory.controls[node].thrust_n;
                 self.thrusts(worst, thrust_n, self.promised.thrust_n, trajectory.times_s[node]);
@@ -97,8 +97,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// Thrusts of the continuous plan against the physical limits.
-    pub fn check_planned_thrusts(&self, spec: &CheckSpec, trajectory: Evidence<'_, Trajectory>) -> Check {
-        check_limits(spec, trajectory, |trajectory, worst| {
+    pub fn check_planned_thrusts(&self, spec: &CheckSpec, trajectory: &Trajectory) -> CheckResult {
+        check_limits(spec, |worst| {
             for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
                 self.thrusts(worst, control.thrust_n, self.physical.thrust_n, t_s);
             }
@@ -106,8 +106,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// Thrusts that acted in flight against the physical limits.
-    pub fn check_flown_thrusts(&self, spec: &CheckSpec, log: Evidence<'_, VehicleLog>) -> Check {
-        check_limits(spec, log, |log, worst| {
+    pub fn check_flown_thrusts(&self, spec: &CheckSpec, log: &VehicleLog) -> CheckResult {
+        check_limits(spec, |worst| {
             for sample in &log.samples {
                 let thrust_n = match &sample.actuation {
                     Actuation::Thrusts(thrusts) => thrusts.control.thrust_n,
@@ -120,8 +120,8 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// Cable angles of the continuous plan against the physical limits.
-    pub fn check_planned_swing(&self, spec: &CheckSpec, planned: Evidence<'_, PlannedMotion>) -> Check {
-        check_limits(spec, planned, |planned, worst| {
+    pub fn check_planned_swing(&self, spec: &CheckSpec, planned: &PlannedMotion) -> CheckResult {
+        check_limits(spec, |worst| {
             for knot in &planned.knots {
                 self.cable(worst, &knot.body, self.physical.cable_deg, knot.t_s);
             }
@@ -129,10 +129,10 @@ impl<'a> LimitChecks<'a> {
     }
 
     /// Cable angles in flight against the physical limits.
-    pub fn check_flown_swing(&self, spec: &CheckSpec, flown: Evidence<'_, super::FlownMotion<'_>>) -> Check {
-        check_limits(spec, flown, |flown, worst| {
-            for instant in flown.motion.samples() {
-                self.cable(worst, &instant.body, self.physical.cable_deg, instant.t_s);
+    pub fn check_flown_swing(&self, spec: &CheckSpec, flown: &FlownMotion<'_>) -> CheckResult {
+        check_limits(spec, |worst| {
+            for sample in flown.motion.samples() {
+                self.cable(worst, &sample.body, self.physical.cable_deg, sample.t_s);
             }
         })
     }

@@ -1,39 +1,38 @@
-//! Quadrotor and load as a continuous motion: between dense samples a curve whose every point moves no faster than a
-//! known speed.
+//! Quadrotor and load as a continuous motion: curves through dense samples, with bounds of their speed.
 
 use nalgebra::Vector3;
 use sim::slung_load::SlungLoadState;
 
 use crate::verdict::bernstein;
 
-/// A larger mean acceleration than this within a segment is an impact, m/s².
+/// A larger mean acceleration within a segment is an impact, m/s².
 const IMPACT_MPS2: f64 = 50.0;
 
-/// A segment shorter than this says nothing of derivatives, s: rounding would be all of them.
-const BRIEF_S: f64 = 1e-5;
+/// Derivatives are not estimated from shorter segments, s: rounding would dominate them.
+const MIN_SEGMENT_S: f64 = 1e-5;
 
-/// Quadrotor and load at one time.
+/// Quadrotor and load at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionSample {
     /// Time, s.
     pub t_s: f64,
-    /// Where they are.
+    /// Their state.
     pub body: SlungLoadState,
 }
 
-/// A motion through samples: positions between two of them are the cubic Hermite of their positions and velocities, the
-/// attitude turns at a constant rate.
+/// A motion through samples: between two of them the positions are cubic Hermite curves and the attitude rotates at a
+/// constant rate.
 ///
-/// Instants are dense (5 ms apart at most), so that this follows the true motion within micrometres, a point of the body
-/// within 0.1 mm. Two samples may share one time: what lies between them is a jump, not motion.
+/// Samples are dense (at most 5 ms apart), so that positions are within micrometres of the true motion, and a point of the
+/// body within 0.1 mm. Two samples may share one time; the jump between them is not motion.
 #[derive(Clone, Debug)]
 pub struct SlungLoadMotion {
     samples: Vec<MotionSample>,
-    /// One per segment, or none if the curves are the motion.
+    /// One per segment; empty if the curves are the motion itself.
     deviations: Vec<Deviation>,
 }
 
-/// How far the true motion may be from the curves of a segment.
+/// Bounds of the difference between the true motion and the curves of a segment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
     /// The quadrotor's centre, m.
@@ -63,23 +62,23 @@ impl SlungLoadMotion {
         Self { samples, deviations: Vec::new() }
     }
 
-    /// Takes the samples for samples of a motion that is smooth, impacts aside, from which the curves deviate between them:
+    /// Treats the samples as those of a motion that is smooth except for impacts. Its interpolation errors are
     ///
     /// ```text
-    /// |p - cubic| <= h⁴/384 max|p''''|,   |angle| <= h²/8 max|ω'|              errors of interpolation
-    /// |p - cubic| <= 4/27 h |Δv|                                              of a velocity that jumps
+    /// |p - cubic| <= h⁴/384 max|p''''|,   |angle| <= h²/8 max|ω'|              for a smooth motion
+    /// |p - cubic| <= 4/27 h |Δv|                                              for a jump of the velocity
     /// ```
     ///
-    /// with p'''' and ω' from the differences between neighbouring segments, doubled. In a segment that is too brief for that
-    /// the motion is taken to be no farther from the curve than the curve is long.
+    /// with twice the p'''' and ω' that adjacent segments give. In a segment that is too short for that, the deviation is
+    /// bounded by the length of the curve.
     pub fn sampled(mut self) -> Self {
         let mut deviations = vec![Deviation::default(); self.samples.len().saturating_sub(1)];
-        let (lasting, brief): (Vec<usize>, Vec<usize>) =
-            self.segments().partition(|segment| self.duration_s(*segment) >= BRIEF_S);
-        for segment in brief {
+        let (regular, short): (Vec<usize>, Vec<usize>) =
+            self.segments().partition(|segment| self.duration_s(*segment) >= MIN_SEGMENT_S);
+        for segment in short {
             deviations[segment] = self.extent(segment);
         }
-        for pair in lasting.windows(2) {
+        for pair in regular.windows(2) {
             let between = self.deviation_between(pair[0], pair[1]);
             for segment in pair {
                 let so_far = &mut deviations[*segment];
@@ -92,7 +91,7 @@ impl SlungLoadMotion {
         self
     }
 
-    /// How far the true motion may be from the curves of a segment.
+    /// Bounds of the difference between the true motion and the curves of a segment.
     pub fn deviation(&self, segment: usize) -> Deviation {
         self.deviations.get(segment).copied().unwrap_or_default()
     }
@@ -121,7 +120,7 @@ impl SlungLoadMotion {
         Deviation { quadrotor_m: deviation_m(0), load_m: deviation_m(1), turn_rad }
     }
 
-    /// How far anything gets within a segment, from one end to the other.
+    /// Largest displacements within a segment.
     fn extent(&self, segment: usize) -> Deviation {
         let speeds = self.speeds(segment);
         let duration_s = self.duration_s(segment);
@@ -137,22 +136,22 @@ impl SlungLoadMotion {
         &self.samples
     }
 
-    /// The segments that last, by the index of the instant at which they begin.
+    /// The segments of positive duration, by the index of their first sample.
     pub fn segments(&self) -> impl Iterator<Item = usize> + '_ {
         (1..self.samples.len()).map(|end| end - 1).filter(|index| self.duration_s(*index) > 0.0)
     }
 
-    /// Time at the share `u` in [0, 1] of a segment, s.
+    /// Time at the fraction `u` in [0, 1] of a segment, s.
     pub fn time_s(&self, segment: usize, u: f64) -> f64 {
         self.samples[segment].t_s + u * self.duration_s(segment)
     }
 
-    /// Length of a segment, s.
+    /// Duration of a segment, s.
     pub fn duration_s(&self, segment: usize) -> f64 {
         self.samples[segment + 1].t_s - self.samples[segment].t_s
     }
 
-    /// Quadrotor and load at the share `u` in [0, 1] of a segment. Velocities and rates are those of its beginning.
+    /// Quadrotor and load at the fraction `u` in [0, 1] of a segment. Velocities and rates are those of its beginning.
     pub fn at(&self, segment: usize, u: f64) -> SlungLoadState {
         let (a, b) = self.ends(segment);
         let [quadrotor, load] = self.control_points(segment);
@@ -165,7 +164,8 @@ impl SlungLoadMotion {
         }
     }
 
-    /// Speeds that nothing in a segment exceeds: a cubic's derivative lies in the hull of its control points' differences.
+    /// Upper bounds of the speeds in a segment: the derivative of a cubic lies in the convex hull of the differences of its
+    /// control points.
     pub fn speeds(&self, segment: usize) -> Speeds {
         let (a, b) = self.ends(segment);
         let duration_s = self.duration_s(segment);
@@ -182,15 +182,15 @@ impl SlungLoadMotion {
         }
     }
 
-    /// Control points of quadrotor and load over a part of a segment, along a direction, m.
-    pub fn along(&self, segment: usize, share: [f64; 2], direction: &Vector3<f64>) -> [[f64; 4]; 2] {
+    /// Control points of quadrotor and load over a part of a segment, projected onto a direction, m.
+    pub fn along(&self, segment: usize, fraction: [f64; 2], direction: &Vector3<f64>) -> [[f64; 4]; 2] {
         self.control_points(segment).map(|points| {
-            let (until, _) = bernstein::split(&points.map(|point| point.dot(direction)), share[1]);
-            bernstein::split(&until, share[0] / share[1]).1
+            let (until, _) = bernstein::split(&points.map(|point| point.dot(direction)), fraction[1]);
+            bernstein::split(&until, fraction[0] / fraction[1]).1
         })
     }
 
-    /// The turn of a segment, constant in the world frame: its axis times its angle, rad.
+    /// The rotation within a segment, about an axis that is constant in the world frame: axis times angle, rad.
     pub fn turn_rad(&self, segment: usize) -> Vector3<f64> {
         let (a, b) = self.ends(segment);
         a.attitude * (a.attitude.inverse() * b.attitude).scaled_axis()
@@ -200,7 +200,7 @@ impl SlungLoadMotion {
         (&self.samples[segment].body, &self.samples[segment + 1].body)
     }
 
-    /// Of the cubics of quadrotor and load, in Bernstein form.
+    /// Control points of the cubics of quadrotor and load, in Bernstein form.
     fn control_points(&self, segment: usize) -> [[Vector3<f64>; 4]; 2] {
         let (a, b) = self.ends(segment);
         let third_s = self.duration_s(segment) / 3.0;
@@ -226,9 +226,9 @@ mod tests {
 
     use super::{MotionSample, SlungLoadMotion};
 
-    /// Round a circle of 1 m at 1 m/s, and the same with every instant told twice, a nanosecond later the second time.
+    /// A circle of 1 m at 1 m/s, and the same with every sample doubled a nanosecond later.
     #[test]
-    fn instants_at_nearly_the_same_time_tell_no_other_motion() {
+    fn samples_at_nearly_the_same_time_do_not_change_the_motion() {
         let at = |t_s: f64| {
             let (sin, cos) = t_s.sin_cos();
             let (position_m, velocity_mps) = (Vector3::new(cos, sin, 1.0), Vector3::new(-sin, cos, 0.0));
@@ -246,7 +246,7 @@ mod tests {
             MotionSample { t_s, body }
         };
         let once: Vec<MotionSample> = (0..200).map(|k| at(0.005 * f64::from(k))).collect();
-        let twice = once.iter().flat_map(|instant| [*instant, at(instant.t_s + 1e-9)]).collect();
+        let twice = once.iter().flat_map(|sample| [*sample, at(sample.t_s + 1e-9)]).collect();
         let largest_m = |samples: Vec<MotionSample>| {
             let motion = SlungLoadMotion::new(samples).sampled();
             let deviations = motion.segments().map(|segment| motion.deviation(segment).quadrotor_m);

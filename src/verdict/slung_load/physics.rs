@@ -1,46 +1,47 @@
-//! Does the flight obey the equations of motion?
+//! Replay of a slung-load log.
 //!
-//! Momentum: what the log says of thrusts, tension and air must explain where quadrotor and load go. And the law of the
-//! cable: it is never longer than it is, never pushes, and pulls only at its full length.
+//! Momentum: the logged thrusts, tension and air determine the motion of quadrotor and load. Complementarity of the cable: it
+//! is never longer than its length, never pushes, and pulls only at its full length.
 
 use scenarios::slung_load::Trajectory;
 use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
 use sim::slung_load::{AppliedControls, Plant, Replay, SlungLoadState};
 use sim::{Actuation, Flight, VehicleLog};
 
-use super::flown::instant;
-use crate::verdict::Check;
+use super::flown::motion_sample;
 use crate::verdict::compare::is_larger;
-use crate::verdict::evidence::Evidence;
-use crate::verdict::physics::{self, Defect, LIMIT_M, difference_m};
+use crate::verdict::evidence::CheckResult;
+use crate::verdict::missing_evidence::MissingEvidence;
+use crate::verdict::physics::{Defect, check_largest, difference_m};
 use crate::verdict::rotors::Rotors;
 
-/// Length of the windows at whose beginning the replay starts anew, s: about the time in which the feedback acts.
+/// Length of the windows at whose beginning the replay is restarted, s: about the time constant of the feedback.
 const WINDOW_S: f64 = 0.1;
-/// A load this close to where it lies on the ground may be held by the ground, which the log does not tell of, m.
+/// The ground may support a load that is this close to its resting height, and the log does not contain that force, m.
 const NEAR_GROUND_M: f64 = 1e-3;
 /// Tension below which a cable does not pull, N: rounding.
-const PULL_N: f64 = 1e-6;
+const MIN_PULL_N: f64 = 1e-6;
 
-/// Largest distance between the log and where its thrusts, tension and air lead, restarted at the beginning of every window.
-pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: Evidence<'_, Flight>) -> Check {
-    physics::answer(spec, scenario, flight, LIMIT_M, |vehicle, log| {
-        Physics::of(scenario, vehicle, plan.trajectories[0].slung_load()).largest_defect(log)
+/// Largest distance between the log and the motion that results from its thrusts, tension and air, restarted at the beginning
+/// of every window.
+pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight) -> CheckResult {
+    check_largest(spec, scenario, flight, |vehicle, log| {
+        LogReplay::new(scenario, vehicle, plan.trajectories[0].slung_load()).largest_defect(log)
     })
 }
 
-/// A vehicle, and what its log is held against.
-pub struct Physics<'a> {
+/// A vehicle and the models that its log is compared with.
+struct LogReplay<'a> {
     replay: Replay,
     plant: Plant,
-    /// As the flight begins: with the thrust with which the plan begins.
+    /// At the beginning of the flight: with the first thrust of the plan.
     rotors: Rotors,
     vehicle: &'a str,
 }
 
-impl<'a> Physics<'a> {
-    /// Of a vehicle of the scenario that flies a trajectory.
-    pub fn of(scenario: &Scenario, vehicle: &'a Vehicle, trajectory: &Trajectory) -> Self {
+impl<'a> LogReplay<'a> {
+    /// A vehicle of the scenario on a trajectory.
+    fn new(scenario: &Scenario, vehicle: &'a Vehicle, trajectory: &Trajectory) -> Self {
         let (model, mismatch) = (scenario.slung_load_model(vehicle), &scenario.simulation.mismatch);
         let nominal = Plant::nominal(model, scenario.world.ground_m);
         let plant = Plant {
@@ -57,15 +58,17 @@ impl<'a> Physics<'a> {
         }
     }
 
-    /// Largest defect of a log. `None` if it holds no step.
+    /// Largest defect of a log. `None` if it has no step.
     ///
-    /// When within a step the cable began to pull is not in the log: what that may move (half a step times the change of
-    /// the velocity that it makes) is not held against the flight.
-    pub fn largest_defect(&self, log: &VehicleLog) -> Result<Option<Defect>, String> {
-        if log.loads.len() != log.samples.len() {
-            return Err(format!("the log of {} has not as many samples of the load as of the vehicle", self.vehicle));
+    /// The log does not contain the instant within a step at which the cable began to pull. The displacement that this leaves
+    /// open, half a step times the change of velocity, is subtracted.
+    fn largest_defect(&self, log: &VehicleLog) -> Result<Option<Defect>, MissingEvidence> {
+        let (samples, loads) = (log.samples.len(), log.loads.len());
+        if loads != samples {
+            return Err(MissingEvidence::LoadSampleCount { vehicle: self.vehicle.to_owned(), samples, loads });
         }
-        let bodies: Vec<SlungLoadState> = log.samples.iter().zip(&log.loads).map(|both| instant(both).body).collect();
+        let bodies: Vec<SlungLoadState> =
+            log.samples.iter().zip(&log.loads).map(|both| motion_sample(both).body).collect();
         let mut rotors = self.rotors;
         let (mut motion, mut began_s, mut allowance_m) = (None, f64::NEG_INFINITY, 0.0);
         let mut worst: Option<Defect> = None;
@@ -76,13 +79,13 @@ impl<'a> Physics<'a> {
                 (motion, began_s, allowance_m) = (None, from.t_s, 0.0);
             }
             let tension_n = log.loads[step].tension_n;
-            let acting = AppliedControls {
+            let applied = AppliedControls {
                 thrust_n: rotors.mean_n(commanded_n(&from.actuation), step_s),
                 attitude: [bodies[step - 1].attitude, bodies[step].attitude],
                 tension_n,
                 wind_mps: [from.wind_mps.into(), to.wind_mps.into()],
             };
-            let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &acting, step_s);
+            let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &applied, step_s);
             motion = Some(flown);
             let change_ns = (tension_n - log.loads[step - 1].tension_n).abs() * step_s;
             allowance_m += 0.5 * step_s * change_ns / self.plant.load_mass_kg;
@@ -112,17 +115,17 @@ impl<'a> Physics<'a> {
         if larger_m <= allowance_m { 0.0 } else { larger_m - allowance_m }
     }
 
-    /// By how much the law of the cable is broken, m. A push counts by the distance that it moves the load in a window.
+    /// Violation of the cable's complementarity, m. A push counts by the distance that it moves the load in a window.
     fn cable_m(&self, ends: [&SlungLoadState; 2], tension_n: f64, step_s: f64) -> f64 {
         let lengths_m = ends.map(|body| body.cable_m().norm());
         let stretch_m = lengths_m[1] - self.plant.cable_length_m;
         let push_m = -tension_n / self.plant.load_mass_kg * WINDOW_S * WINDOW_S / 2.0;
-        // A cable that pulled during the step was taut at some instant of it.
+        // A cable that pulled during a step was taut at some instant of it.
         let moved_m = (ends[0].load_relative_mps().norm().max(ends[1].load_relative_mps().norm())) * step_s;
         let short_m = self.plant.cable_length_m - lengths_m[0].max(lengths_m[1]) - moved_m;
-        let slack_pull_m = if tension_n > PULL_N { short_m } else { 0.0 };
-        let breaches_m = [stretch_m, push_m, slack_pull_m].into_iter();
-        breaches_m.fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst })
+        let slack_pull_m = if tension_n > MIN_PULL_N { short_m } else { 0.0 };
+        let violations_m = [stretch_m, push_m, slack_pull_m].into_iter();
+        violations_m.fold(0.0, |worst, value| if is_larger(value, worst) { value } else { worst })
     }
 
     fn is_near_ground(&self, body: &SlungLoadState) -> bool {
@@ -130,7 +133,7 @@ impl<'a> Physics<'a> {
     }
 }
 
-/// Total thrust that is commanded, N.
+/// Commanded total thrust, N.
 fn commanded_n(actuation: &Actuation) -> f64 {
     match actuation {
         Actuation::Thrusts(thrusts) => thrusts.control.thrust_n.iter().sum(),

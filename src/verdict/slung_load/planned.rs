@@ -1,4 +1,4 @@
-//! The plan as a continuous motion: its thrusts through the judge's equations, restarted at every node.
+//! The plan as a continuous motion: its thrusts integrated with the judge's equations, restarted at every node.
 
 use scenarios::slung_load::{Cable, Trajectory};
 use scenarios::{Interpolation, Plan, Scenario};
@@ -6,52 +6,56 @@ use sim::slung_load::{Knot, Plant, SlungLoadState, impact, propagate};
 
 use super::motion::{MotionSample, SlungLoadMotion};
 use crate::verdict::compare::exceeds;
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{self, Motion};
 
-/// Longest step of the integration, and distance between samples, s.
+/// Largest integration step, and largest time between two samples, s.
 const MAX_STEP_S: f64 = 0.005;
-/// A defect is what has gathered over at least this time, s, or to the next switch of the cable: a plan that is sampled
-/// densely is not excused from the equations.
+/// A defect is accumulated over at least this time, s, or until the next switch of the cable, so that dense sampling does not
+/// make it small.
 const WINDOW_S: f64 = 0.1;
 
-/// The motion that a plan's thrusts cause.
+/// The motion that results from a plan's thrusts.
 #[derive(Clone, Debug)]
 pub struct PlannedMotion {
     /// Quadrotor and load. At every node they jump from where the interval before it ends to the node itself.
     pub motion: SlungLoadMotion,
     /// The quadrotor's centre, and the load's.
     pub motions: [Motion; 2],
-    /// Every instant of it with thrust and tension.
+    /// Its samples with thrust and tension.
     pub knots: Vec<Knot>,
-    /// What the plan's nodes lack to where its thrusts lead.
+    /// Differences between the nodes and the motion that leads to them.
     pub defects: Vec<Defect>,
-    /// Every impact: when, s, and its impulse, N s.
+    /// Times, s, and impulses, N s, of the impacts.
     pub impacts: Vec<(f64, f64)>,
 }
 
-/// The difference between a node and where the thrusts lead from an earlier one.
+/// The difference between a node and the motion that the thrusts cause from an earlier node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defect {
     /// Time of the node, s.
     pub t_s: f64,
-    /// The largest of the differences of positions, and of velocities times the time between the nodes (at least the
-    /// window); for the attitude what they make at the end of a rotor's arm, m.
+    /// The largest of the differences in position, in velocity times the time between the nodes (at least the window), and in
+    /// attitude and body rate at the end of a rotor's arm, m.
     pub defect_m: f64,
 }
 
 impl PlannedMotion {
-    /// Integrates the flyable plan of the scenario's one vehicle. Refuses one that lasts longer than the scenario allows, or
-    /// whose thrusts lead out of the numbers that can be judged.
-    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, String> {
-        let longest_s = scenario.simulation.max_duration_s;
-        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, longest_s)) {
-            return Err(format!("the plan takes {duration_s} s, longer than the {longest_s} s that are simulated"));
+    /// Integrates the flyable plan of the scenario's one vehicle.
+    ///
+    /// # Errors
+    ///
+    /// The plan takes longer than is simulated, or its thrusts lead to values that cannot be judged.
+    pub fn new(scenario: &Scenario, plan: &Plan) -> Result<Self, MissingEvidence> {
+        let max_s = scenario.simulation.max_duration_s;
+        if let Some(duration_s) = plan.flight_time_s().filter(|&duration_s| exceeds(duration_s, max_s)) {
+            return Err(MissingEvidence::PlanTooLong { duration_s, max_s });
         }
         let model = scenario.slung_load_model(&scenario.vehicles[0]);
         let plant = Plant::nominal(model, scenario.world.ground_m);
         let trajectory = plan.trajectories[0].slung_load();
         let intervals = trajectory.times_s.len() - 1;
-        let knots: Vec<Knot> = (0..intervals).flat_map(|interval| flown(trajectory, &plant, interval)).collect();
+        let knots: Vec<Knot> = (0..intervals).flat_map(|interval| integrated(trajectory, &plant, interval)).collect();
         let samples = knots.iter().map(|knot| MotionSample { t_s: knot.t_s, body: knot.body }).collect();
         let motion = SlungLoadMotion::new(samples).sampled();
         let motions = motions(&trajectory.vehicle, motion.samples())?;
@@ -62,7 +66,11 @@ impl PlannedMotion {
 }
 
 /// The motions of quadrotor and load through these samples.
-pub fn motions(vehicle: &str, samples: &[MotionSample]) -> Result<[Motion; 2], String> {
+///
+/// # Errors
+///
+/// See [`Motion::new`].
+pub fn motions(vehicle: &str, samples: &[MotionSample]) -> Result<[Motion; 2], MissingEvidence> {
     let knot = |t_s: f64, position: nalgebra::Vector3<f64>, velocity: nalgebra::Vector3<f64>| motion::Knot {
         t_s,
         position_m: position.into(),
@@ -76,30 +84,30 @@ pub fn motions(vehicle: &str, samples: &[MotionSample]) -> Result<[Motion; 2], S
     ])
 }
 
-/// The motion of one interval; of one without length only the node.
-fn flown(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
-    let mut knots = flown_from(&SlungLoadState::from(&trajectory.states[interval]), trajectory, plant, interval);
+/// The motion of one interval; only its first node if the interval has no duration.
+fn integrated(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
+    let mut knots = integrated_from(&SlungLoadState::from(&trajectory.states[interval]), trajectory, plant, interval);
     if trajectory.times_s[interval + 1] <= trajectory.times_s[interval] {
-        // thrusts that jump as the cable goes slack never act on a taut one
+        // Thrusts that jump when the cable becomes slack never act while it is taut.
         knots.truncate(1);
     }
     knots
 }
 
-fn flown_from(start: &SlungLoadState, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
+fn integrated_from(start: &SlungLoadState, trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<Knot> {
     let Interpolation::FirstOrderHold = trajectory.interpolation;
     let controls = [&trajectory.controls[interval], &trajectory.controls[interval + 1]];
     let times_s = [trajectory.times_s[interval], trajectory.times_s[interval + 1]];
     propagate(plant, start, controls, trajectory.cable[interval], times_s, MAX_STEP_S)
 }
 
-/// What the plan lacks over the window that begins with an interval. Where the cable becomes taut, the impact is part of it.
+/// The defect over the window that begins with an interval. If the cable becomes taut, the impact is part of the motion.
 fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
     let (times_s, last) = (&trajectory.times_s, trajectory.times_s.len() - 1);
     let mut body = SlungLoadState::from(&trajectory.states[first]);
     let mut end = first;
     while end < last {
-        let knots = flown_from(&body, trajectory, plant, end);
+        let knots = integrated_from(&body, trajectory, plant, end);
         body = knots[knots.len() - 1].body;
         end += 1;
         let switches = trajectory.cable[end] != trajectory.cable[end - 1];
@@ -133,11 +141,11 @@ fn difference_m(plant: &Plant, a: &SlungLoadState, b: &SlungLoadState, window_s:
     differences.into_iter().reduce(|worst, value| if exceeds(value, worst) { value } else { worst }).unwrap_or(f64::NAN)
 }
 
-/// When the plan's cable becomes taut, and the impulse of it by the judge's equations.
+/// Times at which the planned cable becomes taut, s, and the impulses by the judge's equations, N s.
 fn impacts(trajectory: &Trajectory, plant: &Plant) -> Vec<(f64, f64)> {
     let nodes = (1..trajectory.times_s.len()).filter(|node| becomes_taut(trajectory, *node));
     let impulse = |node: usize| {
-        let knots = flown(trajectory, plant, node - 1);
+        let knots = integrated(trajectory, plant, node - 1);
         (trajectory.times_s[node], impact(plant, &knots[knots.len() - 1].body).1)
     };
     nodes.map(impulse).collect()

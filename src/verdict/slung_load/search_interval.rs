@@ -1,24 +1,24 @@
-//! Spans of a motion in the order in which branch and bound looks at them.
+//! The intervals of a branch-and-bound search, best bound first.
 
 use std::cmp::Ordering;
 
-/// A part of a segment, and a bound on how good the best of it may be. The highest bound comes first, a NaN before all.
+/// A part of a segment, with an upper bound of the objective within it. The highest bound comes first, NaN before all.
 #[derive(Clone, Copy, Debug)]
 pub struct SearchInterval<T> {
-    /// Nothing within the span is better than this.
+    /// Upper bound of the objective within the interval.
     pub bound: f64,
     /// The segment.
     pub segment: usize,
-    /// From and to, as shares of the segment.
-    pub share: [f64; 2],
-    /// What the bound is of.
+    /// Beginning and end, as fractions of the segment.
+    pub fraction: [f64; 2],
+    /// What the bound refers to.
     pub of: T,
 }
 
 impl<T> SearchInterval<T> {
     /// Shares of its two halves.
     pub fn halves(&self) -> [[f64; 2]; 2] {
-        let [from, to] = self.share;
+        let [from, to] = self.fraction;
         let middle = f64::midpoint(from, to);
         [[from, middle], [middle, to]]
     }
@@ -55,11 +55,11 @@ mod tests {
     use super::SearchInterval;
 
     #[test]
-    fn the_most_promising_comes_first_and_what_is_not_a_number_before_all() {
-        let span = |bound: f64| SearchInterval { bound, segment: 0, share: [0.0, 1.0], of: () };
-        let mut spans = BinaryHeap::from([0.5, f64::NAN, 2.0, -1.0].map(span));
-        assert!(spans.pop().is_some_and(|span| span.bound.is_nan()));
-        assert_eq!(spans.pop().map(|span| span.bound), Some(2.0));
-        assert_eq!(span(1.0).halves(), [[0.0, 0.5], [0.5, 1.0]]);
+    fn the_highest_bound_comes_first_and_nan_before_all() {
+        let interval = |bound: f64| SearchInterval { bound, segment: 0, fraction: [0.0, 1.0], of: () };
+        let mut intervals = BinaryHeap::from([0.5, f64::NAN, 2.0, -1.0].map(interval));
+        assert!(intervals.pop().is_some_and(|interval| interval.bound.is_nan()));
+        assert_eq!(intervals.pop().map(|interval| interval.bound), Some(2.0));
+        assert_eq!(interval(1.0).halves(), [[0.0, 0.5], [0.5, 1.0]]);
     }
 }

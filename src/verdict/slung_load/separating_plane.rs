@@ -1,48 +1,50 @@
-//! How far in front of a plane does a part stay, with an obstacle behind the plane?
+//! The distance of a part from a plane that separates it from an obstacle.
 //!
-//! The plane is the one between the two in the middle of a span of time. Since that one is the best there, another instant
-//! misses the distance only by a square of the time: a bound of second order, where a largest speed gives one of first.
+//! The plane separates the two best at the middle of an interval of time. Elsewhere in the interval its distance from the part
+//! is below the true distance by a term of second order in time, while the bound by the largest speed is of first order.
 
 use sim::slung_load::{Part, Parts, SeparatingPlane};
 
 use super::motion::SlungLoadMotion;
 
-/// Smallest distance in front of the plane, m, negative behind it, of every point of a part over a share of a segment.
+/// Smallest signed distance of any point of a part from the plane over a part of a segment, m; negative behind the plane.
+///
+/// - `fraction`: beginning and end within the segment, in [0, 1]
 pub fn in_front_m(
     plane: &SeparatingPlane,
     parts: &Parts,
     part: Part,
     motion: &SlungLoadMotion,
     segment: usize,
-    share: [f64; 2],
+    fraction: [f64; 2],
 ) -> f64 {
-    let [quadrotor, load] = motion.along(segment, share, &plane.normal);
+    let [quadrotor, load] = motion.along(segment, fraction, &plane.normal);
     let nearest_m = match part {
-        Part::Body => nearest_of_disc_m(plane, parts, motion, segment, share, quadrotor),
+        Part::Body => nearest_of_disc_m(plane, parts, motion, segment, fraction, quadrotor),
         Part::Cable => smallest(&quadrotor).min(smallest(&load)),
         Part::Load => smallest(&load) - parts.load_radius_m(),
     };
     nearest_m - plane.offset_m
 }
 
-/// Smallest product of the plane's normal n with a point of the body's disc, with axis a and radius R, about its centre c:
+/// Smallest dot product of the plane's normal n with a point of the body's disc (axis a, radius R, centre c):
 ///
 /// ```text
 /// n·c - R f,   f = sqrt(1 - x²),   x = a·n
-/// f <= f_0 - x_0/f_0 (x - x_0)                             it is concave
-/// |x - x_0 - x_0' s| <= |ω|²s²/2                           for a turn at the constant rate ω
-/// f <= f_0 + |ω s|                                         for a disc that nearly lies in the plane
+/// f <= f_0 - x_0/f_0 (x - x_0)                             f is concave
+/// |x - x_0 - x_0' s| <= |ω|²s²/2                           for a rotation at the constant rate ω
+/// f <= f_0 + |ω s|                                         for a disc nearly parallel to the plane
 /// ```
 fn nearest_of_disc_m(
     plane: &SeparatingPlane,
     parts: &Parts,
     motion: &SlungLoadMotion,
     segment: usize,
-    share: [f64; 2],
+    fraction: [f64; 2],
     center: [f64; 4],
 ) -> f64 {
-    let (radius_m, half) = (parts.body_radius_m(), (share[1] - share[0]) / 2.0);
-    let axis = motion.at(segment, f64::midpoint(share[0], share[1])).thrust_axis();
+    let (radius_m, half) = (parts.body_radius_m(), (fraction[1] - fraction[0]) / 2.0);
+    let axis = motion.at(segment, f64::midpoint(fraction[0], fraction[1])).thrust_axis();
     let turn_rad = motion.turn_rad(segment);
     let turned_rad = turn_rad.norm() * half;
     let x = axis.dot(&plane.normal);

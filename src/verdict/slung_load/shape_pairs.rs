@@ -1,22 +1,22 @@
-//! What is kept clear of what, and how far apart the two are at one instant.
+//! The pairs of shapes that are kept apart, and their distances at one instant.
 
 use scenarios::{Prism, Scenario, Vehicle};
 use sim::slung_load::{Part, Parts, SeparatingPlane, SlungLoadState};
 
 use super::motion::{Deviation, Speeds};
 
-/// What is kept clear of what.
+/// A shape of the vehicle and what it is kept clear of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// A part, from an obstacle by its index.
+    /// A part and an obstacle, by its index.
     Part(Part, usize),
-    /// The envelope circle, from an obstacle by its index.
+    /// The envelope circle and an obstacle, by its index.
     Envelope(usize),
-    /// The body, from the ground.
+    /// The body and the ground.
     AboveGround,
 }
 
-/// Vehicle and world, as far as distances are concerned.
+/// The shapes of the vehicle and of the world.
 pub struct ShapePairs<'a> {
     pub(super) vehicle: &'a str,
     pub(super) parts: Parts,
@@ -25,8 +25,8 @@ pub struct ShapePairs<'a> {
 }
 
 impl<'a> ShapePairs<'a> {
-    /// Of a vehicle of the scenario.
-    pub fn of(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
+    /// The shapes of a vehicle of the scenario.
+    pub fn new(scenario: &Scenario, vehicle: &'a Vehicle) -> Self {
         Self {
             vehicle: &vehicle.name,
             parts: Parts::new(scenario.slung_load_model(vehicle)),
@@ -35,7 +35,7 @@ impl<'a> ShapePairs<'a> {
         }
     }
 
-    /// Body, cable and load with every obstacle, and the body with the ground.
+    /// SlungLoadState, cable and load with every obstacle, and the body with the ground.
     pub(super) fn parts(&self) -> Vec<Shape> {
         let parts = (0..self.obstacles.len()).flat_map(|i| Part::ALL.map(|part| Shape::Part(part, i)));
         parts.chain(self.ground_m.map(|_| Shape::AboveGround)).collect()
@@ -46,15 +46,15 @@ impl<'a> ShapePairs<'a> {
         (0..self.obstacles.len()).map(Shape::Envelope).collect()
     }
 
-    /// Less than the distance, and quick to tell, m.
-    pub(super) fn at_least_m(&self, shape: Shape, body: &SlungLoadState) -> f64 {
+    /// A lower bound of the distance that is fast to compute, m.
+    pub(super) fn distance_lower_bound_m(&self, shape: Shape, body: &SlungLoadState) -> f64 {
         match shape {
             Shape::Part(part, obstacle) => self.parts.distance_lower_bound_m(part, body, &self.obstacles[obstacle]),
             Shape::Envelope(_) | Shape::AboveGround => self.distance_m(shape, body),
         }
     }
 
-    /// Signed distance, m, and a plane between the two, if one is known.
+    /// Signed distance, m, and a separating plane, if one is known.
     pub(super) fn distance_and_plane(&self, shape: Shape, body: &SlungLoadState) -> (f64, Option<SeparatingPlane>) {
         match shape {
             Shape::Part(part, obstacle) => self.parts.distance_and_plane(part, body, &self.obstacles[obstacle]),
@@ -71,7 +71,7 @@ impl<'a> ShapePairs<'a> {
         }
     }
 
-    /// How far a point of the shape may be from where the curves have it, m.
+    /// Largest distance of a point of the shape from where the curves place it, m.
     pub(super) fn deviation_m(&self, shape: Shape, Deviation { quadrotor_m, load_m, turn_rad }: Deviation) -> f64 {
         match shape {
             Shape::Part(Part::Body, _) | Shape::AboveGround => quadrotor_m + turn_rad * self.parts.body_radius_m(),
@@ -81,7 +81,7 @@ impl<'a> ShapePairs<'a> {
         }
     }
 
-    /// What no point of the shape's surface exceeds, m/s.
+    /// Upper bound of the speed of any point of the shape's surface, m/s.
     pub(super) fn speed_mps(&self, shape: Shape, speeds: &Speeds) -> f64 {
         let body_mps = speeds.quadrotor_mps + speeds.turn_radps * self.parts.body_radius_m();
         match shape {
