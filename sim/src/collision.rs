@@ -1,35 +1,29 @@
 use nalgebra::Vector3;
 
-/// When two round things first touch that move along straight lines at constant velocity.
+/// First contact of two balls (or circles) that move along straight lines at constant velocity.
 ///
 /// ```text
-/// |r + (r' - r) share| = R,   share in [0, 1]
+/// |r + (r' - r) fraction| = R,   fraction in [0, 1]
 /// ```
 ///
-/// - `start_m`, `end_m`: position of the one relative to the other at the beginning and at the end, r and r'
+/// - `start_m`, `end_m`: position of one relative to the other at the beginning and at the end, r and r'
 /// - `reach_m`: sum of their radii R
 ///
-/// Returns the share of the time that has passed by then: 0 if they overlap from the beginning, `None` if they never
-/// touch.
+/// Returns the fraction of the motion at first contact: 0 if they overlap from the beginning, `None` if they never touch.
 pub(crate) fn time_of_impact(start_m: &Vector3<f64>, end_m: &Vector3<f64>, reach_m: f64) -> Option<f64> {
     let gap = start_m.norm_squared() - reach_m * reach_m;
     if gap <= 0.0 {
         return Some(0.0);
     }
     let travel_m = end_m - start_m;
-    // a share² + 2 b share + gap = 0, smaller root; the form below loses no digits when a is small.
+    // a fraction² + 2 b fraction + gap = 0, smaller root; the form below loses no digits when a is small.
     let (a, b) = (travel_m.norm_squared(), start_m.dot(&travel_m));
     let discriminant = b * b - a * gap;
     if b >= 0.0 || discriminant < 0.0 {
         return None;
     }
-    let share = gap / (discriminant.sqrt() - b);
-    (share <= 1.0).then_some(share)
-}
-
-/// The horizontal part of a vector: touching a vertical cylinder is a matter of the plane.
-pub(crate) fn horizontal(vector: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(vector.x, vector.y, 0.0)
+    let fraction = gap / (discriminant.sqrt() - b);
+    (fraction <= 1.0).then_some(fraction)
 }
 
 #[cfg(test)]
@@ -38,8 +32,8 @@ mod tests {
 
     #[test]
     fn head_on() {
-        let share = time_of_impact(&Vector3::new(10.0, 0.0, 0.0), &Vector3::new(-10.0, 0.0, 0.0), 2.0);
-        assert!((share.unwrap() - 0.4).abs() < 1e-15);
+        let fraction = time_of_impact(&Vector3::new(10.0, 0.0, 0.0), &Vector3::new(-10.0, 0.0, 0.0), 2.0);
+        assert!((fraction.unwrap() - 0.4).abs() < 1e-15);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The fixed-wing point mass from physics: forces along the axes of the air path, Newton's law in the world frame.
 //!
 //! The model is written in Cartesian coordinates, where the papers use polar ones (Wang, Xu, Long 2020, eq. 2). The two
-//! are the same motion, but share no formula, so that an error in one is not repeated in the other.
+//! describe the same motion, but share no formula, so that an error in one is not repeated in the other.
 
 mod air_path;
 mod aircraft;
@@ -18,8 +18,7 @@ mod tracker;
 
 pub use air_path::{AirPath, acceleration_mps2, gravity_mps2};
 pub use attitude::world_from_body;
-pub(crate) use fleet::fly;
-use plant::mid_step_force_n;
+pub(crate) use fleet::simulate;
 pub use propagate::{Knot, propagate, rollout};
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{AppliedControls, replayed};

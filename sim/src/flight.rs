@@ -1,34 +1,52 @@
-//! The flight log: what the simulated vehicles did, as far as anybody may ask afterwards.
+//! The flight log: what the simulated vehicles did.
 
 use scenarios::{fixed_wing, slung_load};
 
-use crate::PlanningLog;
+use crate::actuation::{Actuation, Commanded};
+use crate::planning_log::PlanningLog;
 
 /// A simulated flight of the whole fleet. Positions and velocities in the world frame (ENU).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
     /// Step of the simulator, s. Logs hold every step.
     pub step_s: f64,
-    /// End of the plan, s: from then on the vehicles coast along their last heading.
+    /// End of the plan, s: from then on the vehicles coast.
     pub plan_end_s: f64,
     /// One log per vehicle, in the order of the scenario.
     pub vehicles: Vec<VehicleLog>,
-    /// What happened, in the order of time.
+    /// Events in the order of time.
     pub events: Vec<Event>,
-    /// What was planned in the loop; `None` for a plan that was there before the flight.
+    /// What was planned in the loop; `None` for a plan that was made before the flight.
     pub planning: Option<PlanningLog>,
     /// Wall time of the simulation, s.
     pub wall_s: f64,
 }
 
-/// What one vehicle did.
+/// What a family's simulation returns.
+pub(crate) struct FleetLog {
+    /// One log per vehicle, in the order of the scenario.
+    pub vehicles: Vec<VehicleLog>,
+    /// Events in any order.
+    pub events: Vec<Event>,
+    /// Of a flight that was planned in the loop.
+    pub in_loop: Option<InLoopLog>,
+}
+
+/// What is known of a flight that was planned in the loop once it is over.
+pub(crate) struct InLoopLog {
+    /// When all vehicles had arrived, or the flight ended, s.
+    pub end_s: f64,
+    pub planning: PlanningLog,
+}
+
+/// The log of one vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VehicleLog {
     /// Name of the vehicle.
     pub vehicle: String,
-    /// From time 0 to the end of the simulation, or to its crash.
+    /// From time 0 to the end of the simulation, or to the vehicle's crash.
     pub samples: Vec<Sample>,
-    /// Its load at the same instants; empty if it carries none.
+    /// Its load at the same times; empty if it carries none.
     pub loads: Vec<LoadSample>,
 }
 
@@ -41,7 +59,7 @@ pub struct Sample {
     pub position_m: [f64; 3],
     /// True velocity over ground, m/s.
     pub velocity_mps: [f64; 3],
-    /// Velocity of the air around it, m/s.
+    /// Velocity of the air around the vehicle, m/s.
     pub wind_mps: [f64; 3],
     /// Attitude as a unit quaternion (x, y, z, w), world from body (x forward, y left, z up).
     pub world_from_body: [f64; 4],
@@ -49,32 +67,12 @@ pub struct Sample {
     pub measured_position_m: [f64; 3],
     /// Velocity over ground as the tracker measured it, m/s.
     pub measured_velocity_mps: [f64; 3],
-    /// Position that the plan asks for, m.
+    /// Position of the reference, m.
     pub reference_position_m: [f64; 3],
-    /// Velocity that the plan asks for, m/s.
+    /// Velocity of the reference, m/s.
     pub reference_velocity_mps: [f64; 3],
-    /// What steered it.
+    /// Controls of the step that begins here.
     pub actuation: Actuation,
-}
-
-/// Controls of one instant, those of the vehicle's family.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Actuation {
-    /// Load factors of a fixed wing.
-    LoadFactors(Commanded<fixed_wing::Control>),
-    /// Rotor thrusts of a quadrotor.
-    Thrusts(Commanded<slung_load::Control>),
-    /// Acceleration of a point mass beyond what carries its weight, world frame, m/s².
-    Acceleration(Commanded<[f64; 3]>),
-}
-
-/// What was asked for, and what was given.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Commanded<C> {
-    /// What the tracker asked for.
-    pub command: C,
-    /// What acted, inside the vehicle's limits.
-    pub control: C,
 }
 
 /// A slung load at one instant. World frame.
@@ -88,11 +86,11 @@ pub struct LoadSample {
     pub measured_position_m: [f64; 3],
     /// Velocity as the tracker measured it, m/s.
     pub measured_velocity_mps: [f64; 3],
-    /// Position that the plan asks for, m.
+    /// Position of the reference, m.
     pub reference_position_m: [f64; 3],
-    /// Tension of the cable over the step that ends here, N: the impulse that it gave, by the step's length.
+    /// Mean tension of the cable over the step that ends here, N.
     pub tension_n: f64,
-    /// What the cable does.
+    /// State of the cable.
     pub cable: slung_load::Cable,
 }
 
@@ -104,11 +102,7 @@ impl Sample {
 
     /// Was the tracker's command cut off at a limit?
     pub fn is_saturated(&self) -> bool {
-        match self.actuation {
-            Actuation::LoadFactors(Commanded { command, control }) => command != control,
-            Actuation::Thrusts(Commanded { command, control }) => command != control,
-            Actuation::Acceleration(Commanded { command, control }) => command != control,
-        }
+        self.actuation.is_saturated()
     }
 
     /// Every number in it.
@@ -122,18 +116,15 @@ impl Sample {
             self.reference_position_m,
             self.reference_velocity_mps,
         ];
-        let controls: Vec<f64> = match self.actuation {
-            Actuation::LoadFactors(Commanded { command, control }) => {
-                [command, control].map(|it| it.to_array()).concat()
-            }
-            Actuation::Thrusts(Commanded { command, control }) => [command.thrust_n, control.thrust_n].concat(),
-            Actuation::Acceleration(Commanded { command, control }) => [command, control].concat(),
-        };
         let others = self.world_from_body.into_iter().chain([self.t_s]);
-        vectors.into_iter().flatten().chain(controls).chain(others)
+        vectors.into_iter().flatten().chain(self.actuation.numbers()).chain(others)
     }
 
-    /// Load factors asked for and given. Panics for a vehicle that is not a fixed wing.
+    /// Load factors, commanded and applied.
+    ///
+    /// # Panics
+    ///
+    /// If the vehicle is not a fixed wing.
     pub fn load_factors(&self) -> &Commanded<fixed_wing::Control> {
         match &self.actuation {
             Actuation::LoadFactors(factors) => factors,
@@ -156,51 +147,58 @@ impl LoadSample {
     }
 }
 
-/// Something worth a line in the log.
+/// An event of a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
-    /// When, s.
+    /// Time, s.
     pub t_s: f64,
-    /// What.
+    /// What happened.
     pub kind: EventKind,
-    /// The vehicles concerned.
+    /// Names of the vehicles concerned.
     pub vehicles: Vec<String>,
+}
+
+impl Event {
+    /// An event that concerns one vehicle.
+    pub(crate) fn of_vehicle(vehicle: &str, (t_s, kind): (f64, EventKind)) -> Self {
+        Self { t_s, kind, vehicles: vec![vehicle.to_owned()] }
+    }
 }
 
 /// Kinds of events.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
-    /// A vehicle touched an obstacle, by its name, or (two vehicles concerned) another vehicle. Its log ends here.
+    /// A vehicle collided with an obstacle, or (two vehicles concerned) with another vehicle. Its log ends here.
     Crash {
-        /// The obstacle, if it was one.
+        /// Name of the obstacle, if it was one.
         obstacle: Option<String>,
     },
     /// A vehicle's command reached its limits.
     SaturationBegan,
     /// A vehicle's command is inside its limits again.
     SaturationEnded,
-    /// A slack cable became taut, with this impulse.
+    /// A slack cable became taut.
     CableTaut {
         /// Impulse of the impact, N s.
         impulse_ns: f64,
     },
     /// A taut cable became slack.
     CableSlack,
-    /// A vehicle's sensors found an obstacle that it had not known of.
+    /// A vehicle's sensors discovered an obstacle that was not known before.
     Discovered {
         /// Its name.
         obstacle: String,
     },
-    /// A planner's answer came too late, and was joined in its middle.
+    /// A planner's result was late; its reference was entered after its beginning.
     ReplanLate {
-        /// By how much, s.
+        /// Delay, s.
         by_s: f64,
     },
-    /// A planner's answer could not be flown.
+    /// A planner's result could not be flown.
     ReplanRejected {
         /// Why.
         reason: String,
     },
-    /// All vehicles have come to rest at their goals.
+    /// All vehicles rest at their goals.
     Arrived,
 }

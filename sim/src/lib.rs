@@ -4,17 +4,22 @@
 //! Plan -> reference -> tracker -> controls -> forces -> rapier -> truth -> sensors -> tracker
 //! ```
 //!
-//! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier.
+//! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier, and
+//! only `families` lists the vehicle families. [`fly`] is the entry point.
 
+mod actuation;
 mod air;
 mod collision;
+mod families;
 pub mod fixed_wing;
 mod flight;
 mod fly;
-mod in_loop;
+mod kinematics;
 pub mod multirotor;
+mod planning_log;
 mod quadrotor;
 mod rapier_world;
+mod request;
 mod runge_kutta;
 mod saturation;
 mod sensors;
@@ -22,7 +27,9 @@ pub mod slung_load;
 mod start;
 mod state_hash;
 
-pub use flight::{Actuation, Commanded, Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
-pub use fly::{ControlMode, FlightOptions, fly, fly_in_loop, fly_with};
-pub use in_loop::{PlanningLog, Replan};
+pub use actuation::{Actuation, Commanded};
+pub use flight::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
+pub use fly::{fly, fly_with};
+pub use planning_log::{PlanningLog, Replan};
+pub use request::{ControlMode, FlightOptions, Guidance};
 pub use state_hash::StateHash;

@@ -1,14 +1,18 @@
-//! Multirotors: a point mass that accelerates as it is told, or a quadrotor that has to tilt first, on rapier bodies; a
-//! tracker that follows a reference from measurements; and the obstacles around them, those that move among them.
+//! Multirotors: a point mass that accelerates as commanded, or a quadrotor that has to tilt first, on rapier bodies; a
+//! tracker that follows a reference from measurements; the obstacles around them, moving ones included; and planning in
+//! the loop.
 
 mod fleet;
+mod in_loop;
 mod multirotor_sim;
 mod obstacles;
 mod reference;
 mod replay;
+mod simulate;
+mod state;
 mod tracker;
 
-pub(crate) use fleet::{fly, fly_in_loop};
 pub use obstacles::Obstacles;
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{AppliedControls, Replay};
+pub(crate) use simulate::simulate;

@@ -1,20 +1,22 @@
-//! The only place that knows rapier: bodies under gravity and forces.
-
-mod tethered_pair;
+//! The only place that knows rapier: bodies under gravity and forces, ropes and a ground.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use rapier3d_f64::prelude::{MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector};
+use rapier3d_f64::prelude::{
+    ColliderBuilder, ImpulseJointHandle, MassProperties, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle,
+    RopeJointBuilder, Vector,
+};
+use scenarios::GRAVITY_MPS2;
 
-use crate::fixed_wing::gravity_mps2;
+use crate::kinematics::{AttitudeState, PointState};
 
-pub(crate) use tethered_pair::{AppliedForces, TetheredPair};
+/// Half the edge of the block whose top is the ground, m.
+const HALF_GROUND_M: f64 = 1000.0;
+/// Coefficient of friction between a ball and the ground: the ball stays where it lies.
+const FRICTION: f64 = 0.8;
 
-/// Rapier cuts off faster bodies.
-const MAX_SPEED_MPS: f64 = 1000.0;
-
-/// Bodies under gravity and forces, at a fixed step: points with mass, or such as turn.
+/// Point masses and rigid bodies under gravity and forces, at a fixed step.
 ///
-/// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse given before its step
+/// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse applied before its step
 /// and half after it, gravity's included, the position moves with the mean velocity of the step:
 ///
 /// ```text
@@ -23,12 +25,16 @@ const MAX_SPEED_MPS: f64 = 1000.0;
 ///
 /// which is the implicit midpoint rule, of second order, if F is the force at v_m in the middle of the step.
 ///
-/// Bodies have no colliders: who touches something is out of the flight, so no contact force is ever needed, and
-/// whoever flies them finds out from their ways.
+/// Bodies have no colliders unless they are to rest on the ground: a vehicle that collides leaves the flight, so that no
+/// contact force is needed, and the families detect collisions from the paths of their vehicles.
 pub(crate) struct RapierWorld {
     physics: PhysicsWorld,
     bodies: Vec<Body>,
 }
+
+/// A rope between two bodies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rope(ImpulseJointHandle);
 
 struct Body {
     /// `None` once removed.
@@ -38,69 +44,90 @@ struct Body {
 }
 
 impl RapierWorld {
-    /// An empty world with gravity. `step_s` > 0.
-    pub fn new(step_s: f64) -> Self {
+    /// An empty world with gravity. `step_s` > 0; rapier clips speeds at `max_speed_mps`.
+    ///
+    /// With one solver iteration and no internal stabilisation, which dissipates energy, the impulse of a rope is applied in
+    /// full and gives its tension.
+    pub fn new(step_s: f64, max_speed_mps: f64) -> Self {
         let mut physics = PhysicsWorld::new();
-        physics.gravity = to_rapier(&gravity_mps2());
+        physics.gravity = Vector::new(0.0, 0.0, -GRAVITY_MPS2);
         physics.integration_parameters.dt = step_s;
         physics.integration_parameters.num_solver_iterations = 1;
         physics.integration_parameters.num_internal_stabilization_iterations = 0;
-        physics.integration_parameters.normalized_max_linear_velocity = MAX_SPEED_MPS;
+        physics.integration_parameters.normalized_max_linear_velocity = max_speed_mps;
         Self { physics, bodies: Vec::new() }
     }
 
-    /// Adds a point of `mass_kg`. Bodies count from 0 in the order of adding.
-    pub fn add_body(&mut self, mass_kg: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
-        let body = RigidBodyBuilder::dynamic()
-            .translation(to_rapier(&position_m))
-            .linvel(to_rapier(&velocity_mps))
-            .additional_mass(mass_kg)
-            .lock_rotations()
-            .can_sleep(false);
-        self.insert(body);
+    /// Adds a point mass. Returns its index: bodies are numbered from 0 in the order of adding.
+    pub fn add_point_mass(&mut self, mass_kg: f64, start: &PointState) -> usize {
+        self.insert(body_at(start).additional_mass(mass_kg).lock_rotations())
     }
 
-    /// Adds a body that turns: level, at rest about its axes.
+    /// Adds a rigid body. Returns its index.
     ///
     /// - `inertia_kgm2`: moments of inertia about the body axes, kg m²
-    pub fn add_turning_body(
+    pub fn add_rigid_body(
         &mut self,
         mass_kg: f64,
-        inertia_kgm2: Vector3<f64>,
-        position_m: Vector3<f64>,
-        velocity_mps: Vector3<f64>,
-    ) {
-        let body = RigidBodyBuilder::dynamic()
-            .translation(to_rapier(&position_m))
-            .linvel(to_rapier(&velocity_mps))
-            .additional_mass_properties(MassProperties::new(Vector::ZERO, mass_kg, to_rapier(&inertia_kgm2)))
-            .can_sleep(false);
-        self.insert(body);
+        inertia_kgm2: &Vector3<f64>,
+        start: &PointState,
+        AttitudeState { attitude, rate_radps }: &AttitudeState,
+    ) -> usize {
+        let mass_properties = MassProperties::new(Vector::ZERO, mass_kg, to_rapier(inertia_kgm2));
+        let body = body_at(start)
+            .rotation(to_rapier(&attitude.scaled_axis()))
+            .angvel(to_rapier(&(attitude * rate_radps)))
+            .additional_mass_properties(mass_properties);
+        self.insert(body)
     }
 
-    fn insert(&mut self, body: RigidBodyBuilder) {
-        let PhysicsWorld { bodies, colliders, .. } = &mut self.physics;
-        let handle = bodies.insert(body);
-        // Without this the body has no mass before its first step, and loses the impulse that comes first.
-        bodies[handle].recompute_mass_properties_from_colliders(colliders);
+    fn insert(&mut self, body: RigidBodyBuilder) -> usize {
+        let handle = self.physics.bodies.insert(body);
         self.bodies.push(Body { handle: Some(handle), force_n: Vector3::zeros(), torque_nm: Vector3::zeros() });
+        self.update_mass(handle);
+        self.bodies.len() - 1
     }
 
-    /// Takes a body out of the world.
+    /// Makes rapier compute the mass of a body, which is otherwise 0 before the first step: the first impulse would be lost.
+    fn update_mass(&mut self, handle: RigidBodyHandle) {
+        let PhysicsWorld { bodies, colliders, .. } = &mut self.physics;
+        bodies[handle].recompute_mass_properties_from_colliders(colliders);
+    }
+
+    /// Adds a ground at this altitude, m, on which a body can rest by a ball about its centre of mass.
+    pub fn add_ground(&mut self, ground_m: f64, body: usize, ball_radius_m: f64) {
+        let handle = self.handle(body);
+        let ball = ColliderBuilder::ball(ball_radius_m).density(0.0).friction(FRICTION);
+        self.physics.colliders.insert_with_parent(ball, handle, &mut self.physics.bodies);
+        let block = ColliderBuilder::cuboid(HALF_GROUND_M, HALF_GROUND_M, HALF_GROUND_M);
+        let center = Vector::new(0.0, 0.0, ground_m - HALF_GROUND_M);
+        self.physics.insert_collider(block.translation(center).friction(FRICTION), None);
+        self.update_mass(handle);
+    }
+
+    /// Adds a rope of this length, m, between the centres of mass of two bodies.
+    pub fn add_rope(&mut self, bodies: [usize; 2], length_m: f64) -> Rope {
+        let rope = RopeJointBuilder::new(length_m).contacts_enabled(false).build();
+        let [from, to] = bodies.map(|body| self.handle(body));
+        Rope(self.physics.impulse_joints.insert(from, to, rope, true))
+    }
+
+    /// Impulse of a rope in the last step, N s.
+    pub fn rope_impulse_ns(&self, rope: Rope) -> f64 {
+        self.physics.impulse_joints.get(rope.0).map_or(0.0, |joint| joint.data.limits[0].impulse.abs())
+    }
+
+    /// Removes a body. Its index stays taken.
     pub fn remove_body(&mut self, body: usize) {
         if let Some(handle) = self.bodies[body].handle.take() {
             self.physics.remove_body(handle);
         }
     }
 
-    /// Position, m.
-    pub fn position_m(&self, body: usize) -> Vector3<f64> {
-        from_rapier(self.rigid_body(body).translation())
-    }
-
-    /// Velocity, m/s.
-    pub fn velocity_mps(&self, body: usize) -> Vector3<f64> {
-        from_rapier(self.rigid_body(body).linvel())
+    /// Position and velocity.
+    pub fn point_state(&self, body: usize) -> PointState {
+        let body = self.rigid_body(body);
+        PointState { position_m: from_rapier(body.translation()), velocity_mps: from_rapier(body.linvel()) }
     }
 
     /// Mass, kg.
@@ -108,15 +135,13 @@ impl RapierWorld {
         self.rigid_body(body).mass()
     }
 
-    /// Attitude, world from body.
-    pub fn attitude(&self, body: usize) -> UnitQuaternion<f64> {
-        let rotation = self.rigid_body(body).rotation();
-        UnitQuaternion::new_normalize(Quaternion::new(rotation.w, rotation.x, rotation.y, rotation.z))
-    }
-
-    /// Angular velocity in body axes, rad/s.
-    pub fn body_rate_radps(&self, body: usize) -> Vector3<f64> {
-        self.attitude(body).inverse() * from_rapier(self.rigid_body(body).angvel())
+    /// Attitude and angular velocity of a rigid body.
+    pub fn attitude_state(&self, body: usize) -> AttitudeState {
+        let body = self.rigid_body(body);
+        let rotation = body.rotation();
+        let quaternion = Quaternion::new(rotation.w, rotation.x, rotation.y, rotation.z);
+        let attitude = UnitQuaternion::new_normalize(quaternion);
+        AttitudeState { attitude, rate_radps: attitude.inverse() * from_rapier(body.angvel()) }
     }
 
     /// Sets the torque on a body in the middle of the coming step, world frame, N m.
@@ -124,14 +149,15 @@ impl RapierWorld {
         self.bodies[body].torque_nm = torque_nm;
     }
 
-    /// Sets the force on a body in the middle of the coming step, N; gravity comes on top.
+    /// Sets the force on a body in the middle of the coming step, world frame, N, without gravity.
     pub fn set_force_n(&mut self, body: usize, force_n: Vector3<f64>) {
         self.bodies[body].force_n = force_n;
     }
 
-    /// Lets one step pass.
+    /// Advances the world by one step.
     pub fn step(&mut self) {
-        // Rapier's own gravity comes before its drift, in full: half of it is taken back before and given after.
+        // Rapier applies all of gravity's impulse before it moves the bodies: half of it is taken back before the step, and
+        // applied after it.
         self.apply_half_impulses(-1.0);
         self.physics.step();
         self.apply_half_impulses(1.0);
@@ -142,10 +168,14 @@ impl RapierWorld {
     }
 
     fn rigid_body(&self, body: usize) -> &RigidBody {
-        &self.physics.bodies[self.bodies[body].handle.expect("the body was removed from the world")]
+        &self.physics.bodies[self.handle(body)]
     }
 
-    /// Half a step's impulse of every force, and half of gravity's with the sign that is given.
+    fn handle(&self, body: usize) -> RigidBodyHandle {
+        self.bodies[body].handle.expect("the body was removed from the world")
+    }
+
+    /// Applies half a step's impulse of every force, and half of gravity's times `gravity_sign`.
     fn apply_half_impulses(&mut self, gravity_sign: f64) {
         let half_step_s = self.step_s() / 2.0;
         let gravity = self.physics.gravity * gravity_sign;
@@ -157,6 +187,13 @@ impl RapierWorld {
             rigid_body.apply_torque_impulse(to_rapier(&body.torque_nm) * half_step_s, true);
         }
     }
+}
+
+fn body_at(start: &PointState) -> RigidBodyBuilder {
+    RigidBodyBuilder::dynamic()
+        .translation(to_rapier(&start.position_m))
+        .linvel(to_rapier(&start.velocity_mps))
+        .can_sleep(false)
 }
 
 fn to_rapier(vector: &Vector3<f64>) -> Vector {

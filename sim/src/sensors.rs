@@ -4,10 +4,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::quadrotor::AttitudeState;
-use crate::slung_load::SlungLoadState;
+use crate::kinematics::AttitudeState;
 
-/// What the sensors say of position (m) and velocity over ground (m/s), world frame.
+/// Measured position, m, and velocity over ground, m/s, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Measurement {
     pub position_m: Vector3<f64>,
@@ -26,45 +25,37 @@ impl Sensors {
         Self { settings: settings.clone(), rng }
     }
 
-    /// One measurement. What has no noise draws no random number.
+    /// Measures the vehicle's own position, m, and velocity over ground, m/s. A quantity without noise draws no random
+    /// number.
     pub fn measure(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
-        Measurement {
-            position_m: self.disturbed(position_m, self.settings.position_noise_m),
-            velocity_mps: self.disturbed(velocity_mps, self.settings.velocity_noise_mps),
-        }
+        let scenarios::Sensors { position_noise_m, velocity_noise_mps, .. } = self.settings;
+        self.with_noise([position_m, velocity_mps], [position_noise_m, velocity_noise_mps])
     }
 
-    /// What is measured of the attitude (world from body) and of the angular velocity in body axes, rad/s.
-    pub fn measure_turning(&mut self, truth: &AttitudeState) -> AttitudeState {
+    /// Measures the vehicle's own attitude and angular velocity.
+    pub fn measure_attitude(&mut self, truth: &AttitudeState) -> AttitudeState {
         let scenarios::Sensors { attitude_noise_deg, rate_noise_degps, .. } = self.settings;
-        let turn = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
+        let rotation = self.disturbed(Vector3::zeros(), attitude_noise_deg.to_radians());
         AttitudeState {
-            attitude: truth.attitude * UnitQuaternion::from_scaled_axis(turn),
+            attitude: truth.attitude * UnitQuaternion::from_scaled_axis(rotation),
             rate_radps: self.disturbed(truth.rate_radps, rate_noise_degps.to_radians()),
         }
     }
 
-    /// What is measured of something else that moves: position, m, and velocity, m/s.
-    pub fn sight(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
-        Measurement {
-            position_m: self.disturbed(position_m, self.settings.sighting_position_noise_m),
-            velocity_mps: self.disturbed(velocity_mps, self.settings.sighting_velocity_noise_mps),
-        }
+    /// Measures another moving body, as [`measure`](Self::measure).
+    pub fn measure_other(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
+        let scenarios::Sensors { sighting_position_noise_m, sighting_velocity_noise_mps, .. } = self.settings;
+        self.with_noise([position_m, velocity_mps], [sighting_position_noise_m, sighting_velocity_noise_mps])
     }
 
-    /// One measurement of a quadrotor and its load.
-    pub fn measure_slung_load(&mut self, truth: &SlungLoadState) -> SlungLoadState {
-        let Measurement { position_m, velocity_mps } = self.measure(truth.position_m, truth.velocity_mps);
-        let turning = AttitudeState { attitude: truth.attitude, rate_radps: truth.body_rate_radps };
-        let AttitudeState { attitude, rate_radps } = self.measure_turning(&turning);
-        SlungLoadState {
-            position_m,
-            velocity_mps,
-            attitude,
-            body_rate_radps: rate_radps,
-            load_position_m: self.disturbed(truth.load_position_m, self.settings.load_position_noise_m),
-            load_velocity_mps: self.disturbed(truth.load_velocity_mps, self.settings.load_velocity_noise_mps),
-        }
+    /// Measures a slung load, as [`measure`](Self::measure).
+    pub fn measure_load(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) -> Measurement {
+        let scenarios::Sensors { load_position_noise_m, load_velocity_noise_mps, .. } = self.settings;
+        self.with_noise([position_m, velocity_mps], [load_position_noise_m, load_velocity_noise_mps])
+    }
+
+    fn with_noise(&mut self, truth: [Vector3<f64>; 2], sigma: [f64; 2]) -> Measurement {
+        Measurement { position_m: self.disturbed(truth[0], sigma[0]), velocity_mps: self.disturbed(truth[1], sigma[1]) }
     }
 
     fn disturbed(&mut self, truth: Vector3<f64>, sigma: f64) -> Vector3<f64> {
@@ -78,25 +69,25 @@ impl Sensors {
     }
 }
 
-/// Hands on what was measured a while ago; in the beginning, the first that there was.
+/// Delays measurements. Until the delay has passed, it returns the first measurement.
 #[derive(Clone, Debug)]
 pub(crate) struct Delay<T> {
     steps: usize,
-    under_way: VecDeque<T>,
+    pending: VecDeque<T>,
 }
 
 impl<T: Copy> Delay<T> {
-    /// By so much time, s, in steps of the simulator.
+    /// A delay of `delay_s`, rounded to whole steps of the simulator.
     pub fn new(delay_s: f64, step_s: f64) -> Self {
-        Self { steps: (delay_s / step_s).round() as usize, under_way: VecDeque::new() }
+        Self { steps: (delay_s / step_s).round() as usize, pending: VecDeque::new() }
     }
 
-    /// Takes what is measured now, once per step, and returns what the vehicle gets to know now.
+    /// Takes the measurement of this step, and returns the one that the vehicle receives now. To be called once per step.
     pub fn pass(&mut self, measured: T) -> T {
-        self.under_way.push_back(measured);
-        let oldest = self.under_way[0];
-        if self.under_way.len() > self.steps {
-            self.under_way.pop_front();
+        self.pending.push_back(measured);
+        let oldest = self.pending[0];
+        if self.pending.len() > self.steps {
+            self.pending.pop_front();
         }
         oldest
     }
@@ -134,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_late_comes_in_order_and_nothing_is_lost() {
+    fn delayed_measurements_arrive_in_order_and_none_is_lost() {
         let mut delay = Delay::new(0.021, 0.01);
         assert_eq!([1, 2, 3, 4, 5].map(|value| delay.pass(value)), [1, 1, 1, 2, 3]);
         let mut none = Delay::new(0.0, 0.01);

@@ -2,14 +2,17 @@
 
 use nalgebra::Vector3;
 use rand_distr::{Distribution, UnitDisc};
-use scenarios::{Scenario, Vehicle};
+use scenarios::Vehicle;
 
-use crate::FlightOptions;
+use crate::kinematics::PointState;
+use crate::request::FlightRequest;
 
-/// True start of a vehicle relative to its nominal one, world frame, m: what the setup asks for, and a draw from the disc
-/// that the scenario asks for.
-pub fn offset_m(scenario: &Scenario, vehicle: &Vehicle, setup: &FlightOptions, seed: u64) -> Vector3<f64> {
-    let mut rng = scenarios::stream(seed, &format!("start/{}", vehicle.name));
-    let [east, north]: [f64; 2] = UnitDisc.sample(&mut rng);
-    Vector3::from(setup.start_offset_m) + Vector3::new(east, north, 0.0) * scenario.simulation.mismatch.start_radius_m
+/// True start of a vehicle relative to its nominal one: the offsets of the options, and a draw from the disc of the scenario.
+pub(crate) fn offset(request: &FlightRequest<'_>, vehicle: &Vehicle) -> PointState {
+    let [east, north]: [f64; 2] = UnitDisc.sample(&mut request.stream("start", vehicle));
+    let drawn_m = Vector3::new(east, north, 0.0) * request.scenario.simulation.mismatch.start_radius_m;
+    PointState {
+        position_m: Vector3::from(request.options.start_offset_m) + drawn_m,
+        velocity_mps: request.options.start_velocity_offset_mps.into(),
+    }
 }

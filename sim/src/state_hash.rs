@@ -1,6 +1,6 @@
 //! One number for a whole flight: two flights that differ in one bit of one number have different ones.
 
-use crate::{Flight, LoadSample, Sample};
+use crate::flight::{Flight, LoadSample, Sample};
 
 /// Prime and offset of the 64-bit FNV-1a hash, here over words of 64 bits.
 const PRIME: u64 = 0x0100_0000_01b3;

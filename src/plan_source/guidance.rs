@@ -62,7 +62,7 @@ impl Guidance {
                 Flown { answer, flight }
             }
             Self::InLoop { planner, planners } => {
-                let flight = sim::fly_in_loop(scenario, planners, seed, progress);
+                let flight = sim::fly(scenario, planners, seed, progress);
                 let log = flight.planning.as_ref().expect("an in-loop flight has a log of its planning");
                 let plan = in_loop::as_plan(scenario, &planner, seed, log);
                 Flown { answer: CompletedPlan::whole(plan), flight: Some(flight) }

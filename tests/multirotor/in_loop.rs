@@ -5,7 +5,7 @@ use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{Check, Outcome, Status, Verdict, judge};
 use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult};
 use scenarios::{Plan, PlanStatus, Scenario};
-use sim::{EventKind, Flight, fly_in_loop};
+use sim::{EventKind, Flight, fly};
 
 use crate::case::scenario;
 
@@ -48,8 +48,8 @@ impl InLoopPlanner for Stubborn {
 }
 
 fn flown(scenario: &Scenario, planner: impl Fn(usize) -> Box<dyn InLoopPlanner>) -> (Plan, Flight, Verdict) {
-    let planners = (0..scenario.vehicles.len()).map(planner).collect();
-    let flight = fly_in_loop(scenario, planners, 5, &mut |_| {});
+    let planners: Vec<Box<dyn InLoopPlanner>> = (0..scenario.vehicles.len()).map(planner).collect();
+    let flight = fly(scenario, planners, 5, &mut |_| {});
     let plan = as_plan(scenario, "by-hand", 5, flight.planning.as_ref().expect("a log of the planning"));
     let verdict = judge(scenario, &plan, Some(&flight));
     (plan, flight, verdict)

@@ -2,6 +2,7 @@
 
 use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{self, Outcome};
+use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
@@ -13,8 +14,9 @@ fn flown(scenario: &Scenario, planner: &str) -> Flight {
     let planner_view = scenario.planner_view();
     let seed = scenario.simulation.seed;
     let vehicles = 0..scenario.vehicles.len();
-    let planners = vehicles.map(|index| entry.in_loop(&planner_view, index, seed)).collect();
-    sim::fly_in_loop(scenario, planners, seed, &mut |_| {})
+    let planners: Vec<Box<dyn InLoopPlanner>> =
+        vehicles.map(|index| entry.in_loop(&planner_view, index, seed)).collect();
+    sim::fly(scenario, planners, seed, &mut |_| {})
 }
 
 /// What a planner in the loop followed during the first seconds of a flight.

@@ -27,8 +27,8 @@ pub struct AirPath {
 impl AirPath {
     /// The axes of a velocity relative to the air, m/s.
     ///
-    /// Where the physics leaves a direction open (no airspeed, vertical flight) it is x for `forward` and y for `left`:
-    /// a vehicle that got there has broken its limits long before, and its log stays finite.
+    /// Where a direction is undefined (no airspeed, vertical flight), `forward` is x and `left` is y: a vehicle in such a state
+    /// has violated its limits long before, and its log stays finite.
     pub fn new(air_velocity_mps: &Vector3<f64>) -> Self {
         let speed_mps = air_velocity_mps.norm();
         let forward = if speed_mps > DEGENERATE { air_velocity_mps * (1.0 / speed_mps) } else { Vector3::x() };
@@ -41,13 +41,13 @@ impl AirPath {
         Self { forward, left, up: forward.cross(&left) }
     }
 
-    /// Specific force f = g (n_x e_V + n_y e_h + n_z e_n) in the world frame, m/s²: all that acts except gravity, over
-    /// the nominal mass.
+    /// Specific force f = g (n_x e_V + n_y e_h + n_z e_n) in the world frame, m/s²: all forces except gravity, over the
+    /// nominal mass.
     pub fn specific_force_mps2(&self, control: Control) -> Vector3<f64> {
         (self.forward * control.n_x + self.left * control.n_y + self.up * control.n_z) * GRAVITY_MPS2
     }
 
-    /// The load factors that make a specific force (world frame, m/s²): the inverse of
+    /// The load factors of a specific force (world frame, m/s²): the inverse of
     /// [`specific_force_mps2`](Self::specific_force_mps2).
     pub fn load_factors(&self, specific_force_mps2: &Vector3<f64>) -> Control {
         Control {
@@ -59,7 +59,7 @@ impl AirPath {
 
     /// Heading χ, counterclockwise from x (east), rad, in (-π, π].
     pub fn heading_rad(&self) -> f64 {
-        // From e_h = (-sin χ, cos χ, 0), which is defined in vertical flight too.
+        // From e_h = (-sin χ, cos χ, 0), which is defined in vertical flight, too.
         (-self.left.x).atan2(self.left.y)
     }
 

@@ -1,16 +1,21 @@
 use nalgebra::Vector3;
+use scenarios::Vehicle;
 use scenarios::fixed_wing::{Control, Model, Trajectory};
-use scenarios::{Scenario, Vehicle};
 
+use super::attitude::world_from_body;
+use super::plant::mid_step_force_n;
+use super::reference::{Reference, ReferencePoint};
 use super::tracker::{Tracker, saturated};
-use super::{Reference, ReferencePoint, mid_step_force_n, world_from_body};
+use crate::actuation::{Actuation, Commanded};
 use crate::air::Air;
-use crate::saturation::SaturationWatch;
+use crate::flight::{EventKind, Sample, VehicleLog};
+use crate::kinematics::PointState;
+use crate::request::{ControlMode, FlightRequest};
+use crate::saturation::SaturationDetector;
 use crate::sensors::{Delay, Measurement, Sensors};
-use crate::{Actuation, Commanded, ControlMode, EventKind, Sample, VehicleLog};
 
-/// One aircraft of the fleet: everything about it but its body.
-pub(crate) struct Aircraft {
+/// One aircraft of the fleet, except for its body, which is in a world.
+pub(super) struct Aircraft {
     model: Model,
     reference: Reference,
     control_mode: ControlMode,
@@ -21,44 +26,35 @@ pub(crate) struct Aircraft {
     step_s: f64,
     /// Load factors that act during the coming step.
     control: Control,
-    /// Velocity of the air at the coming step's beginning, m/s.
+    /// Velocity of the air at the beginning of the coming step, m/s.
     wind_mps: Vector3<f64>,
-    /// The same at its end, m/s.
+    /// Velocity of the air at its end, m/s.
     wind_ahead_mps: Vector3<f64>,
-    saturation: SaturationWatch,
+    saturation: SaturationDetector,
     is_flying: bool,
     log: VehicleLog,
 }
 
 impl Aircraft {
-    /// `steps`: how many will be flown, for the log's size.
-    pub fn new(
-        scenario: &Scenario,
-        vehicle: &Vehicle,
-        trajectory: &Trajectory,
-        control_mode: ControlMode,
-        seed: u64,
-        steps: usize,
-    ) -> Self {
-        let settings = &scenario.simulation;
-        let stream = |kind: &str| scenarios::stream(seed, &format!("{kind}/{}", vehicle.name));
+    pub fn new(request: &FlightRequest<'_>, vehicle: &Vehicle, trajectory: &Trajectory) -> Self {
+        let settings = &request.scenario.simulation;
         Self {
-            model: scenario.fixed_wing_model(vehicle).clone(),
+            model: request.scenario.fixed_wing_model(vehicle).clone(),
             reference: Reference::new(trajectory),
-            control_mode,
+            control_mode: request.options.control_mode,
             tracker: Tracker::new(&settings.tracker, settings.step_s),
-            sensors: Sensors::new(&settings.sensors, stream("sensors")),
+            sensors: Sensors::new(&settings.sensors, request.stream("sensors", vehicle)),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
-            air: Air::new(settings.wind.as_ref(), stream("gusts")),
+            air: Air::new(settings.wind.as_ref(), request.stream("gusts", vehicle)),
             step_s: settings.step_s,
             control: Control::CRUISE,
             wind_mps: Vector3::zeros(),
             wind_ahead_mps: Vector3::zeros(),
-            saturation: SaturationWatch::default(),
+            saturation: SaturationDetector::default(),
             is_flying: true,
             log: VehicleLog {
                 vehicle: vehicle.name.clone(),
-                samples: Vec::with_capacity(steps + 1),
+                samples: Vec::with_capacity(request.steps + 1),
                 loads: Vec::new(),
             },
         }
@@ -74,7 +70,7 @@ impl Aircraft {
         self.model.body_radius_m
     }
 
-    /// The mass that its load factors are computed with, kg.
+    /// The mass with which load factors become forces, kg.
     pub fn nominal_mass_kg(&self) -> f64 {
         self.model.mass_kg
     }
@@ -84,28 +80,29 @@ impl Aircraft {
         self.is_flying
     }
 
-    /// Its log so far: one sample at time 0 and one after every step.
+    /// The log so far: one sample at time 0 and one after every step.
     pub fn samples(&self) -> &[Sample] {
         &self.log.samples
     }
 
-    /// It crashed: what it did after so many steps never happened.
+    /// Removes it from the flight after a crash, and truncates its log to this number of steps.
     pub fn remove(&mut self, steps: usize) {
         self.is_flying = false;
         self.log.samples.truncate(steps + 1);
     }
 
-    /// Beginnings and ends of saturations, with their times, s, from step `first` on: to be called once for every sample,
-    /// when it is certain that it stays.
-    pub fn saturations(&mut self, first: usize) -> Vec<(f64, EventKind)> {
+    /// Beginnings and ends of saturations from step `first` on, with their times, s. Every sample is observed once, when it is
+    /// certain that it will not be truncated.
+    pub fn observe_saturation(&mut self, first: usize) -> Vec<(f64, EventKind)> {
         let new = if first == 0 { 0 } else { first + 1 };
         let Self { log, saturation, .. } = self;
         let samples = log.samples.iter().skip(new);
         samples.filter_map(|sample| saturation.observe(sample.t_s, sample.is_saturated())).collect()
     }
 
-    /// Measures, decides on the control of the coming step, and logs. `position_m`, `velocity_mps`: the truth at `t_s`.
-    pub fn decide(&mut self, t_s: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
+    /// Measures, computes the control of the coming step, and logs. `truth`: at `t_s`.
+    pub fn decide(&mut self, t_s: f64, truth: PointState) {
+        let PointState { position_m, velocity_mps } = truth;
         let measured = self.delay.pass(self.sensors.measure(position_m, velocity_mps));
         let reference = self.reference.at(t_s);
         let command = self.command(t_s, &measured, &reference);
@@ -134,24 +131,25 @@ impl Aircraft {
         }
     }
 
-    /// The air moves on by the coming step. The truth at its beginning, for which [`decide`](Self::decide) was called.
-    pub fn advance_wind(&mut self, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
+    /// Advances the air by the coming step. `truth`: at its beginning, as for [`decide`](Self::decide).
+    pub fn advance_wind(&mut self, truth: PointState) {
+        let PointState { position_m, velocity_mps } = truth;
         self.air.advance(self.step_s, position_m.z, (velocity_mps - self.wind_mps).norm());
         self.wind_ahead_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
     }
 
     /// Force in the middle of a step of the plant, N.
     ///
-    /// - `velocity_mps`, `mass_kg`: the truth at the plant step's beginning
-    /// - `middle`: where its middle is in the coming step, in [0, 1]
-    /// - `share`: its length, as a share of that step
-    pub fn force_n(&self, velocity_mps: Vector3<f64>, mass_kg: f64, middle: f64, share: f64) -> Vector3<f64> {
+    /// - `velocity_mps`, `mass_kg`: true velocity at its beginning, and true mass
+    /// - `middle`: its middle, as a fraction of the simulator's step
+    /// - `length`: its length, as a fraction of the simulator's step
+    pub fn force_n(&self, velocity_mps: Vector3<f64>, mass_kg: f64, middle: f64, length: f64) -> Vector3<f64> {
         let wind_mps = self.wind_mps * (1.0 - middle) + self.wind_ahead_mps * middle;
-        let step_s = self.step_s * share;
+        let step_s = self.step_s * length;
         mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, step_s)
     }
 
-    /// The flight is over. Returns the log, and an event with its time, s, if one was still to come.
+    /// Ends the flight. Returns the log, and an event with its time, s, if one was still pending.
     pub fn finish(mut self) -> (VehicleLog, Option<(f64, EventKind)>) {
         (self.log, self.saturation.finish())
     }

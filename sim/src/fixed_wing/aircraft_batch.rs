@@ -1,12 +1,14 @@
 use std::ops::Range;
 
-use nalgebra::Vector3;
-
 use super::aircraft::Aircraft;
+use crate::kinematics::PointState;
 use crate::rapier_world::RapierWorld;
 
-/// Aircraft that share a rapier world: enough of them to share what a step of it costs however few they are, few enough
-/// to give every thread some squadrons.
+/// Rapier clips faster bodies.
+const MAX_SPEED_MPS: f64 = 1000.0;
+
+/// Aircraft that share a rapier world: enough of them to distribute the fixed cost of a world's step, few enough that every
+/// thread has several batches.
 pub(super) struct AircraftBatch {
     world: RapierWorld,
     aircraft: Vec<Aircraft>,
@@ -15,12 +17,12 @@ pub(super) struct AircraftBatch {
 }
 
 impl AircraftBatch {
-    /// Most aircraft in one.
+    /// Maximum number of aircraft in a batch.
     pub const SIZE: usize = 10;
 
-    /// An empty one. Decisions are held for `step_s` > 0, in which the world makes so many steps.
+    /// An empty batch. Controls are held for `step_s` > 0, which the world divides into `substeps` steps.
     pub fn new(step_s: f64, substeps: usize) -> Self {
-        let world = RapierWorld::new(step_s / substeps as f64);
+        let world = RapierWorld::new(step_s / substeps as f64, MAX_SPEED_MPS);
         Self { world, aircraft: Vec::with_capacity(Self::SIZE), step_s, substeps }
     }
 
@@ -28,12 +30,12 @@ impl AircraftBatch {
         self.aircraft.len() == Self::SIZE
     }
 
-    /// Adds an aircraft in the air.
+    /// Adds an aircraft.
     ///
     /// - `mass_ratio`: true mass over the nominal one
-    /// - `position_m`, `velocity_mps`: at time 0, world frame
-    pub fn add(&mut self, aircraft: Aircraft, mass_ratio: f64, position_m: Vector3<f64>, velocity_mps: Vector3<f64>) {
-        self.world.add_body(aircraft.nominal_mass_kg() * mass_ratio, position_m, velocity_mps);
+    /// - `start`: true state at time 0
+    pub fn add(&mut self, aircraft: Aircraft, mass_ratio: f64, start: &PointState) {
+        self.world.add_point_mass(aircraft.nominal_mass_kg() * mass_ratio, start);
         self.aircraft.push(aircraft);
     }
 
@@ -45,12 +47,12 @@ impl AircraftBatch {
         &mut self.aircraft
     }
 
-    /// Everybody decides for the first time, at time 0.
+    /// Computes the first controls, at time 0.
     pub fn begin(&mut self) {
         self.decide(0.0);
     }
 
-    /// Lets these steps pass, counted from 0.
+    /// Simulates these steps, counted from 0.
     pub fn fly(&mut self, steps: Range<usize>) {
         for step in steps {
             for substep in 0..self.substeps {
@@ -60,7 +62,7 @@ impl AircraftBatch {
         }
     }
 
-    /// Takes an aircraft out that should have flown `steps` only.
+    /// Removes an aircraft that crashed in the last one of `steps` steps.
     pub fn remove(&mut self, index: usize, steps: usize) {
         self.aircraft[index].remove(steps);
         self.world.remove_body(index);
@@ -70,26 +72,26 @@ impl AircraftBatch {
         self.aircraft
     }
 
-    /// One step of the world under everybody's forces.
+    /// One step of the world under the forces of all aircraft.
     fn advance(&mut self, substep: usize) {
         let Self { world, aircraft, substeps, .. } = self;
-        let (middle, share) = ((substep as f64 + 0.5) / *substeps as f64, 1.0 / *substeps as f64);
+        let (middle, length) = ((substep as f64 + 0.5) / *substeps as f64, 1.0 / *substeps as f64);
         for (index, aircraft) in flying(aircraft) {
-            let (position_m, velocity_mps) = (world.position_m(index), world.velocity_mps(index));
+            let truth = world.point_state(index);
             if substep == 0 {
-                aircraft.advance_wind(position_m, velocity_mps);
+                aircraft.advance_wind(truth);
             }
-            let force_n = aircraft.force_n(velocity_mps, world.mass_kg(index), middle, share);
+            let force_n = aircraft.force_n(truth.velocity_mps, world.mass_kg(index), middle, length);
             world.set_force_n(index, force_n);
         }
         world.step();
     }
 
-    /// Everybody measures, decides and logs.
+    /// Measures, computes the controls of the coming step, and logs.
     fn decide(&mut self, t_s: f64) {
         let Self { world, aircraft, .. } = self;
         for (index, aircraft) in flying(aircraft) {
-            aircraft.decide(t_s, world.position_m(index), world.velocity_mps(index));
+            aircraft.decide(t_s, world.point_state(index));
         }
     }
 }

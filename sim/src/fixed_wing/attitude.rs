@@ -1,7 +1,7 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use scenarios::fixed_wing::Control;
 
-use super::AirPath;
+use super::air_path::AirPath;
 
 /// Attitude of an aircraft that flies without sideslip: world from body (x forward, y left, z up).
 ///

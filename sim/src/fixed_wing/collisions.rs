@@ -1,30 +1,30 @@
 use nalgebra::{Vector2, Vector3};
 use scenarios::Cylinder;
 
-use crate::Sample;
-use crate::collision::{horizontal, time_of_impact};
+use crate::collision::time_of_impact;
+use crate::flight::Sample;
 
-/// Two aircraft, or an aircraft and a pillar, begin to touch.
+/// First contact of two aircraft, or of an aircraft and a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Collision {
-    /// Index of the time_chunk's step, from 0.
+    /// Index of the step in the time chunk, from 0.
     pub step: usize,
-    /// When during that step, as a share in [0, 1].
-    pub share: f64,
+    /// Time within that step, as a fraction in [0, 1].
+    pub fraction: f64,
     /// Index of the aircraft; the smaller one of two.
     pub aircraft: usize,
-    /// What it touches.
+    /// What it collides with.
     pub with: Obstacle,
 }
 
-/// What an aircraft touches, by its index.
+/// What an aircraft collides with, by its index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Obstacle {
     Aircraft(usize),
-    Pillar(usize),
+    Cylinder(usize),
 }
 
-/// The way of a ball on a time_chunk of steps: straight between one sample and the next, as the simulator moves it.
+/// Path of a ball over a time chunk: straight from one sample to the next, as the simulator moves it.
 #[derive(Clone, Copy)]
 pub(super) struct SweptPath<'a> {
     pub aircraft: usize,
@@ -32,34 +32,37 @@ pub(super) struct SweptPath<'a> {
     pub samples: &'a [Sample],
 }
 
-/// Everything that touches on a time_chunk, in the order of time, then of the aircraft. Each pair appears with its first
-/// touch only. Nothing passes through anything between two steps.
-pub(super) fn collisions(ways: &[SweptPath<'_>], pillars: &[Cylinder]) -> Vec<Collision> {
-    let mut swept: Vec<Swept<'_>> = ways.iter().map(|way| Swept::by(*way)).collect();
+/// All collisions within a time chunk, in the order of time, then of the aircraft. Each pair appears with its first contact
+/// only. Contacts between two steps are found, too.
+///
+/// Candidate pairs are found by sweep and prune along x.
+pub(super) fn collisions(paths: &[SweptPath<'_>], cylinders: &[Cylinder]) -> Vec<Collision> {
+    let mut swept: Vec<BoundedPath<'_>> = paths.iter().map(|path| BoundedPath::new(*path)).collect();
     swept.sort_by(|a, b| a.west_m().total_cmp(&b.west_m()));
     let mut found: Vec<Collision> = Vec::new();
     for (rank, first) in swept.iter().enumerate() {
         let overlapping = swept[rank + 1..].iter().take_while(|other| other.west_m() <= first.east_m());
-        found.extend(overlapping.filter_map(|second| first.touch(second)));
-        found.extend(pillars.iter().enumerate().filter_map(|(index, pillar)| first.touch_pillar(index, pillar)));
+        found.extend(overlapping.filter_map(|second| first.collision(second)));
+        let cylinders = cylinders.iter().enumerate();
+        found.extend(cylinders.filter_map(|(index, cylinder)| first.collision_with_cylinder(index, cylinder)));
     }
-    let when = |collision: &Collision| collision.step as f64 + collision.share;
+    let when = |collision: &Collision| collision.step as f64 + collision.fraction;
     found.sort_by(|a, b| when(a).total_cmp(&when(b)).then(a.aircraft.cmp(&b.aircraft)));
     found
 }
 
-/// A way within the ball that surely holds all of it.
-struct Swept<'a> {
-    way: SweptPath<'a>,
+/// A path and a ball that contains it.
+struct BoundedPath<'a> {
+    path: SweptPath<'a>,
     center_m: Vector3<f64>,
     reach_m: f64,
 }
 
-impl<'a> Swept<'a> {
-    fn by(way: SweptPath<'a>) -> Self {
-        let center_m = position_m(&way.samples[0]);
-        let distances_m = way.samples.iter().map(|sample| (position_m(sample) - center_m).norm());
-        Self { way, center_m, reach_m: distances_m.fold(0.0, f64::max) + way.radius_m }
+impl<'a> BoundedPath<'a> {
+    fn new(path: SweptPath<'a>) -> Self {
+        let center_m = position_m(&path.samples[0]);
+        let distances_m = path.samples.iter().map(|sample| (position_m(sample) - center_m).norm());
+        Self { path, center_m, reach_m: distances_m.fold(0.0, f64::max) + path.radius_m }
     }
 
     fn west_m(&self) -> f64 {
@@ -70,34 +73,39 @@ impl<'a> Swept<'a> {
         self.center_m.x + self.reach_m
     }
 
-    fn touch(&self, other: &Self) -> Option<Collision> {
+    fn collision(&self, other: &Self) -> Option<Collision> {
         if (self.center_m - other.center_m).norm() > self.reach_m + other.reach_m {
             return None;
         }
-        let (a, b) = if self.way.aircraft < other.way.aircraft { (self, other) } else { (other, self) };
-        let relative_m = |index: usize| position_m(&a.way.samples[index]) - position_m(&b.way.samples[index]);
-        let reach_m = a.way.radius_m + b.way.radius_m;
-        let (step, share) =
+        let (a, b) = if self.path.aircraft < other.path.aircraft { (self, other) } else { (other, self) };
+        let relative_m = |index: usize| position_m(&a.path.samples[index]) - position_m(&b.path.samples[index]);
+        let reach_m = a.path.radius_m + b.path.radius_m;
+        let (step, fraction) =
             self.first_step(|step| time_of_impact(&relative_m(step), &relative_m(step + 1), reach_m))?;
-        Some(Collision { step, share, aircraft: a.way.aircraft, with: Obstacle::Aircraft(b.way.aircraft) })
+        Some(Collision { step, fraction, aircraft: a.path.aircraft, with: Obstacle::Aircraft(b.path.aircraft) })
     }
 
-    fn touch_pillar(&self, index: usize, pillar: &Cylinder) -> Option<Collision> {
-        let center_m = Vector2::from(pillar.center_m);
-        if (self.center_m.xy() - center_m).norm() > self.reach_m + pillar.radius_m {
+    fn collision_with_cylinder(&self, index: usize, cylinder: &Cylinder) -> Option<Collision> {
+        let center_m = Vector2::from(cylinder.center_m);
+        if (self.center_m.xy() - center_m).norm() > self.reach_m + cylinder.radius_m {
             return None;
         }
         let axis_m = Vector3::new(center_m.x, center_m.y, 0.0);
-        let relative_m = |index: usize| horizontal(&(position_m(&self.way.samples[index]) - axis_m));
-        let reach_m = self.way.radius_m + pillar.radius_m;
-        let (step, share) =
+        let relative_m = |index: usize| horizontal(&(position_m(&self.path.samples[index]) - axis_m));
+        let reach_m = self.path.radius_m + cylinder.radius_m;
+        let (step, fraction) =
             self.first_step(|step| time_of_impact(&relative_m(step), &relative_m(step + 1), reach_m))?;
-        Some(Collision { step, share, aircraft: self.way.aircraft, with: Obstacle::Pillar(index) })
+        Some(Collision { step, fraction, aircraft: self.path.aircraft, with: Obstacle::Cylinder(index) })
     }
 
-    fn first_step(&self, touch: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
-        (0..self.way.samples.len() - 1).find_map(|step| Some((step, touch(step)?)))
+    fn first_step(&self, contact: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
+        (0..self.path.samples.len() - 1).find_map(|step| Some((step, contact(step)?)))
     }
+}
+
+/// The horizontal part of a vector: only that matters for the distance from a vertical cylinder.
+fn horizontal(vector: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(vector.x, vector.y, 0.0)
 }
 
 fn position_m(sample: &Sample) -> Vector3<f64> {

@@ -1,9 +1,9 @@
 use nalgebra::Vector3;
 use scenarios::fixed_wing::Control;
 
-use super::{AirPath, gravity_mps2};
+use super::air_path::{AirPath, gravity_mps2};
 
-/// Most iterations for the velocity in the middle of a step. Each gains a factor of 2 V / (g n h), some 500.
+/// Maximum number of iterations for the velocity in the middle of a step. Each reduces the error by 2 V / (g n h), some 500.
 const MAX_ITERATIONS: usize = 10;
 
 /// Change of the velocity at which the iteration ends, m/s; the error that remains is some 500 times smaller.
@@ -15,13 +15,13 @@ const TOLERANCE_MPS: f64 = 1e-6;
 /// v_m = v + h/2 (F(v_m) / m + g),   F(v) = m_0 g (n_x e_V + n_y e_h + n_z e_n),   axes of v - wind
 /// ```
 ///
-/// - `velocity_mps`: over ground, at the step's beginning
+/// - `velocity_mps`: over ground, at the beginning of the step
 /// - `wind_mps`: velocity of the air in the middle of the step
-/// - `control`: acts during the whole step
+/// - `control`: constant over the step
 /// - `nominal_mass_kg`: m_0, with which load factors become forces
 /// - `mass_kg`: m, the true one
 /// - `step_s`: h
-pub(crate) fn mid_step_force_n(
+pub(super) fn mid_step_force_n(
     velocity_mps: &Vector3<f64>,
     wind_mps: &Vector3<f64>,
     control: Control,

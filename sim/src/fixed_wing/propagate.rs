@@ -2,18 +2,17 @@ use nalgebra::{Vector3, Vector6};
 use scenarios::Interpolation;
 use scenarios::fixed_wing::{Control, State, Trajectory};
 
+use super::air_path::acceleration_mps2;
 use crate::runge_kutta;
 
-use super::acceleration_mps2;
-
-/// A point of a motion.
+/// A point of a motion, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
     /// Time, s.
     pub t_s: f64,
-    /// Position in the world frame, m.
+    /// Position, m.
     pub position_m: Vector3<f64>,
-    /// Velocity in the world frame, m/s.
+    /// Velocity, m/s.
     pub velocity_mps: Vector3<f64>,
 }
 
@@ -24,15 +23,15 @@ impl Knot {
     }
 }
 
-/// Where the controls of one interval lead from its first node, in air at rest.
+/// Integrates the equations of motion over one interval, in air at rest.
 ///
 /// - `start`: state at `t0_s`
-/// - `controls`: at the interval's two ends, linear in time between them (first-order hold)
+/// - `controls`: at the two ends of the interval, linear in time between them (first-order hold)
 /// - `duration_s`: length of the interval, s, > 0
-/// - `max_step_s`: the knots stand at equal distances of at most this, s, > 0
+/// - `max_step_s`: maximum distance between two knots, which are equidistant, s, > 0
 ///
-/// Integrates Newton's law for (position, velocity) by a Runge-Kutta method of order 6, one step per knot: with steps of
-/// 0.25 s the error over a 230 s flight of an ordinary aircraft stays below 1e-8 m.
+/// Newton's law for (position, velocity) is integrated by a Runge-Kutta method of order 6, one step per knot: with steps of
+/// 0.25 s the error over a flight of 230 s of an ordinary aircraft is below 1e-8 m.
 ///
 /// Returns the knots from `t0_s` to `t0_s + duration_s`, both ends included.
 pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f64, max_step_s: f64) -> Vec<Knot> {
@@ -41,11 +40,15 @@ pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f
     knots
 }
 
-/// Where the controls of a whole trajectory lead from its first node, open loop, in air at rest.
+/// Integrates the equations of motion over a whole trajectory from its first node, open loop, in air at rest.
 ///
-/// `max_step_s`: largest distance between two knots, s, > 0. Every node's time is a knot's time.
+/// `max_step_s`: maximum distance between two knots, s, > 0. There is a knot at the time of every node.
 ///
-/// Returns the knots from the first node's time to the last one's. Panics if the trajectory has no node.
+/// Returns the knots from the first node's time to the last one's.
+///
+/// # Panics
+///
+/// If the trajectory has no node.
 pub fn rollout(trajectory: &Trajectory, max_step_s: f64) -> Vec<Knot> {
     let Interpolation::FirstOrderHold = trajectory.interpolation;
     let mut knots = vec![Knot::new(&trajectory.states[0], trajectory.times_s[0])];
@@ -55,13 +58,13 @@ pub fn rollout(trajectory: &Trajectory, max_step_s: f64) -> Vec<Knot> {
     knots
 }
 
-/// Continues a motion from its last knot to `end_s` under controls that go linearly from one end to the other.
+/// Continues a motion from its last knot to `end_s` under controls that are linear in time.
 fn extend(knots: &mut Vec<Knot>, controls: [Control; 2], end_s: f64, max_step_s: f64) {
     let start = knots[knots.len() - 1];
     let duration_s = end_s - start.t_s;
     let steps = (duration_s / max_step_s).ceil().max(1.0);
     let step_s = duration_s / steps;
-    let mut motion = Motion::of(&start);
+    let mut motion = Motion::new(&start);
     knots.reserve(steps as usize);
     for step in 0..steps as usize {
         let control = |c: f64| first_order_hold(controls, (step as f64 + c) / steps);
@@ -71,10 +74,10 @@ fn extend(knots: &mut Vec<Knot>, controls: [Control; 2], end_s: f64, max_step_s:
     }
 }
 
-/// Controls at the fraction `share` in [0, 1] of an interval.
-pub(super) fn first_order_hold([first, last]: [Control; 2], share: f64) -> Control {
+/// Controls at a fraction of an interval, in [0, 1].
+pub(super) fn first_order_hold([first, last]: [Control; 2], fraction: f64) -> Control {
     let [first, last] = [first.to_array(), last.to_array()];
-    Control::from_array(std::array::from_fn(|axis| first[axis] + (last[axis] - first[axis]) * share))
+    Control::from_array(std::array::from_fn(|axis| first[axis] + (last[axis] - first[axis]) * fraction))
 }
 
 /// Position (first three) and velocity (last three), world frame, m and m/s.
@@ -82,7 +85,7 @@ pub(super) fn first_order_hold([first, last]: [Control; 2], share: f64) -> Contr
 struct Motion(Vector6<f64>);
 
 impl Motion {
-    fn of(knot: &Knot) -> Self {
+    fn new(knot: &Knot) -> Self {
         let mut vector = Vector6::zeros();
         vector.fixed_rows_mut::<3>(0).copy_from(&knot.position_m);
         vector.fixed_rows_mut::<3>(3).copy_from(&knot.velocity_mps);
@@ -104,8 +107,8 @@ impl Motion {
         Vector6::new(velocity.x, velocity.y, velocity.z, acceleration.x, acceleration.y, acceleration.z)
     }
 
-    /// One Runge-Kutta step; `control` gives the controls at a share of the step in [0, 1].
+    /// One Runge-Kutta step. `control`: at a fraction of the step in [0, 1].
     fn advanced(&self, control: impl Fn(f64) -> Control, step_s: f64) -> Self {
-        Self(runge_kutta::advanced(&self.0, step_s, |motion, share| Self(*motion).rate(control(share))))
+        Self(runge_kutta::advanced(&self.0, step_s, |motion, fraction| Self(*motion).rate(control(fraction))))
     }
 }

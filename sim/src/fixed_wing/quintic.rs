@@ -28,10 +28,10 @@ impl std::ops::Add for Jet {
     }
 }
 
-/// The polynomial of degree 5 that has given position, velocity and acceleration at both ends of an interval.
+/// The polynomial of degree 5 with given position, velocity and acceleration at both ends of an interval.
 #[derive(Clone, Debug)]
 pub(super) struct Quintic {
-    /// Coefficients of 1, t, ..., t⁵, t in s from the beginning of the interval.
+    /// Coefficients of 1, t, ..., t⁵ with t in s since the beginning of the interval.
     coefficients: [Vector3<f64>; 6],
 }
 
@@ -40,7 +40,7 @@ impl Quintic {
     pub fn between(first: &Jet, last: &Jet, duration_s: f64) -> Self {
         let h = duration_s;
         let (p, v, a) = (first.position_m, first.velocity_mps, first.acceleration_mps2);
-        // What remains at the end beyond constant acceleration, each in m.
+        // Differences from constant acceleration at the end, each in m.
         let δp = last.position_m - p - (v + a * (h / 2.0)) * h;
         let δv = (last.velocity_mps - v - a * h) * h;
         let δa = (last.acceleration_mps2 - a) * (h * h);
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_ends_are_met() {
+    fn both_ends_are_interpolated() {
         let first = Jet {
             position_m: Vector3::new(1.0, -2.0, 3.0),
             velocity_mps: Vector3::new(30.0, 1.0, 0.5),
@@ -79,10 +79,10 @@ mod tests {
             acceleration_mps2: Vector3::new(-1.0, 0.0, 0.7),
         };
         let quintic = Quintic::between(&first, &last, 2.3);
-        for (jet, wanted) in [(quintic.at(0.0), first), (quintic.at(2.3), last)] {
-            assert!((jet.position_m - wanted.position_m).norm() < 1e-12);
-            assert!((jet.velocity_mps - wanted.velocity_mps).norm() < 1e-12);
-            assert!((jet.acceleration_mps2 - wanted.acceleration_mps2).norm() < 1e-12);
+        for (jet, expected) in [(quintic.at(0.0), first), (quintic.at(2.3), last)] {
+            assert!((jet.position_m - expected.position_m).norm() < 1e-12);
+            assert!((jet.velocity_mps - expected.velocity_mps).norm() < 1e-12);
+            assert!((jet.acceleration_mps2 - expected.acceleration_mps2).norm() < 1e-12);
         }
     }
 }

@@ -2,38 +2,38 @@ use nalgebra::Vector3;
 use scenarios::Interpolation;
 use scenarios::fixed_wing::{Control, Trajectory};
 
+use super::air_path::{AirPath, acceleration_mps2, gravity_mps2};
 use super::propagate::{Knot, first_order_hold, propagate};
 use super::quintic::{Jet, Quintic};
-use super::{AirPath, acceleration_mps2, gravity_mps2};
 
-/// Length of the spline's pieces, s: between them the flow is followed to better than 1e-8 m.
+/// Maximum length of the spline's pieces, s, for an interpolation error below 1e-8 m.
 const PIECE_S: f64 = 0.25;
 
 /// A plan as a continuous motion, for a tracker to follow.
 ///
-/// On each interval it is the flow of the nonlinear equations from the interval's first node under the planned controls,
-/// plus a smooth correction that takes up the interval's defect: a quintic that begins at zero and ends, with zero
-/// second derivative, at the difference (position and velocity) between the next node and the flow's end. So position
-/// and velocity are continuous and meet every node; of a consistent plan nothing is changed. After the last node it goes
-/// straight on with the last velocity.
+/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the planned
+/// controls, plus a smooth correction by the interval's defect: a quintic that begins at zero and ends, with zero second
+/// derivative, at the difference (position and velocity) between the next node and the end of the solution. Position and
+/// velocity are therefore continuous and interpolate every node; a consistent plan is not changed. After the last node the
+/// reference continues straight with the last velocity.
 #[derive(Clone, Debug)]
 pub struct Reference {
     pieces: Vec<Piece>,
-    /// When each piece begins, s: apart from the pieces, so that a search stays in the cache.
+    /// Beginning of each piece, s: stored separately, so that a search stays in the cache.
     starts_s: Vec<f64>,
     end: Knot,
 }
 
-/// What the plan asks for at one instant, in the world frame.
+/// The reference at one instant, in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferencePoint {
     /// Position, m.
     pub position_m: Vector3<f64>,
     /// Velocity, m/s.
     pub velocity_mps: Vector3<f64>,
-    /// Second derivative of the position, m/s²: with the correction, unlike what `control` gives.
+    /// Second derivative of the position, m/s²: includes the correction, unlike the acceleration of `control`.
     pub acceleration_mps2: Vector3<f64>,
-    /// Planned load factors; after the plan's end those of straight flight.
+    /// Planned load factors; after the end of the plan those of straight flight.
     pub control: Control,
 }
 
@@ -46,7 +46,11 @@ struct Piece {
 }
 
 impl Reference {
-    /// The reference of a trajectory with at least two nodes; panics if it has fewer.
+    /// The reference of a trajectory.
+    ///
+    /// # Panics
+    ///
+    /// If the trajectory has fewer than two nodes.
     pub fn new(trajectory: &Trajectory) -> Self {
         let Interpolation::FirstOrderHold = trajectory.interpolation;
         let last = trajectory.times_s.len() - 1;
@@ -60,7 +64,7 @@ impl Reference {
         self.end.t_s
     }
 
-    /// What the plan asks for at `t_s`, s: any time from the first node's on.
+    /// The reference at `t_s`, s, which must not be before the first node.
     pub fn at(&self, t_s: f64) -> ReferencePoint {
         if t_s >= self.end.t_s {
             return self.coast(t_s);
@@ -93,8 +97,8 @@ fn interval_pieces(trajectory: &Trajectory, interval: usize) -> Vec<Piece> {
     let control_at = |t_s: f64| first_order_hold(controls, (t_s - start_s) / duration_s);
     let jet = |knot: &Knot| {
         let acceleration_mps2 = acceleration_mps2(&knot.velocity_mps, control_at(knot.t_s));
-        let flown = Jet { position_m: knot.position_m, velocity_mps: knot.velocity_mps, acceleration_mps2 };
-        flown + correction.at(knot.t_s - start_s)
+        let solution = Jet { position_m: knot.position_m, velocity_mps: knot.velocity_mps, acceleration_mps2 };
+        solution + correction.at(knot.t_s - start_s)
     };
     let piece = |ends: &[Knot]| Piece {
         start_s: ends[0].t_s,
@@ -105,11 +109,11 @@ fn interval_pieces(trajectory: &Trajectory, interval: usize) -> Vec<Piece> {
     knots.windows(2).map(piece).collect()
 }
 
-/// From nothing at the interval's beginning to its defect at the end.
-fn defect_correction(flown: &Knot, planned: &Knot, duration_s: f64) -> Quintic {
+/// From zero at the beginning of an interval to its defect at the end.
+fn defect_correction(propagated: &Knot, planned: &Knot, duration_s: f64) -> Quintic {
     let defect = Jet {
-        position_m: planned.position_m - flown.position_m,
-        velocity_mps: planned.velocity_mps - flown.velocity_mps,
+        position_m: planned.position_m - propagated.position_m,
+        velocity_mps: planned.velocity_mps - propagated.velocity_mps,
         acceleration_mps2: Vector3::zeros(),
     };
     Quintic::between(&Jet::ZERO, &defect, duration_s)

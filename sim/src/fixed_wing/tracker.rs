@@ -1,6 +1,7 @@
 use scenarios::fixed_wing::{Control, Limits};
 
-use super::{AirPath, ReferencePoint, acceleration_mps2, gravity_mps2};
+use super::air_path::{AirPath, acceleration_mps2, gravity_mps2};
+use super::reference::ReferencePoint;
 use crate::sensors::Measurement;
 
 /// Follows a reference from measurements: feed-forward of the planned load factors, feedback on position and velocity.
@@ -9,12 +10,11 @@ use crate::sensors::Measurement;
 /// a_cmd = a_ref + ω² (p_ref - p) + 2 ζ ω (v_ref - v)
 /// ```
 ///
-/// with a_ref what the planned load factors give along the reference. Where they do give the reference, without
-/// disturbance and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; where the plan contradicts itself, the
-/// contradiction is a disturbance, and shows. The tracker knows
-/// neither the wind nor the true mass: it takes the velocity over ground for that through the air.
+/// with a_ref the acceleration of the planned load factors along the reference. For a consistent plan, without disturbance
+/// and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; an inconsistency of the plan acts as a disturbance. The
+/// tracker knows neither the wind nor the true mass: it takes the velocity over ground for the velocity through the air.
 #[derive(Clone, Debug)]
-pub(crate) struct Tracker {
+pub(super) struct Tracker {
     /// ω², 1/s².
     position_gain: f64,
     /// 2 ζ ω, 1/s.
@@ -34,8 +34,8 @@ impl Tracker {
     /// - `measured`, `reference`: now, for the feedback
     /// - `ahead`: the reference half a step ahead, for the feed-forward
     ///
-    /// The acceleration is split into load factors along the axes that the vehicle will have half a step ahead, so that
-    /// holding the command costs no first-order lag.
+    /// The load factors refer to the axes of the air path half a step ahead, so that holding the command causes no lag of first
+    /// order.
     pub fn command(&self, measured: &Measurement, reference: &ReferencePoint, ahead: &ReferencePoint) -> Control {
         let acceleration_mps2 = acceleration_mps2(&ahead.velocity_mps, ahead.control)
             + (reference.position_m - measured.position_m) * self.position_gain
@@ -45,11 +45,11 @@ impl Tracker {
     }
 }
 
-/// The command as far as the vehicle can follow it: each load factor cut off at its physical limits.
-pub(crate) fn saturated(command: Control, limits: &Limits) -> Control {
+/// The command with each load factor clamped to its physical limits.
+pub(super) fn saturated(command: Control, limits: &Limits) -> Control {
     let ranges = limits.controls();
-    let wanted: [f64; 3] = command.to_array();
-    Control::from_array(std::array::from_fn(|axis| wanted[axis].clamp(ranges[axis].min, ranges[axis].max)))
+    let command: [f64; 3] = command.to_array();
+    Control::from_array(std::array::from_fn(|axis| command[axis].clamp(ranges[axis].min, ranges[axis].max)))
 }
 
 #[cfg(test)]
@@ -59,14 +59,14 @@ mod tests {
 
     use super::*;
 
-    /// A reference whose load factors give it the acceleration `wanted_mps2`, whatever its own second derivative is.
-    fn point(position_m: Vector3<f64>, velocity_mps: Vector3<f64>, wanted_mps2: Vector3<f64>) -> ReferencePoint {
-        let control = AirPath::new(&velocity_mps).load_factors(&(wanted_mps2 - gravity_mps2()));
+    /// A reference whose load factors produce `acceleration_mps2`, and whose second derivative is something else.
+    fn point(position_m: Vector3<f64>, velocity_mps: Vector3<f64>, acceleration_mps2: Vector3<f64>) -> ReferencePoint {
+        let control = AirPath::new(&velocity_mps).load_factors(&(acceleration_mps2 - gravity_mps2()));
         ReferencePoint { position_m, velocity_mps, acceleration_mps2: Vector3::repeat(9.0), control }
     }
 
     #[test]
-    fn the_command_makes_the_feedback_law_half_a_step_ahead() {
+    fn the_command_obeys_the_feedback_law_half_a_step_ahead() {
         let tracker = Tracker::new(&scenarios::Tracker { natural_frequency_radps: 0.6, damping_ratio: 0.8 }, 0.02);
         let (p, v) = (Vector3::new(10.0, 20.0, 400.0), Vector3::new(30.0, 12.0, -1.0));
         let (δp, δv, a) = (Vector3::new(1.0, -2.0, 0.5), Vector3::new(-0.3, 0.2, 0.1), Vector3::new(0.1, 0.8, -0.2));
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn saturation_cuts_each_component_at_its_own_limit() {
+    fn saturation_clamps_each_component_to_its_own_limits() {
         let limits = Limits {
             altitude_m: Range::new(0.0, 1e3),
             speed_mps: Range::new(20.0, 50.0),

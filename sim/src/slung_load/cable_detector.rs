@@ -1,6 +1,6 @@
 use scenarios::slung_load::Cable;
 
-use crate::EventKind;
+use crate::flight::EventKind;
 
 /// A cable that is taut or slack for less than this, s, has not switched: rounding and ripple would fill the log.
 pub const MIN_PHASE_S: f64 = 0.01;

@@ -2,13 +2,13 @@ use nalgebra::{Quaternion, Vector3, Vector4};
 use scenarios::slung_load::{Cable, GRAVITY_MPS2, Model};
 
 use super::state::{Numbers, SlungLoadState};
-use crate::quadrotor::Rotors;
+use crate::quadrotor::RotorGeometry;
 
-/// A load this close above the height at which it rests, m, and this slow, m/s, lies on the ground.
+/// A load less than this above its resting height, m, and slower than this, m/s, lies on the ground.
 const RESTING_M: f64 = 1e-4;
 const RESTING_MPS: f64 = 1e-3;
 
-/// What the equations of motion need to know of a quadrotor and its load.
+/// Parameters of the equations of motion of a quadrotor and its load.
 ///
 /// ```text
 /// m_Q p_Q'' = F R e_3 - m_Q g e_3 + λ d          I ω' = τ - ω × I ω
@@ -34,7 +34,7 @@ pub struct Plant {
 }
 
 impl Plant {
-    /// The nominal plant of a model, above a ground at this height if there is one, m.
+    /// The nominal plant of a model, above ground at this altitude, m, if there is one.
     pub fn nominal(model: &Model, ground_m: Option<f64>) -> Self {
         Self {
             mass_kg: model.mass_kg,
@@ -52,17 +52,19 @@ impl Plant {
         self.rotors().wrench(thrust_n)
     }
 
-    pub(super) fn rotors(&self) -> Rotors {
-        Rotors { arm_m: self.arm_m, torque_per_thrust_m: self.torque_per_thrust_m }
+    pub(super) fn rotors(&self) -> RotorGeometry {
+        RotorGeometry { arm_m: self.arm_m, torque_per_thrust_m: self.torque_per_thrust_m }
     }
 
-    /// Tension of a taut cable, N, for which its length stays what it is; negative where it would have to push.
+    /// Tension of a taut cable, N, that keeps its length constant; negative where the cable would have to push.
     ///
     /// ```text
     /// λ (1/m_Q + 1/m_L) = |p_L' - p_Q'|²/l - (F/m_Q) d·R e_3
     /// ```
     ///
-    /// of the velocity the part across the cable; gravity pulls at both ends alike, and drops out.
+    /// with the component of the relative velocity across the cable. Gravity acts on both ends alike and cancels.
+    ///
+    /// - `thrust_n`: total thrust F, N
     pub fn tension_n(&self, body: &SlungLoadState, thrust_n: f64) -> f64 {
         let cable_m = body.cable_m();
         let (length_m, d) = (cable_m.norm(), cable_m.normalize());
@@ -72,12 +74,12 @@ impl Plant {
         pull_mps2 * self.reduced_mass_kg()
     }
 
-    /// m_Q m_L / (m_Q + m_L), kg.
+    /// Reduced mass m_Q m_L / (m_Q + m_L), kg.
     pub fn reduced_mass_kg(&self) -> f64 {
         self.mass_kg * self.load_mass_kg / (self.mass_kg + self.load_mass_kg)
     }
 
-    /// Accelerations of quadrotor and load, world frame, m/s².
+    /// Accelerations of quadrotor and load under a total thrust, N; world frame, m/s².
     pub fn accelerations_mps2(&self, body: &SlungLoadState, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
         let gravity = Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
         let free = body.thrust_axis() * (thrust_n / self.mass_kg) + gravity;
@@ -106,17 +108,17 @@ impl Plant {
         body.load_position_m.z <= self.resting_height_m + RESTING_M && body.load_velocity_mps.norm() <= RESTING_MPS
     }
 
-    /// Derivative of a motion under four thrusts, N.
+    /// Time derivative of the state under four thrusts, N.
     pub(super) fn rate(&self, numbers: &Numbers, thrust_n: &Vector4<f64>, cable: Cable) -> Numbers {
         let body = SlungLoadState::from_numbers(numbers);
         let (thrust_n, torque_nm) = self.wrench(thrust_n);
         let [acceleration, load_acceleration] = self.accelerations_mps2(&body, thrust_n, cable);
         let quaternion = Quaternion::from(numbers.fixed_rows::<4>(6).into_owned());
-        let update_rotors = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
+        let attitude_rate = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
         let mut rate = Numbers::zeros();
         rate.fixed_rows_mut::<3>(0).copy_from(&body.velocity_mps);
         rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
-        rate.fixed_rows_mut::<4>(6).copy_from(&update_rotors.coords);
+        rate.fixed_rows_mut::<4>(6).copy_from(&attitude_rate.coords);
         rate.fixed_rows_mut::<3>(10).copy_from(&self.angular_acceleration_radps2(&body.body_rate_radps, &torque_nm));
         rate.fixed_rows_mut::<3>(13).copy_from(&body.load_velocity_mps);
         rate.fixed_rows_mut::<3>(16).copy_from(&load_acceleration);
@@ -124,13 +126,13 @@ impl Plant {
     }
 }
 
-/// A slack cable becomes taut: the inelastic impact that takes the speed at which its ends part.
+/// Inelastic impact at which a slack cable becomes taut: it removes the velocity ρ' at which the ends separate.
 ///
 /// ```text
 /// Λ = ρ' m_Q m_L / (m_Q + m_L),   p_Q' + Λ d/m_Q,   p_L' - Λ d/m_L
 /// ```
 ///
-/// Returns the motion after it, and the impulse Λ, N s: 0 if the ends do not part.
+/// Returns the state after the impact, and the impulse Λ, N s: 0 if the ends do not separate.
 pub fn impact(plant: &Plant, before: &SlungLoadState) -> (SlungLoadState, f64) {
     let d = before.cable_m().normalize();
     let impulse_ns = (d.dot(&before.load_relative_mps()) * plant.reduced_mass_kg()).max(0.0);

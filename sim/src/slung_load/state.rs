@@ -1,8 +1,11 @@
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use scenarios::slung_load::State;
 
-/// Motion of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x
-/// forward, y left, z up.
+use crate::kinematics::AttitudeState;
+use crate::sensors::Sensors;
+
+/// State of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x forward,
+/// y left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlungLoadState {
     /// Position of the quadrotor, m.
@@ -38,10 +41,30 @@ impl SlungLoadState {
         self.load_velocity_mps - self.velocity_mps
     }
 
-    /// Cable angles α and β, rad: the load is at ρ (-cos α sin β, sin α, -cos α cos β).
+    /// Cable angles α and β, rad: relative to the quadrotor the load is at ρ (-cos α sin β, sin α, -cos α cos β).
     pub fn cable_angles_rad(&self) -> [f64; 2] {
         let d = self.cable_m().normalize();
         [d.y.clamp(-1.0, 1.0).asin(), (-d.x).atan2(-d.z)]
+    }
+
+    /// Attitude and angular velocity of the quadrotor.
+    pub(super) fn attitude_state(&self) -> AttitudeState {
+        AttitudeState { attitude: self.attitude, rate_radps: self.body_rate_radps }
+    }
+
+    /// The state as the sensors measure it.
+    pub(super) fn measured_by(&self, sensors: &mut Sensors) -> Self {
+        let quadrotor = sensors.measure(self.position_m, self.velocity_mps);
+        let AttitudeState { attitude, rate_radps } = sensors.measure_attitude(&self.attitude_state());
+        let load = sensors.measure_load(self.load_position_m, self.load_velocity_mps);
+        Self {
+            position_m: quadrotor.position_m,
+            velocity_mps: quadrotor.velocity_mps,
+            attitude,
+            body_rate_radps: rate_radps,
+            load_position_m: load.position_m,
+            load_velocity_mps: load.velocity_mps,
+        }
     }
 
     pub(super) fn to_numbers(self) -> Numbers {
@@ -55,7 +78,7 @@ impl SlungLoadState {
         numbers
     }
 
-    /// The quaternion is brought to unit length.
+    /// Inverse of [`to_numbers`](Self::to_numbers), with the quaternion normalised.
     pub(super) fn from_numbers(numbers: &Numbers) -> Self {
         let part = |first: usize| numbers.fixed_rows::<3>(first).into_owned();
         Self {

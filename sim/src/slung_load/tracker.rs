@@ -7,7 +7,8 @@ use super::gains::Gains;
 use super::linear::Errors;
 use super::reference::{Reference, ReferencePoint};
 use super::state::SlungLoadState;
-use crate::quadrotor::{AttitudeState, allocation, torque_nm};
+use crate::kinematics::AttitudeState;
+use crate::quadrotor::{allocation, torque_nm};
 
 /// Largest correction of the acceleration, m/s²: beyond it the linear law says nothing.
 const LARGEST_CORRECTION_MPS2: f64 = 6.0;

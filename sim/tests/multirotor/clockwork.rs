@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult, ReplanStatus};
 use scenarios::{Cylinder, PlanningClock, Scenario};
-use sim::{Flight, fly_in_loop};
+use sim::{Flight, fly};
 
 use crate::arena::scenario;
 
@@ -50,8 +50,8 @@ fn flown(change: impl FnOnce(&mut Scenario)) -> (Vec<Told>, Flight) {
     scenario.simulation.wind = None;
     change(&mut scenario);
     let told = Arc::new(Mutex::new(Vec::new()));
-    let planner = Box::new(Scribe { told: Arc::clone(&told) });
-    let flight = fly_in_loop(&scenario, vec![planner], 1, &mut |_| {});
+    let planner: Box<dyn InLoopPlanner> = Box::new(Scribe { told: Arc::clone(&told) });
+    let flight = fly(&scenario, vec![planner], 1, &mut |_| {});
     let told = told.lock().expect("nobody panicked").clone();
     (told, flight)
 }

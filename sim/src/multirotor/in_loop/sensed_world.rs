@@ -4,32 +4,32 @@ use scenarios::{MovingCylinder, Prism, World};
 
 use crate::sensors::Sensors;
 
-/// What one vehicle has found out about the world.
-pub(crate) struct SensedWorld {
+/// What one vehicle knows of the world.
+pub(super) struct SensedWorld {
     range_m: f64,
     truth: World,
-    flat: Vec<Prism>,
-    /// Obstacles that are not known yet, by name.
+    prisms: Vec<Prism>,
+    /// Names of the obstacles that are not known yet.
     unknown: Vec<String>,
     known: World,
-    /// Found since the planner was told.
-    news: Vec<String>,
+    /// Names of the obstacles that were discovered since the planner's previous call.
+    discovered: Vec<String>,
     sensors: Sensors,
 }
 
-/// Another vehicle, as it is.
+/// The truth about another vehicle.
 #[derive(Clone, Debug)]
-pub(crate) struct Other {
+pub(super) struct Other {
     pub name: String,
     pub body_radius_m: f64,
     pub position_m: Vector3<f64>,
     pub velocity_mps: Vector3<f64>,
-    /// What it is going to fly, if that is shared.
+    /// Its accepted reference if the fleet shares plans; otherwise empty.
     pub plan: Vec<Node>,
 }
 
 impl SensedWorld {
-    /// Of a vehicle that sees as far as `range_m`, from its centre to a surface. `sensors`: their noise.
+    /// Of a vehicle whose sensors reach `range_m`, from its centre to a surface. `sensors`: their noise.
     pub fn new(world: &World, range_m: f64, sensors: Sensors) -> Self {
         let moving = |name: &str| world.moving.iter().any(|moving| moving.name == name);
         let unknown = world.obstacle_names().filter(|name| !moving(name) && world.is_hidden(name));
@@ -37,23 +37,23 @@ impl SensedWorld {
             range_m,
             unknown: unknown.map(str::to_owned).collect(),
             known: world.known_before_flight(),
-            flat: world.prism_obstacles(),
+            prisms: world.prism_obstacles(),
             truth: world.clone(),
-            news: Vec::new(),
+            discovered: Vec::new(),
             sensors,
         }
     }
 
-    /// Looks around from a position, m. Returns the names of the obstacles that are new.
-    pub fn look(&mut self, position_m: &Vector3<f64>) -> Vec<String> {
-        let found: Vec<String> =
+    /// Adds the obstacles within range of a position, m, to the known ones. Returns the names of those that are new.
+    pub fn discover(&mut self, position_m: &Vector3<f64>) -> Vec<String> {
+        let new: Vec<String> =
             self.unknown.iter().filter(|name| self.distance_m(name, position_m) <= self.range_m).cloned().collect();
-        if !found.is_empty() {
-            self.unknown.retain(|name| !found.contains(name));
+        if !new.is_empty() {
+            self.unknown.retain(|name| !new.contains(name));
             self.known = self.truth.with_static_obstacles(|name| !self.unknown.iter().any(|unknown| unknown == name));
-            self.news.extend(found.iter().cloned());
+            self.discovered.extend(new.iter().cloned());
         }
-        found
+        new
     }
 
     /// Map and obstacles known so far.
@@ -61,55 +61,55 @@ impl SensedWorld {
         &self.known
     }
 
-    /// What was found since this was asked last.
-    pub fn news(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.news)
+    /// Names of the obstacles that were discovered since the previous call of this.
+    pub fn take_discovered(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.discovered)
     }
 
-    /// The moving obstacles within range, as measured.
-    pub fn sightings(&mut self, t_s: f64, position_m: &Vector3<f64>) -> Vec<ObstacleMeasurement> {
+    /// Measurements of the moving obstacles within range.
+    pub fn measure_moving(&mut self, t_s: f64, position_m: &Vector3<f64>) -> Vec<ObstacleMeasurement> {
         let Self { truth, sensors, range_m, .. } = self;
         let in_range = truth.moving.iter().filter(|it| it.signed_distance_m(t_s, (*position_m).into()) <= *range_m);
-        in_range.map(|moving| sighting(moving, t_s, sensors)).collect()
+        in_range.map(|moving| measurement_of(moving, t_s, sensors)).collect()
     }
 
-    /// The other vehicles within range, as measured.
-    pub fn neighbours(&mut self, position_m: &Vector3<f64>, others: &[Other]) -> Vec<Neighbour> {
+    /// Measurements of the other vehicles within range.
+    pub fn measure_neighbours(&mut self, position_m: &Vector3<f64>, others: &[Other]) -> Vec<Neighbour> {
         let Self { sensors, range_m, .. } = self;
         let distance_m = |other: &Other| (other.position_m - position_m).norm() - other.body_radius_m;
         let in_range = others.iter().filter(|other| distance_m(other) <= *range_m);
         in_range.map(|other| neighbour(other, sensors)).collect()
     }
 
-    /// From a position to the surface of an obstacle that does not move, m: infinite if there is none.
+    /// Signed distance from a position to the surface of a static obstacle, m; infinite if there is no such obstacle.
     fn distance_m(&self, name: &str, position_m: &Vector3<f64>) -> f64 {
         let cylinders = self.truth.cylinders.iter().filter(|it| it.name == name);
         let cylinders = cylinders.map(|it| it.signed_distance_m(position_m.x, position_m.y));
-        let flat = self.flat.iter().filter(|it| it.name == name);
-        let flat = flat.map(|it| it.signed_distance_in_space_m((*position_m).into()));
-        cylinders.chain(flat).fold(f64::INFINITY, f64::min)
+        let prisms = self.prisms.iter().filter(|it| it.name == name);
+        let prisms = prisms.map(|it| it.signed_distance_in_space_m((*position_m).into()));
+        cylinders.chain(prisms).fold(f64::INFINITY, f64::min)
     }
 }
 
-fn sighting(moving: &MovingCylinder, t_s: f64, sensors: &mut Sensors) -> ObstacleMeasurement {
+fn measurement_of(moving: &MovingCylinder, t_s: f64, sensors: &mut Sensors) -> ObstacleMeasurement {
     let in_space = |[x, y]: [f64; 2]| Vector3::new(x, y, 0.0);
-    let seen = sensors.sight(in_space(moving.position_m(t_s)), in_space(moving.velocity_mps(t_s)));
+    let measured = sensors.measure_other(in_space(moving.position_m(t_s)), in_space(moving.velocity_mps(t_s)));
     ObstacleMeasurement {
         name: moving.name.clone(),
         radius_m: moving.radius_m,
         z_m: moving.z_m,
-        position_m: [seen.position_m.x, seen.position_m.y],
-        velocity_mps: [seen.velocity_mps.x, seen.velocity_mps.y],
+        position_m: [measured.position_m.x, measured.position_m.y],
+        velocity_mps: [measured.velocity_mps.x, measured.velocity_mps.y],
     }
 }
 
 fn neighbour(other: &Other, sensors: &mut Sensors) -> Neighbour {
-    let seen = sensors.sight(other.position_m, other.velocity_mps);
+    let measured = sensors.measure_other(other.position_m, other.velocity_mps);
     Neighbour {
         name: other.name.clone(),
         body_radius_m: other.body_radius_m,
-        position_m: seen.position_m.into(),
-        velocity_mps: seen.velocity_mps.into(),
+        position_m: measured.position_m.into(),
+        velocity_mps: measured.velocity_mps.into(),
         plan: other.plan.clone(),
     }
 }

@@ -2,12 +2,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use scenarios::{Planning, PlanningClock};
 
-/// Says how long an answer takes, in the simulation.
+/// Simulated time that a call of the planner takes.
 #[derive(Clone, Debug)]
 pub(super) struct PlanningTime {
     settings: Planning,
     rng: ChaCha8Rng,
-    /// Answers so far.
+    /// Calls so far.
     count: usize,
 }
 
@@ -16,7 +16,7 @@ impl PlanningTime {
         Self { settings: settings.clone(), rng, count: 0 }
     }
 
-    /// Time of the next answer, s, which took `wall_s` on the machine at hand.
+    /// Time of the next call, s, which took `wall_s` on this machine.
     pub fn next_s(&mut self, wall_s: f64) -> f64 {
         let Planning { median_s, spread, recorded_s, .. } = &self.settings;
         let time_s = match self.settings.time {
@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn modelled_times_have_their_median_and_do_not_ask_the_clock() {
+    fn modelled_times_have_their_median_and_do_not_depend_on_the_clock() {
         let settings = Planning { median_s: 0.02, spread: 0.5, ..Planning::default() };
         let mut drawn = times(&settings);
         assert_eq!(drawn, times(&settings));
@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn recorded_times_come_in_turn_and_measured_ones_are_those_of_the_machine() {
+    fn recorded_times_repeat_in_order_and_measured_ones_are_those_of_the_machine() {
         let recorded =
             Planning { time: PlanningClock::Recorded, recorded_s: vec![0.1, 0.2, 0.3], ..Planning::default() };
         assert_eq!(times(&recorded)[..4], [0.1, 0.2, 0.3, 0.1]);

@@ -8,106 +8,109 @@ use scenarios::multirotor::Trajectory;
 
 use super::acceptance::defect;
 use super::planning_time::PlanningTime;
-use super::{Replan, SensedWorld};
-use crate::multirotor::Reference;
+use super::sensed_world::SensedWorld;
+use crate::multirotor::reference::Reference;
+use crate::planning_log::Replan;
 use crate::sensors::Measurement;
 
-/// What rounding leaves of an instant, s.
+/// Times that differ by less than this, s, are equal up to rounding.
 const ROUNDING_S: f64 = 1e-9;
 
-/// Asks one vehicle's planner, and says what is flown.
-pub(crate) struct ReferenceManager {
+/// Calls the planner of one vehicle, and keeps the reference in force.
+pub(super) struct ReferenceManager {
     vehicle: usize,
     planner: Box<dyn InLoopPlanner>,
     settings: Planning,
     planning_time: PlanningTime,
     step_s: f64,
-    /// Turns taken so far, and the first one's instant, s.
-    turns: u64,
+    /// Scheduled calls that have passed, and the time of the first one, s.
+    passed_calls: u64,
     phase_s: f64,
     /// Until when the planner is busy, s.
     busy_s: f64,
     in_force: Reference,
-    /// A reference that waits for its instant, s.
+    /// An accepted reference, and the time at which it takes effect, s.
     pending: Option<(f64, Reference)>,
     last: ReplanStatus,
-    /// What was flown so far.
+    /// The nodes of what was followed so far.
     followed: Vec<Node>,
 }
 
-/// Where a vehicle is, as it measures itself, and what it has seen.
-pub(crate) struct NavigationInput<'a> {
+/// What a vehicle knows when its planner is called.
+pub(super) struct NavigationInput<'a> {
+    /// Time, s.
     pub t_s: f64,
+    /// Its own position and velocity.
     pub own: Measurement,
-    pub senses: &'a mut SensedWorld,
+    pub sensed_world: &'a mut SensedWorld,
     pub moving: Vec<ObstacleMeasurement>,
     pub neighbours: Vec<Neighbour>,
 }
 
 impl ReferenceManager {
-    /// At the beginning the vehicle stands at its start, m.
+    /// The reference in force at the beginning is to hover at the start, m.
     ///
-    /// - `share`: of the period that passes before the first turn, in [0, 1)
+    /// - `phase`: fraction of the period before the first call, in [0, 1)
     pub fn new(
         (vehicle, planner): (usize, Box<dyn InLoopPlanner>),
         settings: &Planning,
         rng: ChaCha8Rng,
         step_s: f64,
-        share: f64,
+        phase: f64,
         start_m: Vector3<f64>,
     ) -> Self {
-        let standing = Node::at_rest(0.0, start_m.into());
+        let hovering = Node::at_rest(0.0, start_m.into());
         Self {
             vehicle,
             planner,
             planning_time: PlanningTime::new(settings, rng),
             step_s,
-            turns: 0,
-            phase_s: share * settings.period_s,
+            passed_calls: 0,
+            phase_s: phase * settings.period_s,
             busy_s: 0.0,
-            in_force: Reference::new(vec![standing]),
+            in_force: Reference::new(vec![hovering]),
             pending: None,
             last: ReplanStatus::None,
-            followed: vec![standing],
+            followed: vec![hovering],
             settings: settings.clone(),
         }
     }
 
-    /// The reference now.
+    /// The reference in force.
     pub fn reference(&self) -> &Reference {
         &self.in_force
     }
 
-    /// What it has accepted last, whether it is flown already or not.
-    pub fn intent(&self) -> &[Node] {
+    /// The nodes of the reference that was accepted last, whether it is in force already or pending.
+    pub fn accepted(&self) -> &[Node] {
         self.pending.as_ref().map_or(&self.in_force, |(_, reference)| reference).nodes()
     }
 
-    /// Puts a reference into force whose instant has come.
-    pub fn install(&mut self, t_s: f64) {
-        let is_due = |(from_s, _): &mut (f64, Reference)| *from_s <= t_s + ROUNDING_S;
-        let Some((from_s, reference)) = self.pending.take_if(is_due) else { return };
-        self.follow_until(from_s);
-        self.followed.push(reference.at(from_s).node());
+    /// Puts the pending reference into force once its time has come.
+    pub fn update(&mut self, t_s: f64) {
+        let is_due = |(begin_s, _): &mut (f64, Reference)| *begin_s <= t_s + ROUNDING_S;
+        let Some((begin_s, reference)) = self.pending.take_if(is_due) else { return };
+        self.follow_until(begin_s);
+        self.followed.push(reference.at(begin_s).node());
         self.in_force = reference;
     }
 
-    /// Is it the planner's turn, and is he free? A turn that he misses is gone.
+    /// Is a call of the planner scheduled, and is the planner free? A call that is missed is not made up for.
     pub fn is_due(&mut self, t_s: f64) -> bool {
-        let turn_s = |turns: u64| self.phase_s + turns as f64 * self.settings.period_s;
+        let call_s = |calls: u64| self.phase_s + calls as f64 * self.settings.period_s;
         let mut is_due = false;
-        while turn_s(self.turns) <= t_s + ROUNDING_S {
+        while call_s(self.passed_calls) <= t_s + ROUNDING_S {
             is_due = true;
-            self.turns += 1;
+            self.passed_calls += 1;
         }
         is_due && self.busy_s <= t_s + ROUNDING_S
     }
 
-    /// Asks the planner.
-    pub fn ask(&mut self, fix: NavigationInput<'_>) -> Replan {
-        let NavigationInput { t_s, own, senses, moving, neighbours } = fix;
-        let discovered = senses.news();
-        let planned_s = self.on_step(t_s + self.settings.deadline_s);
+    /// Calls the planner. A result that can be flown becomes the pending reference.
+    pub fn replan(&mut self, input: NavigationInput<'_>) -> Replan {
+        let NavigationInput { t_s, own, sensed_world, moving, neighbours } = input;
+        let discovered = sensed_world.take_discovered();
+        let planned_s = self.ceil_to_step_s(t_s + self.settings.deadline_s);
         let observation = Observation {
             t_s,
             takes_effect_s: planned_s,
@@ -115,18 +118,18 @@ impl ReferenceManager {
             velocity_mps: own.velocity_mps.into(),
             in_force: self.in_force.nodes(),
             last: &self.last,
-            known: senses.known(),
+            known: sensed_world.known(),
             discovered: &discovered,
             moving: &moving,
             neighbours: &neighbours,
         };
         let began = Instant::now();
-        let answer = self.planner.replan(&observation);
+        let result = self.planner.replan(&observation);
         let wall_s = began.elapsed().as_secs_f64();
         let ready_s = t_s + self.planning_time.next_s(wall_s);
         self.busy_s = ready_s;
-        let takes_effect_s = planned_s.max(self.on_step(ready_s));
-        let (outcome, nodes) = self.take(answer.decision, planned_s, takes_effect_s);
+        let takes_effect_s = planned_s.max(self.ceil_to_step_s(ready_s));
+        let (outcome, nodes) = self.accept(result.decision, planned_s, takes_effect_s);
         self.last = outcome.clone();
         let vehicle = self.vehicle;
         Replan {
@@ -136,23 +139,23 @@ impl ReferenceManager {
             takes_effect_s,
             outcome,
             nodes,
-            diagnostics: answer.diagnostics,
+            diagnostics: result.diagnostics,
             discovered,
             wall_s,
         }
     }
 
-    /// What was flown to `end_s`, as a trajectory.
+    /// What was followed until `end_s`, as a trajectory.
     pub fn followed(mut self, vehicle: &str, end_s: f64) -> Trajectory {
         self.follow_until(end_s);
-        // What was flown beyond it belongs to the coast.
+        // What was followed later belongs to the coast.
         let end = Reference::new(self.followed.clone()).at(end_s).node();
         self.followed.retain(|node| node.t_s < end_s - ROUNDING_S);
         self.followed.push(end);
         Trajectory::through(vehicle, &self.followed)
     }
 
-    fn take(&mut self, decision: Decision, planned_s: f64, takes_effect_s: f64) -> (ReplanStatus, Vec<Node>) {
+    fn accept(&mut self, decision: Decision, planned_s: f64, takes_effect_s: f64) -> (ReplanStatus, Vec<Node>) {
         let nodes = match decision {
             Decision::Keep { reason } => return (ReplanStatus::Kept { reason }, Vec::new()),
             Decision::Fly(nodes) => nodes,
@@ -165,22 +168,22 @@ impl ReferenceManager {
         (if by_s > ROUNDING_S { ReplanStatus::Late { by_s } } else { ReplanStatus::InTime }, nodes)
     }
 
-    /// Appends what the reference in force holds up to `end_s`, and where it is then.
+    /// Appends the nodes of the reference in force up to `end_s`, and a node at `end_s`.
     fn follow_until(&mut self, end_s: f64) {
-        let from_s = self.followed.last().map_or(0.0, |node| node.t_s);
-        let between = |node: &&Node| node.t_s > from_s + ROUNDING_S && node.t_s < end_s - ROUNDING_S;
+        let begin_s = self.followed.last().map_or(0.0, |node| node.t_s);
+        let between = |node: &&Node| node.t_s > begin_s + ROUNDING_S && node.t_s < end_s - ROUNDING_S;
         self.followed.extend(self.in_force.nodes().iter().filter(between));
         if let Some(last) = self.in_force.nodes().last().filter(between) {
-            // Beyond its end a reference stands, also one that ends in motion.
+            // After its last node the vehicle hovers, even if the reference ends in motion.
             self.followed.push(Node { velocity_mps: [0.0; 3], ..*last });
         }
-        if end_s > from_s + ROUNDING_S {
+        if end_s > begin_s + ROUNDING_S {
             self.followed.push(self.in_force.at(end_s).node());
         }
     }
 
-    /// The simulator's first step that is not before `t_s`, s.
-    fn on_step(&self, t_s: f64) -> f64 {
+    /// Time of the simulator's first step that is not before `t_s`, s.
+    fn ceil_to_step_s(&self, t_s: f64) -> f64 {
         (t_s / self.step_s - 1e-6).ceil() * self.step_s
     }
 }
