@@ -15,9 +15,9 @@ const COUPLING: [&[f64]; STAGES] = [
     &[9.0 / 44.0, -9.0 / 11.0, 63.0 / 44.0, 18.0 / 11.0, 0.0, -16.0 / 11.0],
 ];
 
-/// The state after a step.
+/// The state after a step of `step_s`, s.
 ///
-/// - `rate`: derivative of a state at a share of the step in [0, 1]
+/// - `rate`: time derivative of a state, at a fraction of the step in [0, 1]
 pub(crate) fn advanced<const N: usize>(
     state: &SVector<f64, N>,
     step_s: f64,

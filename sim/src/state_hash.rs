@@ -1,4 +1,4 @@
-//! One number for a whole flight: two flights that differ in one bit of one number have different ones.
+//! One hash for a whole flight: flights that differ in one bit of one number have different hashes.
 
 use crate::flight::{Flight, LoadSample, Sample};
 
@@ -6,7 +6,7 @@ use crate::flight::{Flight, LoadSample, Sample};
 const PRIME: u64 = 0x0100_0000_01b3;
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// A hash that takes in number by number.
+/// A hash that is updated number by number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateHash(u64);
 
@@ -17,22 +17,22 @@ impl Default for StateHash {
 }
 
 impl StateHash {
-    /// Takes in the bits of a number.
+    /// Updates the hash with the bits of a number.
     pub fn add(&mut self, number: f64) {
-        // The shift brings the upper bits, which a product alone never moves down, into play.
+        // A product moves bits only upwards; the shift moves the upper ones down.
         let mixed = (self.0 ^ number.to_bits()).wrapping_mul(PRIME);
         self.0 = mixed ^ (mixed >> 32);
     }
 
-    /// The hash so far, 16 hexadecimal digits.
+    /// The hash as 16 hexadecimal digits.
     pub fn digits(&self) -> String {
         format!("{:016x}", self.0)
     }
 }
 
 impl Flight {
-    /// The hash of everything that was logged until the end of every period of `every_s`, s, and at the end of all: vehicle by
-    /// vehicle, in the order of time.
+    /// Hashes of everything that was logged until the end of each period of `every_s`, s, and until the end of the flight, in the
+    /// order of time.
     pub fn running_hash(&self, every_s: f64) -> Vec<StateHash> {
         let mut hash = StateHash::default();
         let mut running = Vec::new();
@@ -60,7 +60,7 @@ impl Flight {
 mod tests {
     use super::StateHash;
 
-    fn of(numbers: &[f64]) -> StateHash {
+    fn hash_of(numbers: &[f64]) -> StateHash {
         let mut hash = StateHash::default();
         numbers.iter().for_each(|number| hash.add(*number));
         hash
@@ -69,19 +69,19 @@ mod tests {
     #[test]
     fn one_bit_and_the_order_change_the_hash() {
         let number = 0.1_f64;
-        assert_eq!(of(&[number, 2.0]), of(&[0.1, 2.0]));
-        assert_ne!(of(&[number]), of(&[number.next_up()]));
-        assert_ne!(of(&[1.0, 2.0]), of(&[2.0, 1.0]));
-        assert_ne!(of(&[0.0]), of(&[-0.0]));
+        assert_eq!(hash_of(&[number, 2.0]), hash_of(&[0.1, 2.0]));
+        assert_ne!(hash_of(&[number]), hash_of(&[number.next_up()]));
+        assert_ne!(hash_of(&[1.0, 2.0]), hash_of(&[2.0, 1.0]));
+        assert_ne!(hash_of(&[0.0]), hash_of(&[-0.0]));
     }
 
     #[test]
-    fn a_bit_that_is_wrong_early_is_not_forgotten() {
+    fn an_early_difference_persists() {
         let long: Vec<f64> = (0..10_000).map(f64::from).collect();
         for bit in [0, 31, 32, 62] {
             let mut other = long.clone();
             other[3] = f64::from_bits(other[3].to_bits() ^ (1 << bit));
-            assert_ne!(of(&long), of(&other), "bit {bit}");
+            assert_ne!(hash_of(&long), hash_of(&other), "bit {bit}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Dryden's forming filters, driven by white noise and discretised exactly.
 //!
-//! Time is counted in s = t V / L (the air that has passed, in scale lengths) and the output has unit variance, so that
-//! intensity, scale length and airspeed may change on the way without a transient. MIL-F-8785C, 3.7.1.2:
+//! The independent variable is s = t V / L (the distance through the air, in scale lengths), and the output has unit variance,
+//! so that intensity, scale length and airspeed may change without a transient. MIL-F-8785C, 3.7.1.2:
 //!
 //! ```text
 //! H_u(p) = sqrt(2) / (1 + p)                    autocorrelation e^-s             (longitudinal)
@@ -21,7 +21,7 @@ impl Longitudinal {
         Self(StandardNormal.sample(rng))
     }
 
-    /// Lets `s` >= 0 scale lengths pass.
+    /// Advances by `s` >= 0 scale lengths.
     pub fn advance(&mut self, s: f64, rng: &mut ChaCha8Rng) {
         let noise: f64 = StandardNormal.sample(rng);
         self.0 = (-s).exp() * self.0 + (-(-2.0 * s).exp_m1()).sqrt() * noise;
@@ -49,7 +49,7 @@ impl Transverse {
         Self([StandardNormal.sample(rng), StandardNormal.sample(rng)])
     }
 
-    /// Lets `s` >= 0 scale lengths pass.
+    /// Advances by `s` >= 0 scale lengths.
     pub fn advance(&mut self, s: f64, rng: &mut ChaCha8Rng) {
         let [z1, z2] = self.0;
         let noise: [f64; 2] = [StandardNormal.sample(rng), StandardNormal.sample(rng)];

@@ -6,7 +6,7 @@ use super::dryden::{Longitudinal, Transverse};
 const M_PER_FT: f64 = 0.3048;
 
 /// Lowest height for which the low-altitude form is given, ft.
-const LOWEST_FT: f64 = 10.0;
+const MIN_HEIGHT_FT: f64 = 10.0;
 
 /// Top of the low-altitude form, and bottom of the form for medium and high altitude, ft.
 const LOW_FT: f64 = 1000.0;
@@ -15,8 +15,9 @@ const ALOFT_FT: f64 = 2000.0;
 /// Scale length of all components at medium and high altitude, ft.
 const SCALE_ALOFT_FT: f64 = 1750.0;
 
-/// Below this airspeed, m/s, the gusts change as if the vehicle flew at it: frozen turbulence needs a motion through it.
-const LOWEST_AIRSPEED_MPS: f64 = 1.0;
+/// Minimum airspeed at which the vehicle moves through the gusts, m/s: frozen turbulence does not change around a vehicle at
+/// rest.
+const MIN_AIRSPEED_MPS: f64 = 1.0;
 
 /// Continuous gusts in Dryden's form (MIL-F-8785C, 3.7): longitudinal u, lateral v, vertical w, independent.
 #[derive(Clone, Debug)]
@@ -40,10 +41,10 @@ impl Turbulence {
         }
     }
 
-    /// Lets `step_s` pass for a vehicle that flies through the gusts.
+    /// Advances the gusts by `step_s` around a vehicle that flies at an airspeed, m/s.
     pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) {
         let scales = Scales::at(&self.settings, altitude_m);
-        let passed_m = airspeed_mps.max(LOWEST_AIRSPEED_MPS) * step_s;
+        let passed_m = airspeed_mps.max(MIN_AIRSPEED_MPS) * step_s;
         self.u.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
         self.v.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
         self.w.advance(passed_m / scales.vertical_length_m, &mut self.rng);
@@ -70,16 +71,16 @@ struct Scales {
 }
 
 impl Scales {
-    /// At a height above ground, which lies at z = 0: the low-altitude form up to 1000 ft, isotropic from 2000 ft on,
+    /// At an altitude above ground, which is at z = 0: the low-altitude form up to 1000 ft, isotropic from 2000 ft on,
     /// linear in between.
     fn at(gusts: &scenarios::Gusts, altitude_m: f64) -> Self {
         let height_ft = altitude_m / M_PER_FT;
-        let low = Self::low(gusts, height_ft.clamp(LOWEST_FT, LOW_FT));
+        let low = Self::low(gusts, height_ft.clamp(MIN_HEIGHT_FT, LOW_FT));
         if height_ft <= LOW_FT {
             return low;
         }
-        let share = ((height_ft - LOW_FT) / (ALOFT_FT - LOW_FT)).min(1.0);
-        let blend = |low: f64, aloft: f64| low + (aloft - low) * share;
+        let fraction = ((height_ft - LOW_FT) / (ALOFT_FT - LOW_FT)).min(1.0);
+        let blend = |low: f64, aloft: f64| low + (aloft - low) * fraction;
         Self {
             horizontal_length_m: blend(low.horizontal_length_m, SCALE_ALOFT_FT * M_PER_FT),
             vertical_length_m: blend(low.vertical_length_m, SCALE_ALOFT_FT * M_PER_FT),
@@ -134,7 +135,7 @@ mod tests {
 
     #[test]
     fn the_low_form_ends_at_ten_feet() {
-        let [ground, lowest] = [-50.0, LOWEST_FT * M_PER_FT].map(|altitude| Scales::at(&GUSTS, altitude));
+        let [ground, lowest] = [-50.0, MIN_HEIGHT_FT * M_PER_FT].map(|altitude| Scales::at(&GUSTS, altitude));
         assert_eq!(ground.horizontal_length_m, lowest.horizontal_length_m);
         assert_eq!(ground.horizontal_sigma_mps, lowest.horizontal_sigma_mps);
     }

@@ -1,41 +1,41 @@
 use nalgebra::Vector3;
 use scenarios::{Cylinder, MovingCylinder, Prism, World};
 
-/// A distance that counts as touching, m.
-const TOUCH_M: f64 = 1e-9;
+/// Distances up to this are contact, m.
+const CONTACT_M: f64 = 1e-9;
 
-/// All obstacles of a world, sensed or not, and how far they are.
+/// All obstacles of a world, known to the vehicles or not.
 #[derive(Clone, Debug)]
 pub struct Obstacles {
     cylinders: Vec<Cylinder>,
-    flat: Vec<Prism>,
+    prisms: Vec<Prism>,
     moving: Vec<MovingCylinder>,
 }
 
 impl Obstacles {
-    /// Of a world.
+    /// The obstacles of a world.
     pub fn new(world: &World) -> Self {
-        Self { cylinders: world.cylinders.clone(), flat: world.prism_obstacles(), moving: world.moving.clone() }
+        Self { cylinders: world.cylinders.clone(), prisms: world.prism_obstacles(), moving: world.moving.clone() }
     }
 
-    /// Number of obstacles; they count from 0 in the order cylinders, boxes, prisms, moving ones.
+    /// Number of obstacles. They are numbered from 0 in the order cylinders, boxes, prisms, moving cylinders.
     pub fn count(&self) -> usize {
-        self.cylinders.len() + self.flat.len() + self.moving.len()
+        self.cylinders.len() + self.prisms.len() + self.moving.len()
     }
 
     /// Name of an obstacle.
     pub fn name(&self, obstacle: usize) -> &str {
         match self.kind(obstacle) {
             Kind::Cylinder(it) => &it.name,
-            Kind::ConvexPart(it) => &it.name,
+            Kind::Prism(it) => &it.name,
             Kind::Moving(it) => &it.name,
         }
     }
 
-    /// Largest speed of an obstacle, m/s.
+    /// Maximum speed of an obstacle, m/s; 0 for a static one.
     pub fn speed_mps(&self, obstacle: usize) -> f64 {
         match self.kind(obstacle) {
-            Kind::Cylinder(_) | Kind::ConvexPart(_) => 0.0,
+            Kind::Cylinder(_) | Kind::Prism(_) => 0.0,
             Kind::Moving(it) => it.speed_mps,
         }
     }
@@ -44,54 +44,56 @@ impl Obstacles {
     pub fn distance_m(&self, obstacle: usize, t_s: f64, position_m: [f64; 3]) -> f64 {
         match self.kind(obstacle) {
             Kind::Cylinder(it) => it.signed_distance_m(position_m[0], position_m[1]),
-            Kind::ConvexPart(it) => it.signed_distance_in_space_m(position_m),
+            Kind::Prism(it) => it.signed_distance_in_space_m(position_m),
             Kind::Moving(it) => it.signed_distance_m(t_s, position_m),
         }
     }
 
-    /// The first obstacle that a ball touches which goes along a straight line, and when, as a share of its way.
+    /// First contact of a ball that moves along a straight line at constant velocity with an obstacle. Returns the fraction of
+    /// its path, and the obstacle.
     ///
-    /// - `times_s`, `ends_m`: of the way's beginning and end
+    /// - `times_s`, `ends_m`: times and positions at the beginning and the end of the path
     ///
-    /// No point can come nearer faster than both move: the ball goes on by what is free, until nothing is, or the way ends.
+    /// Conservative advancement: the distance cannot decrease faster than the sum of the speeds, so that the ball is advanced
+    /// by the time that the current distance allows, until there is contact or the path ends.
     pub fn time_of_impact(&self, times_s: [f64; 2], ends_m: [Vector3<f64>; 2], radius_m: f64) -> Option<(f64, usize)> {
         let duration_s = times_s[1] - times_s[0];
-        let way_m = (ends_m[1] - ends_m[0]).norm();
-        let touches = (0..self.count()).filter_map(|obstacle| {
-            let closing_m = way_m + self.speed_mps(obstacle) * duration_s;
-            let mut share = 0.0;
+        let path_m = (ends_m[1] - ends_m[0]).norm();
+        let contacts = (0..self.count()).filter_map(|obstacle| {
+            let closing_m = path_m + self.speed_mps(obstacle) * duration_s;
+            let mut fraction = 0.0;
             loop {
-                let position_m = ends_m[0] + (ends_m[1] - ends_m[0]) * share;
-                let t_s = times_s[0] + duration_s * share;
+                let position_m = ends_m[0] + (ends_m[1] - ends_m[0]) * fraction;
+                let t_s = times_s[0] + duration_s * fraction;
                 let free_m = self.distance_m(obstacle, t_s, position_m.into()) - radius_m;
-                // What is not a number touches.
-                if !matches!(free_m.partial_cmp(&TOUCH_M), Some(std::cmp::Ordering::Greater)) {
-                    return Some((share, obstacle));
+                // NaN counts as contact.
+                if !matches!(free_m.partial_cmp(&CONTACT_M), Some(std::cmp::Ordering::Greater)) {
+                    return Some((fraction, obstacle));
                 }
-                share += free_m / closing_m;
-                if share > 1.0 || closing_m <= 0.0 {
+                fraction += free_m / closing_m;
+                if fraction > 1.0 || closing_m <= 0.0 {
                     return None;
                 }
             }
         });
-        touches.min_by(|a, b| a.0.total_cmp(&b.0))
+        contacts.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     fn kind(&self, obstacle: usize) -> Kind<'_> {
-        let (cylinders, flat) = (self.cylinders.len(), self.flat.len());
+        let (cylinders, prisms) = (self.cylinders.len(), self.prisms.len());
         if obstacle < cylinders {
             Kind::Cylinder(&self.cylinders[obstacle])
-        } else if obstacle < cylinders + flat {
-            Kind::ConvexPart(&self.flat[obstacle - cylinders])
+        } else if obstacle < cylinders + prisms {
+            Kind::Prism(&self.prisms[obstacle - cylinders])
         } else {
-            Kind::Moving(&self.moving[obstacle - cylinders - flat])
+            Kind::Moving(&self.moving[obstacle - cylinders - prisms])
         }
     }
 }
 
 enum Kind<'a> {
     Cylinder(&'a Cylinder),
-    ConvexPart(&'a Prism),
+    Prism(&'a Prism),
     Moving(&'a MovingCylinder),
 }
 
@@ -100,7 +102,7 @@ mod tests {
     use super::*;
     use scenarios::{BoxObstacle, Map, Range};
 
-    fn surroundings() -> Obstacles {
+    fn obstacles() -> Obstacles {
         let wide = Range::new(-100.0, 100.0);
         let mut world = World::empty(Map { x_m: wide, y_m: wide, z_m: wide });
         world.boxes.push(BoxObstacle {
@@ -121,27 +123,27 @@ mod tests {
         Obstacles::new(&world)
     }
 
-    fn touch(from_m: [f64; 3], to_m: [f64; 3]) -> Option<(f64, usize)> {
-        surroundings().time_of_impact([0.0, 2.0], [from_m.into(), to_m.into()], 0.5)
+    fn contact(from_m: [f64; 3], to_m: [f64; 3]) -> Option<(f64, usize)> {
+        obstacles().time_of_impact([0.0, 2.0], [from_m.into(), to_m.into()], 0.5)
     }
 
     #[test]
     fn a_thin_wall_is_not_passed_through() {
-        let (share, obstacle) = touch([0.0, 0.0, 1.0], [10.0, 0.0, 1.0]).expect("a touch");
+        let (fraction, obstacle) = contact([0.0, 0.0, 1.0], [10.0, 0.0, 1.0]).expect("a contact");
         assert_eq!(obstacle, 0);
-        assert!((share - 0.44995).abs() < 1e-6, "{share}");
-        // Above its top edge there is room for the ball, a little lower there is not.
-        assert_eq!(touch([0.0, 0.0, 2.5001], [10.0, 0.0, 2.5001]), None);
-        assert!(touch([0.0, 0.0, 2.4999], [10.0, 0.0, 2.4999]).is_some());
+        assert!((fraction - 0.44995).abs() < 1e-6, "{fraction}");
+        // The ball passes just above the top edge, and collides a little lower.
+        assert_eq!(contact([0.0, 0.0, 2.5001], [10.0, 0.0, 2.5001]), None);
+        assert!(contact([0.0, 0.0, 2.4999], [10.0, 0.0, 2.4999]).is_some());
     }
 
     #[test]
-    fn what_moves_is_met_where_it_is_then() {
-        // The cart comes down from y = 50 m at 10 m/s; standing at y = 40 m, the ball is met after 0.85 s.
-        let (share, obstacle) = touch([0.0, 40.0, 0.0], [0.0, 40.0, 0.0]).expect("a touch");
+    fn a_moving_obstacle_is_met_at_its_position_at_that_time() {
+        // The cart comes down from y = 50 m at 10 m/s; it reaches the ball at rest at y = 40 m after 0.85 s.
+        let (fraction, obstacle) = contact([0.0, 40.0, 0.0], [0.0, 40.0, 0.0]).expect("a contact");
         assert_eq!(obstacle, 1);
-        assert!((share - 0.425).abs() < 1e-6, "{share}");
-        assert_eq!(touch([0.0, 10.0, 0.0], [0.0, 10.0, 0.0]), None);
-        assert!(touch([f64::NAN, 0.0, 0.0], [0.0, 0.0, 0.0]).is_some());
+        assert!((fraction - 0.425).abs() < 1e-6, "{fraction}");
+        assert_eq!(contact([0.0, 10.0, 0.0], [0.0, 10.0, 0.0]), None);
+        assert!(contact([f64::NAN, 0.0, 0.0], [0.0, 0.0, 0.0]).is_some());
     }
 }

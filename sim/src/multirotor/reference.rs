@@ -1,14 +1,14 @@
 use nalgebra::Vector3;
 use scenarios::in_loop::Node;
 
-/// Nodes as a continuous motion, for a tracker to follow: between two of them the cubic with their positions and
-/// velocities; before the first and after the last it stands.
+/// Nodes as a continuous motion, for a tracker to follow: between two nodes the cubic with their positions and velocities;
+/// hover before the first node and after the last one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     nodes: Vec<Node>,
 }
 
-/// What a reference asks for at one instant. World frame.
+/// A reference at one instant. World frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferencePoint {
     /// Time, s.
@@ -22,7 +22,11 @@ pub struct ReferencePoint {
 }
 
 impl Reference {
-    /// Through `nodes`: one at least, times in order. Panics without a node.
+    /// The reference through at least one node, with times in order.
+    ///
+    /// # Panics
+    ///
+    /// If there is no node.
     pub fn new(nodes: Vec<Node>) -> Self {
         assert!(!nodes.is_empty(), "a reference has a node");
         Self { nodes }
@@ -33,12 +37,12 @@ impl Reference {
         &self.nodes
     }
 
-    /// What it asks for at `t_s`, s. At a jump, what comes after it.
+    /// The reference at `t_s`, s. At a discontinuity, the limit from the right.
     pub fn at(&self, t_s: f64) -> ReferencePoint {
         let after = self.nodes.partition_point(|node| node.t_s <= t_s);
         match (after.checked_sub(1).map(|before| &self.nodes[before]), self.nodes.get(after)) {
             (Some(from), Some(to)) => between(from, to, t_s),
-            (Some(only), None) | (None, Some(only)) => standing(only, t_s),
+            (Some(only), None) | (None, Some(only)) => hovering(only, t_s),
             (None, None) => unreachable!("a reference has a node"),
         }
     }
@@ -51,17 +55,17 @@ impl ReferencePoint {
     }
 }
 
-fn standing(node: &Node, t_s: f64) -> ReferencePoint {
+fn hovering(node: &Node, t_s: f64) -> ReferencePoint {
     ReferencePoint {
         t_s,
         position_m: node.position_m.into(),
-        // At the node itself its own velocity counts: a plan's end is what it says.
+        // At the node itself its own velocity applies: the end of a plan need not be at rest.
         velocity_mps: if t_s == node.t_s { node.velocity_mps.into() } else { Vector3::zeros() },
         acceleration_mps2: Vector3::zeros(),
     }
 }
 
-/// The cubic with the nodes' positions and velocities, and its derivatives.
+/// The cubic with the positions and velocities of two nodes, and its derivatives.
 fn between(from: &Node, to: &Node, t_s: f64) -> ReferencePoint {
     let dt_s = to.t_s - from.t_s;
     let s = (t_s - from.t_s) / dt_s;
@@ -83,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_step_of_constant_acceleration_is_met_exactly() {
+    fn constant_acceleration_is_interpolated_exactly() {
         let (v, a) = (Vector3::new(1.0, -0.5, 0.2), Vector3::new(-2.0, 1.0, 0.4));
         let truth = |t: f64| (v * t + a * (t * t / 2.0), v + a * t);
         let node = |t_s: f64| {

@@ -4,21 +4,21 @@ use scenarios::multirotor::{GRAVITY_MPS2, Model};
 use crate::air::drag_n;
 use crate::runge_kutta;
 
-/// What carries a multirotor during one step of the simulator.
+/// What lifts a multirotor over one step of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AppliedControls {
-    /// Of a point mass: the acceleration that it was told, beyond what carries its weight, m/s².
+    /// Of a point mass: the acceleration in excess of the one that balances gravity, m/s².
     Acceleration(Vector3<f64>),
-    /// Of a quadrotor: thrust along its axis.
+    /// Of a quadrotor: thrust along its vertical axis.
     Thrust {
         /// Mean of the rotors' total thrust over the step, N.
         mean_n: f64,
-        /// World from body at the step's two ends, turning at a constant rate between them.
+        /// World from body at the two ends of the step, with a constant angular velocity between them.
         attitude: [UnitQuaternion<f64>; 2],
     },
 }
 
-/// Follows a flight by its momentum: what carries and what blows is taken from the log, where it goes is integrated anew.
+/// Replays a flight by its momentum: lift and air are taken from the log, the motion is integrated anew.
 ///
 /// ```text
 /// m p'' = m_0 (a + g e_3) - m g e_3 + drag     or     m p'' = F R(t) e_3 - m g e_3 + drag
@@ -31,16 +31,17 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Of a vehicle of this model. `mass_ratio`: true mass over the nominal one.
+    /// For a vehicle of this model. `mass_ratio`: true mass over the nominal one.
     pub fn new(model: &Model, mass_ratio: f64) -> Self {
         let nominal_mass_kg = model.mass_kg;
         Self { nominal_mass_kg, mass_kg: nominal_mass_kg * mass_ratio, drag_area_m2: model.drag_area_m2 }
     }
 
-    /// Where a step of `step_s`, s, leads, by a Runge-Kutta method of order 6.
+    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. Returns position, m, and velocity, m/s, at its end.
     ///
-    /// - `start`: position, m, and velocity, m/s, world frame; so is what is returned
-    /// - `wind_mps`: velocity of the air at the step's two ends
+    /// - first argument: position, m, and velocity, m/s, at the beginning of the step, world frame
+    /// - `lift`: over the step
+    /// - `wind_mps`: velocity of the air at the two ends of the step, linear in time between them
     pub fn advanced(
         &self,
         [position_m, velocity_mps]: [Vector3<f64>; 2],
@@ -51,10 +52,10 @@ impl Replay {
         let mut motion = Vector6::zeros();
         motion.fixed_rows_mut::<3>(0).copy_from(&position_m);
         motion.fixed_rows_mut::<3>(3).copy_from(&velocity_mps);
-        let motion = runge_kutta::advanced(&motion, step_s, |motion, share| {
+        let motion = runge_kutta::advanced(&motion, step_s, |motion, fraction| {
             let velocity_mps = motion.fixed_rows::<3>(3).into_owned();
-            let wind_mps = wind_mps[0] + (wind_mps[1] - wind_mps[0]) * share;
-            let force_n = self.lift_n(lift, share) + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
+            let wind_mps = wind_mps[0] + (wind_mps[1] - wind_mps[0]) * fraction;
+            let force_n = self.lift_n(lift, fraction) + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
             let mut rate = Vector6::zeros();
             rate.fixed_rows_mut::<3>(0).copy_from(&velocity_mps);
             rate.fixed_rows_mut::<3>(3).copy_from(&(force_n / self.mass_kg - Vector3::z() * GRAVITY_MPS2));
@@ -63,14 +64,14 @@ impl Replay {
         [0, 3].map(|row| motion.fixed_rows::<3>(row).into_owned())
     }
 
-    fn lift_n(&self, lift: &AppliedControls, share: f64) -> Vector3<f64> {
+    fn lift_n(&self, lift: &AppliedControls, fraction: f64) -> Vector3<f64> {
         match lift {
-            AppliedControls::Acceleration(told_mps2) => {
-                (told_mps2 + Vector3::z() * GRAVITY_MPS2) * self.nominal_mass_kg
+            AppliedControls::Acceleration(acceleration_mps2) => {
+                (acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.nominal_mass_kg
             }
             AppliedControls::Thrust { mean_n, attitude: [from, to] } => {
-                let turn = (from.inverse() * to).scaled_axis() * share;
-                from * UnitQuaternion::from_scaled_axis(turn) * Vector3::z() * *mean_n
+                let rotation_vector = (from.inverse() * to).scaled_axis() * fraction;
+                from * UnitQuaternion::from_scaled_axis(rotation_vector) * Vector3::z() * *mean_n
             }
         }
     }

@@ -155,7 +155,7 @@ mod tests {
         let cut = |a: [f64; 3], v: [f64; 3]| limited_mps2(&a.into(), &v.into(), &limits, 0.01);
         assert_eq!(cut([1.0, 1.0, 0.0], [0.0; 3]), Vector3::new(1.0, 1.0, 0.0));
         assert!((cut([30.0, 40.0, 0.0], [0.0; 3]) - Vector3::new(1.2, 1.6, 0.0) * ROUNDING_MARGIN).norm() < 1e-12);
-        // At full speed nothing speeds up, turning is free, and braking is.
+        // At full speed nothing speeds up, but turning and braking are free.
         assert!(cut([2.0, 0.0, 0.0], [3.0, 0.0, 0.0]).norm() < 1e-9);
         let turned = cut([0.0, 2.0, 0.0], [3.0, 0.0, 0.0]);
         assert!((Vector3::new(3.0, 0.0, 0.0) + turned * 0.01).norm() <= 3.0 + 1e-12 && turned.y > 1.9);

@@ -2,16 +2,16 @@ use scenarios::slung_load::Cable;
 
 use crate::flight::EventKind;
 
-/// A cable that is taut or slack for less than this, s, has not switched: rounding and ripple would fill the log.
+/// Minimum duration of a taut or slack phase, s. Shorter ones are not reported: rounding and ripple would fill the log.
 pub const MIN_PHASE_S: f64 = 0.01;
-/// The impulse of this long after the switch, s, is that of the impact.
+/// The impulse of the impact is that of the cable over this time after the switch, s.
 const IMPACT_S: f64 = 0.0015;
 
-/// Turns "the cable is taut" at each step of the simulator into events at its switches.
+/// Turns the state of the cable at each step of the plant into events at its switches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CableDetector {
     cable: Cable,
-    /// Since when it has been the other, s, and the impulse at the beginning of it, N s.
+    /// Since when the cable has been in the other state, s, and the impulse since then, N s.
     other: Option<(f64, f64)>,
 }
 
@@ -20,12 +20,12 @@ impl CableDetector {
         Self { cable, other: None }
     }
 
-    /// What the cable is held to be.
+    /// The state of the cable after the last reported switch.
     pub fn cable(&self) -> Cable {
         self.cable
     }
 
-    /// Takes in one step that began at `t_s`, s. Returns a switch with its time, s, once it has lasted.
+    /// Observes one step that began at `t_s`, s. Returns a switch with its time, s, once its phase has lasted long enough.
     pub fn observe(&mut self, t_s: f64, step_s: f64, cable: Cable, impulse_ns: f64) -> Option<(f64, EventKind)> {
         if cable == self.cable {
             self.other = None;

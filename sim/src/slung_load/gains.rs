@@ -4,17 +4,17 @@ use super::dynamics::Plant;
 use super::linear::{ErrorRates, InputRates, linearised};
 use super::reference::{Reference, ReferencePoint};
 
-/// From errors to a correction of the quadrotor's acceleration, m/s².
+/// Gain from the errors to a correction of the quadrotor's acceleration, m/s².
 pub(super) type Gain = SMatrix<f64, 3, 15>;
 
 /// Step of the Riccati recursion, s.
 const STEP_S: f64 = 0.01;
-/// Hover beyond the plan's end from which the recursion comes back, s: long enough for it to forget where it began.
+/// Duration of hover after the end of the plan over which the recursion starts, s: long enough for it to converge.
 const HOVER_S: f64 = 10.0;
 
-/// Weights of the squared errors, per second: ∫e, e, e', load position, load velocity; the weight of a squared
-/// acceleration (m/s²)² is 1. The quadrotor alone would get a natural frequency of about 600^(1/4) = 5 rad/s; the load's
-/// weights damp its swing.
+/// Weights of the squared errors, per second: ∫e, e, e', load position, load velocity. The weight of a squared acceleration,
+/// (m/s²)², is 1. The quadrotor alone would have a natural frequency of about 600^(1/4) = 5 rad/s; the load's weights damp its
+/// swing.
 const WEIGHTS: [f64; 5] = [400.0, 600.0, 20.0, 60.0, 20.0];
 
 /// Time-varying linear-quadratic regulator about a reference.
@@ -23,11 +23,11 @@ const WEIGHTS: [f64; 5] = [400.0, 600.0, 20.0, 60.0, 20.0];
 /// P_k = Q h + A_kᵀ P_{k+1} A_k - A_kᵀ P_{k+1} B_k K_k,   K_k = (R h + B_kᵀ P_{k+1} B_k)⁻¹ B_kᵀ P_{k+1} A_k
 /// ```
 ///
-/// backwards in time, through taut and slack alike; at an impact the errors of the velocities along the cable become one.
-/// (The shift of the impact's instant is left out.)
+/// The recursion runs backwards in time through taut and slack phases. At an impact the two velocity errors along the cable
+/// become equal; the shift of its time is neglected.
 #[derive(Clone, Debug)]
 pub(super) struct Gains {
-    /// One for each step of the recursion, in the order of time.
+    /// One per step of the recursion, in the order of time.
     gains: Vec<Gain>,
 }
 
@@ -57,7 +57,7 @@ impl Gains {
         Self { gains }
     }
 
-    /// The gain at `t_s`, s: beyond the plan's end that of hovering.
+    /// The gain at `t_s`, s; after the end of the plan that of hover.
     pub fn at(&self, t_s: f64) -> &Gain {
         let step = (t_s / STEP_S) as usize;
         &self.gains[step.min(self.gains.len() - 1)]
@@ -68,7 +68,7 @@ fn weights() -> ErrorRates {
     ErrorRates::from_diagonal(&SVector::from_fn(|row, _| WEIGHTS[row / 3]))
 }
 
-/// The errors' equations over one step, to second order.
+/// The linearised equations discretised over one step, to second order.
 fn discretised(plant: &Plant, point: &ReferencePoint) -> (ErrorRates, InputRates) {
     let body = &point.body;
     let [acceleration, _] = plant.accelerations_mps2(body, point.thrust_n.sum(), point.cable);
@@ -77,7 +77,7 @@ fn discretised(plant: &Plant, point: &ReferencePoint) -> (ErrorRates, InputRates
     (ErrorRates::identity() + half * a * STEP_S, half * b * STEP_S)
 }
 
-/// The cost to go before the impact between two points of the reference, if there is one.
+/// The cost-to-go before an impact between two points of the reference, if there is one.
 fn before_jump(plant: &Plant, before: &ReferencePoint, after: &ReferencePoint, p: &ErrorRates) -> ErrorRates {
     use scenarios::slung_load::Cable::{Slack, Taut};
     if (before.cable, after.cable) != (Slack, Taut) {

@@ -1,15 +1,15 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use scenarios::slung_load::{Cable, GRAVITY_MPS2};
 
-/// Errors that the tracker feeds back: ∫e, e (position), e' (velocity) of the quadrotor, then position and velocity of the
-/// load, world frame.
+/// Errors that the tracker feeds back, world frame: ∫e, e (position) and e' (velocity) of the quadrotor, then position and
+/// velocity of the load.
 pub(super) type Errors = SVector<f64, 15>;
-/// Derivative of the errors by the errors.
+/// Derivative of the error rates with respect to the errors.
 pub(super) type ErrorRates = SMatrix<f64, 15, 15>;
-/// Derivative of the errors by the quadrotor's acceleration.
+/// Derivative of the error rates with respect to the quadrotor's acceleration.
 pub(super) type InputRates = SMatrix<f64, 15, 3>;
 
-/// The errors' linear equations of motion about a reference, the quadrotor's acceleration being the input.
+/// Linearised equations of motion of the errors about a reference, with the quadrotor's acceleration as input.
 ///
 /// ```text
 /// p_Q'' = u,   p_L'' = -g e_3 - s d,   s = d·(-g e_3 - u) + |ζ|²/l     (taut)
@@ -17,7 +17,7 @@ pub(super) type InputRates = SMatrix<f64, 15, 3>;
 /// ```
 ///
 /// - `cable_m`: from the quadrotor to the load, η = l d
-/// - `relative_mps`: its derivative ζ
+/// - `relative_mps`: its time derivative ζ
 /// - `acceleration_mps2`: u of the reference
 pub(super) fn linearised(
     cable: Cable,
@@ -52,7 +52,7 @@ pub(super) fn linearised(
 mod tests {
     use super::*;
 
-    /// Acceleration of a load whose cable keeps its length, m/s².
+    /// Acceleration of a load on a cable of constant length, m/s².
     fn load_mps2(cable_m: &Vector3<f64>, relative_mps: &Vector3<f64>, u: &Vector3<f64>, length_m: f64) -> Vector3<f64> {
         let gravity = Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
         let d = cable_m.normalize();

@@ -5,27 +5,27 @@ use super::dynamics::Plant;
 use super::state::SlungLoadState;
 use crate::runge_kutta;
 
-/// A motion at one instant.
+/// Quadrotor and load at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
     /// Time, s.
     pub t_s: f64,
-    /// Motion.
+    /// State.
     pub body: SlungLoadState,
     /// Thrusts of the rotors, N.
     pub thrust_n: Vector4<f64>,
-    /// Tension of the cable, N: 0 if it is slack, negative where a taut one would have to push.
+    /// Tension of the cable, N: 0 if it is slack, negative where a taut cable would have to push.
     pub tension_n: f64,
 }
 
-/// Where four thrusts lead from a node, in air at rest, the cable staying what the plan says it is.
+/// Integrates the equations of motion over one interval, in air at rest, with the cable in its planned state.
 ///
-/// - `controls`: at the interval's two ends, linear in time between them (first-order hold)
-/// - `times_s`: of the interval's two ends, the second one later
-/// - `max_step_s`: the knots stand at equal distances of at most this, s, > 0
+/// - `controls`: at the two ends of the interval, linear in time between them (first-order hold)
+/// - `times_s`: of the two ends of the interval, in increasing order
+/// - `max_step_s`: maximum distance between two knots, which are equidistant, s, > 0
 ///
-/// Integrates by a Runge-Kutta method of order 6, one step per knot: with steps of 10 ms the error over an interval is
-/// below 1e-9 m. Returns the knots from the one end to the other, both included.
+/// The Runge-Kutta method is of order 6, with one step per knot: with steps of 10 ms the error over an interval is below
+/// 1e-9 m. Returns the knots from the start to the end of the interval, both included.
 pub fn propagate(
     plant: &Plant,
     start: &SlungLoadState,
@@ -38,9 +38,9 @@ pub fn propagate(
     let duration_s = times_s[1] - times_s[0];
     let steps = (duration_s / max_step_s).ceil().max(1.0);
     let step_s = duration_s / steps;
-    let thrust_at = |share: f64| from + (to - from) * share;
-    let knot = |t_s: f64, body: SlungLoadState, share: f64| {
-        let thrust_n = thrust_at(share);
+    let thrust_at = |fraction: f64| from + (to - from) * fraction;
+    let knot = |t_s: f64, body: SlungLoadState, fraction: f64| {
+        let thrust_n = thrust_at(fraction);
         let tension_n = match cable {
             Cable::Taut => plant.tension_n(&body, thrust_n.sum()),
             Cable::Slack => 0.0,
@@ -50,7 +50,8 @@ pub fn propagate(
     let mut knots = vec![knot(times_s[0], *start, 0.0)];
     let mut numbers = start.to_numbers();
     for step in 0..steps as usize {
-        let rate = |numbers: &_, share: f64| plant.rate(numbers, &thrust_at((step as f64 + share) / steps), cable);
+        let rate =
+            |numbers: &_, fraction: f64| plant.rate(numbers, &thrust_at((step as f64 + fraction) / steps), cable);
         let body = SlungLoadState::from_numbers(&runge_kutta::advanced(&numbers, step_s, rate));
         numbers = body.to_numbers();
         let is_last = step + 1 == steps as usize;

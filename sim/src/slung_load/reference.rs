@@ -6,35 +6,35 @@ use super::dynamics::Plant;
 use super::propagate::{Knot, propagate};
 use super::state::SlungLoadState;
 
-/// Distance between the reference's points, s: between them it is followed to better than 1e-6 m.
+/// Maximum distance between the points of the reference, s, for an interpolation error below 1e-6 m.
 const PIECE_S: f64 = 0.005;
 
 /// A plan as a continuous motion, for a tracker to follow.
 ///
-/// On each interval it is the flow of the nonlinear equations from the interval's first node under the planned thrusts,
-/// plus a smooth correction that takes up the interval's defect, so that it meets every node. At an impact it jumps, as the
-/// plan does. After the last node it hovers there.
+/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the planned
+/// thrusts, plus a smooth correction by the interval's defect, so that it interpolates every node. At an impact it is
+/// discontinuous, as the plan is. After the last node it hovers there.
 #[derive(Clone, Debug)]
 pub struct Reference {
     plant: Plant,
     points: Vec<ReferencePoint>,
 }
 
-/// What the plan asks for at one instant.
+/// The reference at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferencePoint {
     /// Time, s.
     pub t_s: f64,
-    /// Motion.
+    /// State.
     pub body: SlungLoadState,
     /// Planned thrusts, N.
     pub thrust_n: Vector4<f64>,
-    /// What the cable does from here on.
+    /// State of the cable from here on.
     pub cable: Cable,
 }
 
 impl Reference {
-    /// The reference of a trajectory with at least two nodes, for a plant as the plan knows it.
+    /// The reference of a trajectory with at least two nodes, for the nominal plant.
     pub fn new(trajectory: &Trajectory, plant: &Plant) -> Self {
         let last = trajectory.times_s.len() - 1;
         let points = (0..last).flat_map(|interval| interval_points(trajectory, plant, interval)).collect();
@@ -46,12 +46,12 @@ impl Reference {
         self.points[self.points.len() - 1].t_s
     }
 
-    /// Its points in the order of time; two of them share a time where a node does, the later one is what comes after it.
+    /// Its points in the order of time. At a node two of them have the same time; the second one is the limit from the right.
     pub fn points(&self) -> &[ReferencePoint] {
         &self.points
     }
 
-    /// What the plan asks for at `t_s`, s: any time from the first node's on. At a jump, what comes after it.
+    /// The reference at `t_s`, s, which must not be before the first node. At a discontinuity, the limit from the right.
     pub fn at(&self, t_s: f64) -> ReferencePoint {
         let after = self.points.partition_point(|point| point.t_s <= t_s);
         match self.points.get(after) {
@@ -60,7 +60,7 @@ impl Reference {
         }
     }
 
-    /// At rest where the plan ends.
+    /// Hover at the end of the plan.
     fn hover(&self, t_s: f64) -> ReferencePoint {
         let end = &self.points[self.points.len() - 1];
         let yaw = end.body.attitude.euler_angles().2;
@@ -82,7 +82,7 @@ impl Reference {
     }
 }
 
-/// The flow of an interval, bent so that it ends at the next node; nothing for an interval without length.
+/// The corrected solution of an interval, which ends at the next node; empty for an interval of zero length.
 fn interval_points(trajectory: &Trajectory, plant: &Plant, interval: usize) -> Vec<ReferencePoint> {
     let Interpolation::FirstOrderHold = trajectory.interpolation;
     let times_s = [trajectory.times_s[interval], trajectory.times_s[interval + 1]];
@@ -95,43 +95,43 @@ fn interval_points(trajectory: &Trajectory, plant: &Plant, interval: usize) -> V
     let knots = propagate(plant, &start, controls, cable, times_s, PIECE_S);
     let defect = Defect::between(&knots[knots.len() - 1].body, &SlungLoadState::from(&trajectory.states[interval + 1]));
     let point = |knot: &Knot| {
-        let share = (knot.t_s - times_s[0]) / (times_s[1] - times_s[0]);
-        let body = defect.taken_up(&knot.body, share);
+        let fraction = (knot.t_s - times_s[0]) / (times_s[1] - times_s[0]);
+        let body = defect.corrected(&knot.body, fraction);
         ReferencePoint { t_s: knot.t_s, body, thrust_n: knot.thrust_n, cable }
     };
     knots.iter().map(point).collect()
 }
 
-/// What an interval's end lacks to the next node.
+/// Difference between the end of an interval's solution and the next node.
 struct Defect {
     position_m: Vector3<f64>,
     velocity_mps: Vector3<f64>,
-    /// In body axes, rad.
-    turn: Vector3<f64>,
+    /// Rotation vector in body axes, rad.
+    rotation: Vector3<f64>,
     body_rate_radps: Vector3<f64>,
     load_position_m: Vector3<f64>,
     load_velocity_mps: Vector3<f64>,
 }
 
 impl Defect {
-    fn between(flown: &SlungLoadState, planned: &SlungLoadState) -> Self {
+    fn between(solution: &SlungLoadState, planned: &SlungLoadState) -> Self {
         Self {
-            position_m: planned.position_m - flown.position_m,
-            velocity_mps: planned.velocity_mps - flown.velocity_mps,
-            turn: (flown.attitude.inverse() * planned.attitude).scaled_axis(),
-            body_rate_radps: planned.body_rate_radps - flown.body_rate_radps,
-            load_position_m: planned.load_position_m - flown.load_position_m,
-            load_velocity_mps: planned.load_velocity_mps - flown.load_velocity_mps,
+            position_m: planned.position_m - solution.position_m,
+            velocity_mps: planned.velocity_mps - solution.velocity_mps,
+            rotation: (solution.attitude.inverse() * planned.attitude).scaled_axis(),
+            body_rate_radps: planned.body_rate_radps - solution.body_rate_radps,
+            load_position_m: planned.load_position_m - solution.load_position_m,
+            load_velocity_mps: planned.load_velocity_mps - solution.load_velocity_mps,
         }
     }
 
-    /// The motion with so much of the defect taken up as fits the share of the interval, in [0, 1]: s²(3 - 2s).
-    fn taken_up(&self, body: &SlungLoadState, share: f64) -> SlungLoadState {
-        let weight = share * share * (3.0 - 2.0 * share);
+    /// A state corrected by s²(3 - 2s) of the defect, s the fraction of the interval, in [0, 1].
+    fn corrected(&self, body: &SlungLoadState, fraction: f64) -> SlungLoadState {
+        let weight = fraction * fraction * (3.0 - 2.0 * fraction);
         SlungLoadState {
             position_m: body.position_m + self.position_m * weight,
             velocity_mps: body.velocity_mps + self.velocity_mps * weight,
-            attitude: body.attitude * UnitQuaternion::from_scaled_axis(self.turn * weight),
+            attitude: body.attitude * UnitQuaternion::from_scaled_axis(self.rotation * weight),
             body_rate_radps: body.body_rate_radps + self.body_rate_radps * weight,
             load_position_m: body.load_position_m + self.load_position_m * weight,
             load_velocity_mps: body.load_velocity_mps + self.load_velocity_mps * weight,
@@ -139,7 +139,7 @@ impl Defect {
     }
 }
 
-/// Positions by the cubic with the ends' velocities, the rest linearly.
+/// Interpolates positions by the cubic with the velocities at the ends, everything else linearly.
 fn between(from: &ReferencePoint, to: &ReferencePoint, t_s: f64) -> ReferencePoint {
     let duration_s = to.t_s - from.t_s;
     if duration_s <= 0.0 {

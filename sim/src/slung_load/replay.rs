@@ -6,26 +6,26 @@ use super::state::SlungLoadState;
 use crate::air::drag_n;
 use crate::runge_kutta;
 
-/// What acts on quadrotor and load during one step of the simulator.
+/// Thrust, tension and air of quadrotor and load over one step of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AppliedControls {
     /// Mean of the rotors' total thrust over the step, N.
     pub thrust_n: f64,
-    /// World from body at the step's two ends, turning at a constant rate between them.
+    /// World from body at the two ends of the step, with a constant angular velocity between them.
     pub attitude: [UnitQuaternion<f64>; 2],
     /// Mean tension of the cable over the step, N.
     pub tension_n: f64,
-    /// Velocity of the air at the step's two ends, world frame, m/s.
+    /// Velocity of the air at the two ends of the step, linear in time between them, world frame, m/s.
     pub wind_mps: [Vector3<f64>; 2],
 }
 
-/// Follows a flight by the momentum of its two bodies: what pulls is taken from the log, where they go is integrated anew.
+/// Replays a flight by the momentum of its two bodies: the forces are taken from the log, the motion is integrated anew.
 ///
 /// ```text
 /// m_Q p_Q'' = F R(t) e_3 + T d - m_Q g e_3 + drag,     m_L p_L'' = -T d - m_L g e_3 + drag,   d along the cable
 /// ```
 ///
-/// No case has to be told apart: a slack cable is one with T = 0, and an impact a large T in one step.
+/// Taut, slack and impact need no distinction: a slack cable has T = 0, and an impact is a large T over one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Replay {
     plant: Plant,
@@ -37,38 +37,38 @@ pub struct Replay {
 type Motion = SVector<f64, 12>;
 
 impl Replay {
-    /// Of a vehicle of this model, with its true masses.
+    /// For a vehicle of this model, and its plant with the true masses.
     pub fn new(model: &Model, plant: &Plant) -> Self {
         Self { plant: *plant, drag_area_m2: model.drag_area_m2, load_drag_area_m2: model.load_drag_area_m2 }
     }
 
-    /// Where a step of `step_s`, s, leads, by a Runge-Kutta method of order 6. The attitude is the logged one at its end.
-    pub fn advanced(&self, start: &SlungLoadState, acting: &AppliedControls, step_s: f64) -> SlungLoadState {
+    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. The attitude is the logged one at its end.
+    pub fn advanced(&self, start: &SlungLoadState, applied: &AppliedControls, step_s: f64) -> SlungLoadState {
         let mut motion = Motion::zeros();
         let parts = [start.position_m, start.velocity_mps, start.load_position_m, start.load_velocity_mps];
         for (index, part) in parts.iter().enumerate() {
             motion.fixed_rows_mut::<3>(3 * index).copy_from(part);
         }
-        let motion = runge_kutta::advanced(&motion, step_s, |motion, share| self.rate(motion, acting, share));
+        let motion = runge_kutta::advanced(&motion, step_s, |motion, fraction| self.rate(motion, applied, fraction));
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
         SlungLoadState {
             position_m: part(0),
             velocity_mps: part(1),
             load_position_m: part(2),
             load_velocity_mps: part(3),
-            attitude: acting.attitude[1],
+            attitude: applied.attitude[1],
             body_rate_radps: Vector3::zeros(),
         }
     }
 
-    fn rate(&self, motion: &Motion, acting: &AppliedControls, share: f64) -> Motion {
+    fn rate(&self, motion: &Motion, applied: &AppliedControls, fraction: f64) -> Motion {
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
         let (velocity_mps, load_velocity_mps) = (part(1), part(3));
-        let turn = (acting.attitude[0].inverse() * acting.attitude[1]).scaled_axis() * share;
-        let axis = acting.attitude[0] * UnitQuaternion::from_scaled_axis(turn) * Vector3::z();
-        let pull_n = (part(2) - part(0)).try_normalize(0.0).unwrap_or_else(Vector3::zeros) * acting.tension_n;
-        let wind_mps = acting.wind_mps[0] + (acting.wind_mps[1] - acting.wind_mps[0]) * share;
-        let force_n = axis * acting.thrust_n + pull_n + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
+        let rotation_vector = (applied.attitude[0].inverse() * applied.attitude[1]).scaled_axis() * fraction;
+        let axis = applied.attitude[0] * UnitQuaternion::from_scaled_axis(rotation_vector) * Vector3::z();
+        let pull_n = (part(2) - part(0)).try_normalize(0.0).unwrap_or_else(Vector3::zeros) * applied.tension_n;
+        let wind_mps = applied.wind_mps[0] + (applied.wind_mps[1] - applied.wind_mps[0]) * fraction;
+        let force_n = axis * applied.thrust_n + pull_n + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
         let load_force_n = drag_n(&(wind_mps - load_velocity_mps), self.load_drag_area_m2) - pull_n;
         let gravity = Vector3::z() * GRAVITY_MPS2;
         let mut rate = Motion::zeros();

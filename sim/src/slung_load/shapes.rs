@@ -1,4 +1,4 @@
-//! Body, cable and load as shapes, and their signed distance to the obstacles.
+//! Body, cable and load as convex shapes, and their signed distances from the obstacles.
 
 mod distance;
 
@@ -9,7 +9,7 @@ use self::distance::{ConvexPart, point_to_prism_m, to_prism, to_prism_m};
 pub use self::distance::{OVERHANG_M, SeparatingPlane};
 use super::state::SlungLoadState;
 
-/// What the ground is called where an obstacle has a name.
+/// The name of the ground where an obstacle has a name.
 pub const GROUND: &str = "ground";
 
 /// A part of a quadrotor with a load.
@@ -17,14 +17,14 @@ pub const GROUND: &str = "ground";
 pub enum Part {
     /// The disc over the rotors.
     Body,
-    /// The straight line between its ends.
+    /// The straight line between the ends of the cable.
     Cable,
     /// The ball about the load.
     Load,
 }
 
 impl Part {
-    /// All of them.
+    /// All parts.
     pub const ALL: [Self; 3] = [Self::Body, Self::Cable, Self::Load];
 
     /// Its name.
@@ -50,7 +50,7 @@ impl Parts {
         Self { body_radius_m: model.body_radius_m(), load_radius_m: model.load_radius_m }
     }
 
-    /// Signed distance between a part and an obstacle with its corners counterclockwise, m: negative when they overlap.
+    /// Signed distance between a part and an obstacle, whose corners are counterclockwise, m: negative if they overlap.
     pub fn distance_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => {
@@ -66,7 +66,8 @@ impl Parts {
         }
     }
 
-    /// That distance, and a plane between part (the load's centre) and obstacle if they do not overlap.
+    /// Signed distance as [`distance_m`](Self::distance_m), and a plane between obstacle and part (for the load, its centre) if
+    /// they do not overlap.
     pub fn distance_and_plane(
         &self,
         part: Part,
@@ -86,7 +87,7 @@ impl Parts {
         }
     }
 
-    /// A bound of that distance from below that costs little, m: by the ball about the part.
+    /// A cheap lower bound of [`distance_m`](Self::distance_m), from the ball around the part, m.
     pub fn distance_lower_bound_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => point_to_prism_m(&body.position_m, obstacle) - self.body_radius_m,
@@ -98,7 +99,7 @@ impl Parts {
         }
     }
 
-    /// Signed distance in the plane between the envelope circle and an obstacle at whatever height, m.        [Kang 2020, eq. 14]
+    /// Signed horizontal distance between the envelope circle and an obstacle, at any altitude, m.        [Kang 2020, eq. 14]
     pub fn envelope_distance_m(&self, body: &SlungLoadState, obstacle: &Prism) -> f64 {
         obstacle.signed_distance_m([body.position_m.x, body.position_m.y]) - self.envelope_radius_m(body)
     }
@@ -109,7 +110,7 @@ impl Parts {
         body.position_m.z - self.body_radius_m * (1.0 - upright * upright).max(0.0).sqrt()
     }
 
-    /// Radius of the envelope circle: that of the body, or the horizontal reach of the load, whichever is larger, m.
+    /// Radius of the envelope circle, m: the larger one of the body's radius and the load's horizontal distance.
     pub fn envelope_radius_m(&self, body: &SlungLoadState) -> f64 {
         body.cable_m().xy().norm().max(self.body_radius_m)
     }

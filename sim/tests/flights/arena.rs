@@ -52,7 +52,7 @@ fn vehicle(number: usize) -> Vehicle {
     Vehicle { name: format!("uav-{number}"), model: "plane".into(), start: nowhere, goal: nowhere }
 }
 
-pub fn pillar(name: &str, x_m: f64, y_m: f64, radius_m: f64) -> Cylinder {
+pub fn cylinder(name: &str, x_m: f64, y_m: f64, radius_m: f64) -> Cylinder {
     Cylinder { name: name.into(), center_m: [x_m, y_m], radius_m }
 }
 
@@ -84,7 +84,7 @@ pub fn straight(start: State, duration_s: f64) -> Trajectory {
     }
 }
 
-/// Constant load factors from `start`. The states after the first are only there for the form's sake.
+/// Constant load factors from `start`. The states after the first are placeholders.
 pub fn constant_controls(start: State, control: Control, duration_s: f64) -> Trajectory {
     Trajectory {
         vehicle: String::new(),
@@ -95,9 +95,8 @@ pub fn constant_controls(start: State, control: Control, duration_s: f64) -> Tra
     }
 }
 
-/// Turns, climbs and changes of speed for 230 s, with 5 s between the nodes: a consistent plan, its states from the
-/// polar equations. Each control leans a little against the climb and the speed of the node before, so that neither runs
-/// away.
+/// Turns, climbs and changes of speed for 230 s, with 5 s between the nodes: a consistent plan with states from the polar
+/// equations. Each control counteracts the climb and the speed error of the node before, so that both stay bounded.
 pub fn manoeuvres() -> Trajectory {
     let times_s: Vec<f64> = (0..=46).map(|node| 5.0 * f64::from(node)).collect();
     let control = |t_s: f64, state: &State| Control {
@@ -115,7 +114,7 @@ pub fn manoeuvres() -> Trajectory {
     Trajectory { vehicle: String::new(), interpolation: Interpolation::FirstOrderHold, times_s, states, controls }
 }
 
-/// Nothing to report to.
+/// Ignores the progress.
 pub fn silent(_: f64) {}
 
 pub fn position(sample: &Sample) -> Vector3<f64> {

@@ -13,17 +13,17 @@ fn assert_log_ends_at(flight: &Flight, vehicle: usize, t_s: f64) {
     assert!(last_s >= t_s && last_s < t_s + flight.step_s + 1e-9, "log ends at {last_s} s, crash at {t_s} s");
 }
 
-fn with_pillar() -> Scenario {
+fn with_cylinder() -> Scenario {
     let mut scenario = arena::scenario(2);
     scenario.world.cylinders =
-        vec![arena::pillar("elsewhere", 0.0, -5000.0, 400.0), arena::pillar("tower", 500.0, 30.0, 50.0)];
+        vec![arena::cylinder("elsewhere", 0.0, -5000.0, 400.0), arena::cylinder("tower", 500.0, 30.0, 50.0)];
     scenario
 }
 
 #[test]
-fn flying_into_a_pillar_ends_the_log_at_the_moment_of_touch() {
+fn a_collision_with_a_cylinder_ends_the_log_at_the_first_contact() {
     let tracks = [0.0, 3000.0].map(|y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 30.0));
-    let flight = fly(&with_pillar(), &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
+    let flight = fly(&with_cylinder(), &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
     let reach_m = 50.0 + BODY_RADIUS_M;
     let touch_s = (500.0 - (reach_m.powi(2) - 30.0_f64.powi(2)).sqrt()) / 35.0;
     let [crash] = crashes(&flight)[..] else { panic!("{:?}", flight.events) };
@@ -35,17 +35,17 @@ fn flying_into_a_pillar_ends_the_log_at_the_moment_of_touch() {
 }
 
 #[test]
-fn passing_a_pillar_by_a_millimetre_is_no_crash() {
+fn passing_a_cylinder_by_a_millimetre_is_no_crash() {
     for (gap_m, expected) in [(1e-3, 0), (-1e-3, 1)] {
         let y_m = 30.0 - 50.0 - BODY_RADIUS_M - gap_m;
         let tracks = [y_m, 3000.0].map(|y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 30.0));
-        let flight = fly(&with_pillar(), &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
+        let flight = fly(&with_cylinder(), &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
         assert_eq!(crashes(&flight).len(), expected, "gap of {gap_m} m");
     }
 }
 
 #[test]
-fn a_mid_air_collision_takes_both_out_and_leaves_the_third() {
+fn a_mid_air_collision_removes_both_and_leaves_the_third() {
     let tracks = vec![
         arena::straight(arena::level(0.0, 0.0, 35.0, 0.0), 30.0),
         arena::straight(arena::level(0.0, 200.0, 40.0, 0.0), 30.0),
@@ -63,9 +63,9 @@ fn a_mid_air_collision_takes_both_out_and_leaves_the_third() {
     assert_eq!(flight.vehicles[1].samples.len(), 3201);
 }
 
-/// Two small aircraft that close at 80 m/s: at a step of 40 ms they are 3.2 m nearer at each, and overlap for 10 ms.
+/// Two small aircraft approach each other at 80 m/s, by 3.2 m in each step of 40 ms, and overlap for 10 ms.
 #[test]
-fn nobody_slips_through_between_two_steps() {
+fn collisions_between_two_steps_are_detected() {
     let mut scenario = arena::scenario(2);
     scenario.simulation.step_s = 0.04;
     scenario.models.fixed_wing.get_mut("plane").unwrap().body_radius_m = 0.2;
@@ -81,9 +81,9 @@ fn nobody_slips_through_between_two_steps() {
 }
 
 #[test]
-fn whoever_starts_in_a_pillar_crashes_at_once() {
-    let mut scenario = with_pillar();
-    scenario.world.cylinders.push(arena::pillar("at-the-start", 10.0, 0.0, 20.0));
+fn an_aircraft_that_starts_inside_a_cylinder_crashes_at_once() {
+    let mut scenario = with_cylinder();
+    scenario.world.cylinders.push(arena::cylinder("at-the-start", 10.0, 0.0, 20.0));
     let tracks = [0.0, 3000.0].map(|y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 30.0));
     let flight = fly(&scenario, &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
     assert_eq!(crashes(&flight)[0].t_s, 0.0);

@@ -12,11 +12,11 @@ const WIND_MPS: [f64; 3] = [-6.0, 4.0, 0.5];
 fn in_steady_wind_the_flight_relative_to_the_air_is_the_windless_one() {
     let plan = arena::plan(vec![arena::manoeuvres()]);
     let mut scenario = arena::scenario(1);
-    // The same velocity through the air: in still air the start is the planned one, in the wind it drifts with it.
+    // The same velocity through the air: in wind, the start velocity over ground includes that of the air.
     let still = fly_with(&scenario, &plan, 0, &OPEN_LOOP, &mut arena::silent);
     scenario.simulation.wind = Some(Wind { mean_mps: WIND_MPS, gusts: None, pulses: vec![] });
-    let setup = FlightOptions { start_velocity_offset_mps: WIND_MPS, ..OPEN_LOOP };
-    let windy = fly_with(&scenario, &plan, 0, &setup, &mut arena::silent);
+    let options = FlightOptions { start_velocity_offset_mps: WIND_MPS, ..OPEN_LOOP };
+    let windy = fly_with(&scenario, &plan, 0, &options, &mut arena::silent);
     for (still, windy) in still.vehicles[0].samples.iter().zip(&windy.vehicles[0].samples) {
         let drifted = arena::position(still) + Vector3::from(WIND_MPS) * still.t_s;
         assert!((arena::position(windy) - drifted).norm() < 1e-6);
@@ -65,9 +65,9 @@ fn a_heavier_aircraft_flies_the_wider_circle() {
     }
 }
 
-/// A lift short by the weight of the excess mass: at first the aircraft falls with g (1 - 1/r).
+/// The planned lift does not balance the excess weight: at first the aircraft falls with g (1 - 1/r).
 #[test]
-fn an_overweight_aircraft_sags_until_the_tracker_holds_it_by_its_spring() {
+fn an_overweight_aircraft_sags_until_the_position_feedback_balances_it() {
     let ratio = 1.1;
     let mut scenario = arena::scenario(1);
     scenario.simulation.mismatch.mass_ratio = ratio;
@@ -91,7 +91,7 @@ fn gusty(seed: u64) -> Flight {
 }
 
 #[test]
-fn every_vehicle_meets_gusts_of_its_own_about_the_mean_wind() {
+fn every_vehicle_has_gusts_of_its_own_about_the_mean_wind() {
     let flight = gusty(4);
     let [first, second] = [0, 1].map(|index| &flight.vehicles[index].samples);
     assert!(first.iter().zip(second).all(|(a, b)| a.wind_mps != b.wind_mps));
@@ -100,7 +100,7 @@ fn every_vehicle_meets_gusts_of_its_own_about_the_mean_wind() {
 }
 
 #[test]
-fn what_acts_is_the_load_factors_in_the_air_that_is_logged() {
+fn the_logged_load_factors_and_air_explain_the_acceleration() {
     let flight = gusty(4);
     for pair in flight.vehicles[0].samples.windows(2) {
         let mean_air = (Vector3::from(pair[0].air_velocity_mps()) + Vector3::from(pair[1].air_velocity_mps())) / 2.0;

@@ -1,4 +1,4 @@
-//! The same flight with finer steps, and the flight followed by another integrator.
+//! The same flight with finer steps, and replayed by another integrator.
 
 use nalgebra::Vector3;
 use scenarios::{Scenario, Sensors, Wind};
@@ -27,7 +27,7 @@ fn apart_m(one: &Flight, other: &Flight) -> f64 {
 
 /// Second order: h²(1 - 1/16) against h²(1/4 - 1/16), which is 5. The noise is the same in all three.
 #[test]
-fn flights_with_finer_steps_converge_as_those_of_a_method_of_second_order_do() {
+fn flights_with_finer_steps_converge_with_second_order() {
     let [whole, half, quarter] = [0, 1, 2].map(|halvings| flown(&disturbed(), halvings));
     let (coarse_m, fine_m) = (apart_m(&whole, &quarter), apart_m(&half, &quarter));
     assert!(coarse_m < 1e-4, "{coarse_m} m");
@@ -37,11 +37,11 @@ fn flights_with_finer_steps_converge_as_those_of_a_method_of_second_order_do() {
 
 /// From the log's controls and air, with the true mass, over 2.5 s.
 #[test]
-fn a_replay_stays_with_the_flight_and_tells_a_wrong_mass() {
+fn a_replay_agrees_with_the_flight_and_detects_a_wrong_mass() {
     let scenario = disturbed();
     let flight = flown(&scenario, 0);
     let samples = &flight.vehicles[0].samples;
-    let missed_m = |mass_ratio: f64| {
+    let error_m = |mass_ratio: f64| {
         let knot = |index: usize| Knot {
             t_s: samples[index].t_s,
             position_m: arena::position(&samples[index]),
@@ -49,11 +49,11 @@ fn a_replay_stays_with_the_flight_and_tells_a_wrong_mass() {
         };
         let follow = |motion: Knot, index: usize| {
             let wind_mps = [index, index + 1].map(|index| Vector3::from(samples[index].wind_mps));
-            let acting = AppliedControls { control: samples[index].load_factors().control, wind_mps, mass_ratio };
-            replayed(&motion, &acting, samples[index + 1].t_s)
+            let applied = AppliedControls { control: samples[index].load_factors().control, wind_mps, mass_ratio };
+            replayed(&motion, &applied, samples[index + 1].t_s)
         };
         ((4000..4250).fold(knot(4000), follow).position_m - knot(4250).position_m).norm()
     };
-    assert!(missed_m(1.05) < 1e-4, "{} m", missed_m(1.05));
-    assert!(missed_m(1.0) > 0.01, "{} m", missed_m(1.0));
+    assert!(error_m(1.05) < 1e-4, "{} m", error_m(1.05));
+    assert!(error_m(1.0) > 0.01, "{} m", error_m(1.0));
 }

@@ -1,4 +1,4 @@
-//! Whole flights against what physics says about them.
+//! Whole flights against closed forms and independent integrators.
 
 mod arena;
 mod crash;

@@ -10,7 +10,7 @@ pub const OPEN_LOOP: FlightOptions = FlightOptions {
     halvings: 0,
 };
 
-/// Largest distance, at the nodes of 230 s of manoeuvres, between rapier's flight and the polar equations', m.
+/// Maximum distance between the simulated flight and the polar equations at the nodes of 230 s of manoeuvres, m.
 fn error_m(step_s: f64) -> f64 {
     let mut scenario = arena::scenario(1);
     scenario.simulation.step_s = step_s;
@@ -26,7 +26,7 @@ fn error_m(step_s: f64) -> f64 {
 }
 
 #[test]
-fn rapier_flies_the_equations_to_a_millimetre() {
+fn the_flight_obeys_the_equations_to_a_millimetre() {
     let error = error_m(0.01);
     assert!(error < 1e-3, "{error} m");
 }

@@ -1,4 +1,4 @@
-//! The fixed-wing equations in polar form, and an adaptive integrator: the other way to the same motion.
+//! The fixed-wing equations in polar form, and an adaptive integrator: an independent computation of the same motion.
 
 use scenarios::fixed_wing::{Control, State};
 
@@ -33,10 +33,10 @@ const A: [&[f64]; 7] = [
 const B4: [f64; 7] =
     [5179.0 / 57600.0, 0.0, 7571.0 / 16695.0, 393.0 / 640.0, -92097.0 / 339200.0, 187.0 / 2100.0, 1.0 / 40.0];
 
-/// Largest error of a step, in units of the state: m, m/s, rad.
+/// Maximum error of a step, in units of the state: m, m/s, rad.
 const TOLERANCE: f64 = 1e-10;
 
-/// Where controls that go linearly from one end to the other lead from `start` in `duration_s`.
+/// The state after `duration_s` under controls that are linear in time.
 pub fn integrate(start: &State, controls: [Control; 2], duration_s: f64) -> State {
     let control = |t_s: f64| {
         let [first, last] = controls.map(Control::to_array);
@@ -55,7 +55,7 @@ pub fn integrate(start: &State, controls: [Control; 2], duration_s: f64) -> Stat
     State::from_array(state)
 }
 
-/// One step, and the largest difference between the two orders.
+/// One step, and the maximum difference between the two orders.
 fn step(state: &Vector, t_s: f64, step_s: f64, control: impl Fn(f64) -> Control) -> (Vector, f64) {
     let mut rates = [[0.0; 6]; 7];
     let sum = |weights: &[f64], rates: &[Vector; 7]| -> Vector {

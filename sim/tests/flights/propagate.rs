@@ -8,7 +8,7 @@ const CLIMBING_TURN: State =
     State { x_m: 100.0, y_m: -50.0, z_m: 400.0, speed_mps: 33.0, heading_rad: 2.8, flight_path_rad: -0.08 };
 const CONTROLS: [Control; 2] = [Control { n_x: 0.2, n_y: 0.4, n_z: 1.3 }, Control { n_x: -0.1, n_y: 0.3, n_z: 0.8 }];
 
-/// Distance of the flow's end from the polar equations', m.
+/// Distance between the ends of the propagated motion and of that by the polar equations, m.
 fn error_m(max_step_s: f64) -> f64 {
     let expected = polar::integrate(&CLIMBING_TURN, CONTROLS, 8.0);
     let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, max_step_s);
@@ -16,7 +16,7 @@ fn error_m(max_step_s: f64) -> f64 {
 }
 
 #[test]
-fn flow_agrees_with_the_polar_equations_at_every_knot() {
+fn propagation_agrees_with_the_polar_equations_at_every_knot() {
     let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 8.0, 0.3);
     let at_share = |share: f64| {
         let [first, last] = CONTROLS.map(Control::to_array);
@@ -31,7 +31,7 @@ fn flow_agrees_with_the_polar_equations_at_every_knot() {
 }
 
 #[test]
-fn flow_holds_both_ends_and_equal_steps_within_the_bound() {
+fn knots_include_both_ends_at_equal_distances_within_the_bound() {
     let knots = propagate(&CLIMBING_TURN, CONTROLS, 10.0, 1.0, 0.3);
     let times: Vec<f64> = knots.iter().map(|knot| knot.t_s).collect();
     assert_eq!(times, [10.0, 10.25, 10.5, 10.75, 11.0]);
@@ -40,7 +40,7 @@ fn flow_holds_both_ends_and_equal_steps_within_the_bound() {
 }
 
 #[test]
-fn flow_is_of_order_six() {
+fn propagation_is_of_order_six() {
     let ratio = error_m(2.0) / error_m(1.0);
     assert!((48.0..96.0).contains(&ratio), "halving the step divides the error by {ratio}, not by 64");
 }
@@ -59,9 +59,9 @@ fn rollout_of_a_consistent_plan_ends_at_its_last_node() {
 }
 
 #[test]
-fn rollout_carries_an_error_on_where_the_flow_restarts() {
+fn rollout_carries_an_error_on_where_propagation_restarts() {
     let mut trajectory = arena::straight(arena::level(0.0, 0.0, 35.0, 0.0), 20.0);
-    // The controls slow down from 35 to 30.095 m/s, which the states ignore.
+    // The controls decelerate from 35 to 30.095 m/s, but the states do not.
     trajectory.controls[0].n_x = -0.2;
     let end = rollout(&trajectory, 0.25).pop().unwrap();
     let lost_mps = 9.81 * 0.2 * 5.0 / 2.0;

@@ -5,7 +5,7 @@ use sim::fixed_wing::{Reference, rollout};
 
 use crate::arena;
 
-/// A plan whose every node is off the flow of the interval before it, by metres and by m/s.
+/// A plan in which every node differs from the end of the propagated interval before it, by metres and by m/s.
 fn inconsistent() -> Trajectory {
     let mut trajectory = arena::manoeuvres();
     for (node, state) in trajectory.states.iter_mut().enumerate().skip(1) {
@@ -18,7 +18,7 @@ fn inconsistent() -> Trajectory {
 }
 
 #[test]
-fn a_consistent_plan_is_followed_as_it_is() {
+fn a_consistent_plan_is_not_changed() {
     let trajectory = arena::manoeuvres();
     let reference = Reference::new(&trajectory);
     for knot in rollout(&trajectory, 0.13) {
@@ -29,7 +29,7 @@ fn a_consistent_plan_is_followed_as_it_is() {
 }
 
 #[test]
-fn the_reference_meets_every_node_and_has_no_jumps() {
+fn the_reference_interpolates_every_node_and_is_continuous() {
     let trajectory = inconsistent();
     let reference = Reference::new(&trajectory);
     for (t_s, state) in trajectory.times_s.iter().zip(&trajectory.states) {
@@ -56,7 +56,7 @@ fn velocity_and_acceleration_are_the_derivatives() {
 }
 
 #[test]
-fn beyond_the_end_it_goes_straight_on() {
+fn after_the_end_it_continues_straight() {
     let reference = Reference::new(&arena::straight(arena::level(10.0, 20.0, 35.0, 90.0), 30.0));
     let point = reference.at(32.0);
     assert_eq!(reference.end_s(), 30.0);

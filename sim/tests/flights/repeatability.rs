@@ -8,12 +8,12 @@ fn disturbed() -> (Scenario, Plan) {
     let gusts = Gusts { wind_at_20ft_mps: 7.7, sigma_aloft_mps: 0.8 };
     scenario.simulation.wind = Some(Wind { mean_mps: [3.0, 1.0, 0.0], gusts: Some(gusts), pulses: vec![] });
     scenario.simulation.sensors = Sensors { position_noise_m: 0.5, velocity_noise_mps: 0.1, ..Sensors::default() };
-    scenario.world.cylinders = vec![arena::pillar("tower", 700.0, 600.0, 80.0)];
+    scenario.world.cylinders = vec![arena::cylinder("tower", 700.0, 600.0, 80.0)];
     let start = |y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 40.0);
     (scenario, arena::plan(vec![start(0.0), start(300.0), start(600.0)]))
 }
 
-/// The flight without what differs from run to run.
+/// The flight without its wall time.
 fn flown(seed: u64) -> Flight {
     let (scenario, plan) = disturbed();
     Flight { wall_s: 0.0, ..fly(&scenario, &plan, seed, &mut arena::silent) }
@@ -30,9 +30,9 @@ fn another_seed_gives_another_flight() {
     assert_ne!(first, second);
 }
 
-/// Everybody has streams of random numbers of their own: a crash of one changes nothing for the others.
+/// Every vehicle has its own streams of random numbers: a crash of one has no effect on the others.
 #[test]
-fn what_one_vehicle_meets_does_not_depend_on_the_others() {
+fn the_flight_of_one_vehicle_does_not_depend_on_the_others() {
     let (mut scenario, plan) = disturbed();
     let with_crash = fly(&scenario, &plan, 1, &mut arena::silent);
     assert!(with_crash.vehicles[2].samples.len() < with_crash.vehicles[0].samples.len());

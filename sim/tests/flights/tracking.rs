@@ -34,7 +34,7 @@ fn decay(ω: f64, ζ: f64, t_s: f64) -> f64 {
     (-ζ * ω * t_s).exp() * ((ω_d * t_s).cos() + ζ * ω / ω_d * (ω_d * t_s).sin())
 }
 
-/// The command is held over a step, which the law in continuous time knows nothing of: 1 % of the offset is for that.
+/// The command is held over a step, unlike in the continuous-time law: the tolerance of 1 % of the offset is for that.
 #[test]
 fn an_offset_decays_at_the_rate_of_the_gains() {
     let offset = [2.0, -3.0, 1.5];
@@ -49,7 +49,7 @@ fn an_offset_decays_at_the_rate_of_the_gains() {
 }
 
 #[test]
-fn what_acts_stays_inside_the_limits_and_saturation_is_reported() {
+fn controls_stay_inside_the_limits_and_saturation_is_reported() {
     let scenario = arena::scenario(1);
     let flight = from_offset(0.5, 1.0, [0.0, 150.0, -40.0]);
     let limits = scenario.models.fixed_wing["plane"].limits.controls();
@@ -68,7 +68,7 @@ fn what_acts_stays_inside_the_limits_and_saturation_is_reported() {
 }
 
 #[test]
-fn noise_moves_the_measurement_and_not_the_truth() {
+fn noise_affects_the_measurement_but_not_the_truth() {
     let mut scenario = arena::scenario(1);
     scenario.simulation.sensors =
         scenarios::Sensors { position_noise_m: 1.0, velocity_noise_mps: 0.1, ..Default::default() };
@@ -77,13 +77,13 @@ fn noise_moves_the_measurement_and_not_the_truth() {
     let noise = samples.iter().map(|sample| sample.measured_position_m[0] - sample.position_m[0]);
     let variance = noise.map(|noise| noise * noise).sum::<f64>() / samples.len() as f64;
     assert!((variance - 1.0).abs() < 0.05, "{variance}");
-    // White noise of σ at each step through the loop's bandwidth leaves far less than σ in the path.
+    // The closed loop filters white noise of σ at each step: the path deviates by far less than σ.
     let worst = samples.iter().map(arena::tracking_error_m).fold(0.0, f64::max);
     assert!(worst > 0.005 && worst < 0.5, "{worst} m");
 }
 
 #[test]
-fn the_attitude_carries_the_lift_and_points_along_the_air_path() {
+fn the_attitude_is_along_the_air_path_and_banks_with_the_lift() {
     let flight = fly(&arena::scenario(1), &arena::plan(vec![arena::manoeuvres()]), 0, &mut arena::silent);
     for sample in flight.vehicles[0].samples.iter().step_by(100) {
         let attitude = nalgebra::UnitQuaternion::new_unchecked(sample.world_from_body.into());

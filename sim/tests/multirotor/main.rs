@@ -1,5 +1,5 @@
-//! The plant of multirotors against an independent integrator, and the clockwork of planning in the loop.
+//! The plant of multirotors against an independent integrator, and the schedule of in-loop planning.
 
 mod arena;
-mod clockwork;
 mod plant;
+mod schedule;

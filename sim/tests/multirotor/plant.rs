@@ -1,5 +1,5 @@
-//! What acted in a flight, put once more through the equations of motion, by a Runge-Kutta method of order 4 with small
-//! steps that is written here, from Newton's and Euler's laws.
+//! The logged controls integrated independently, from Newton's and Euler's laws, by a Runge-Kutta method of order 4 with small
+//! steps.
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 use scenarios::multirotor::GRAVITY_MPS2;
@@ -7,7 +7,7 @@ use sim::{Actuation, ControlMode, Flight, FlightOptions, Sample, fly, fly_with};
 
 use crate::arena::{nodes, plan, scenario};
 
-/// Steps of the integrator for each of the simulator's.
+/// Steps of the integrator for each step of the simulator.
 const SUBSTEPS: usize = 20;
 const STEP_S: f64 = 0.01;
 const MASS_KG: f64 = 1.5;
@@ -37,7 +37,7 @@ fn flown(plant: &str) -> Flight {
 }
 
 #[test]
-fn the_start_is_drawn_where_the_scenario_asks_for_it() {
+fn the_start_is_drawn_from_the_disc_of_the_scenario() {
     let mut scenario = scenario("quadrotor");
     scenario.simulation.mismatch.start_radius_m = 0.3;
     let flight = fly(&scenario, &plan(&scenario, &nodes()), 7, &mut |_| {});
@@ -50,14 +50,14 @@ fn error_m(sample: &Sample, position_m: Vector3<f64>) -> f64 {
 }
 
 #[test]
-fn a_point_mass_moves_as_its_accelerations_and_the_air_make_it() {
+fn the_logged_accelerations_and_air_explain_the_motion_of_a_point_mass() {
     let flight = flown("point-mass");
     let samples = &flight.vehicles[0].samples;
     let mut state = SVector::<f64, 6>::zeros();
     state.fixed_rows_mut::<3>(0).copy_from(&Vector3::from(samples[0].position_m));
-    let mut worst_m: f64 = 0.0;
+    let mut max_m: f64 = 0.0;
     for sample in samples {
-        worst_m = worst_m.max(error_m(sample, state.fixed_rows::<3>(0).into()));
+        max_m = max_m.max(error_m(sample, state.fixed_rows::<3>(0).into()));
         let Actuation::Acceleration(acceleration) = sample.actuation else { panic!("a point mass") };
         for _ in 0..SUBSTEPS {
             state = rk4(state, STEP_S / SUBSTEPS as f64, |state| {
@@ -69,11 +69,11 @@ fn a_point_mass_moves_as_its_accelerations_and_the_air_make_it() {
             });
         }
     }
-    assert!(samples.len() == 601 && worst_m < 2e-3, "{worst_m} m");
+    assert!(samples.len() == 601 && max_m < 2e-3, "{max_m} m");
 }
 
 #[test]
-fn a_quadrotor_moves_as_its_rotors_and_the_air_make_it() {
+fn the_logged_thrusts_and_air_explain_the_motion_of_a_quadrotor() {
     let flight = flown("quadrotor");
     let samples = &flight.vehicles[0].samples;
     let inertia = Vector3::new(0.0177, 0.0150, 0.0264);
@@ -82,12 +82,12 @@ fn a_quadrotor_moves_as_its_rotors_and_the_air_make_it() {
     state.fixed_rows_mut::<3>(0).copy_from(&Vector3::from(samples[0].position_m));
     state[9] = 1.0;
     state.fixed_rows_mut::<4>(13).copy_from(&Vector4::repeat(MASS_KG * GRAVITY_MPS2 / 4.0));
-    let (mut worst_m, mut worst_rad): (f64, f64) = (0.0, 0.0);
+    let (mut max_m, mut max_rad): (f64, f64) = (0.0, 0.0);
     for sample in samples {
         let attitude = |q: Vector4<f64>| UnitQuaternion::from_quaternion(Quaternion::from(q));
         let flown = attitude(Vector4::from(sample.world_from_body));
-        worst_m = worst_m.max(error_m(sample, state.fixed_rows::<3>(0).into()));
-        worst_rad = worst_rad.max(flown.angle_to(&attitude(state.fixed_rows::<4>(6).into())));
+        max_m = max_m.max(error_m(sample, state.fixed_rows::<3>(0).into()));
+        max_rad = max_rad.max(flown.angle_to(&attitude(state.fixed_rows::<4>(6).into())));
         let Actuation::Thrusts(thrusts) = sample.actuation else { panic!("a quadrotor") };
         for _ in 0..SUBSTEPS {
             state = rk4(state, STEP_S / SUBSTEPS as f64, |state| {
@@ -101,21 +101,22 @@ fn a_quadrotor_moves_as_its_rotors_and_the_air_make_it() {
                     0.16 * (-f[0] - f[1] + f[2] + f[3]),
                     0.016 * (f[0] - f[1] + f[2] - f[3]),
                 );
-                let update_rotors = (torque - rates.cross(&inertia.component_mul(&rates))).component_div(&inertia);
+                let angular_acceleration =
+                    (torque - rates.cross(&inertia.component_mul(&rates))).component_div(&inertia);
                 let acceleration = up * (f.sum() / MASS_KG) - Vector3::z() * GRAVITY_MPS2 + drag_mps2(velocity);
                 let mut rate = SVector::<f64, 17>::zeros();
                 rate.fixed_rows_mut::<3>(0).copy_from(&velocity);
                 rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
                 rate.fixed_rows_mut::<4>(6).copy_from(&(q * Quaternion::from_imag(rates) * 0.5).coords);
-                rate.fixed_rows_mut::<3>(10).copy_from(&update_rotors);
+                rate.fixed_rows_mut::<3>(10).copy_from(&angular_acceleration);
                 let command = Vector4::from(thrusts.control.thrust_n);
                 rate.fixed_rows_mut::<4>(13).copy_from(&((command - f) / 0.03));
                 rate
             });
         }
     }
-    // Without feedback an attitude that is off by 1e-4 rad leads 2 cm astray in 6 s.
-    assert!(worst_m < 8e-3 && worst_rad < 5e-4, "{worst_m} m, {worst_rad} rad");
+    // Without feedback an attitude error of 1e-4 rad results in a position error of 2 cm after 6 s.
+    assert!(max_m < 8e-3 && max_rad < 5e-4, "{max_m} m, {max_rad} rad");
 }
 
 #[test]
@@ -126,20 +127,20 @@ fn both_plants_follow_the_plan_and_the_quadrotor_less_closely() {
         flight.vehicles[0].samples.iter().map(error_m).fold(0.0, f64::max)
     };
     let (point_mass_m, quadrotor_m) = (largest_m("point-mass"), largest_m("quadrotor"));
-    // Wind of 2.3 m/s and more pushes by some 0.2 m/s²; the tracker gives way by 0.2 / 2.5² m.
+    // Wind of 2.3 m/s and more accelerates by some 0.2 m/s², which displaces the vehicle by 0.2 / 2.5² m.
     assert!(point_mass_m < 0.08, "{point_mass_m} m");
     assert!(quadrotor_m < 0.25 && quadrotor_m > point_mass_m, "{quadrotor_m} m");
 }
 
 #[test]
-fn open_loop_in_still_air_the_point_mass_flies_the_plan_itself() {
+fn open_loop_in_still_air_the_point_mass_follows_the_plan() {
     let mut scenario = scenario("point-mass");
     scenario.simulation.wind = None;
     scenario.models.multirotor.get_mut("quad").expect("the model").drag_area_m2 = 0.0;
-    let setup = FlightOptions { control_mode: ControlMode::OpenLoop, ..FlightOptions::default() };
-    let flight = fly_with(&scenario, &plan(&scenario, &nodes()), 0, &setup, &mut |_| {});
+    let options = FlightOptions { control_mode: ControlMode::OpenLoop, ..FlightOptions::default() };
+    let flight = fly_with(&scenario, &plan(&scenario, &nodes()), 0, &options, &mut |_| {});
     let error_m = |sample: &Sample| error_m(sample, sample.reference_position_m.into());
-    let worst_m = flight.vehicles[0].samples.iter().map(error_m).fold(0.0, f64::max);
-    // The acceleration is held over each step at its middle value, from step to step it changes by some 0.03 m/s².
-    assert!(worst_m < 1e-4, "{worst_m} m");
+    let max_m = flight.vehicles[0].samples.iter().map(error_m).fold(0.0, f64::max);
+    // The acceleration is held over each step at its middle value; it changes by some 0.03 m/s² per step.
+    assert!(max_m < 1e-4, "{max_m} m");
 }

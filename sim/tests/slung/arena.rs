@@ -8,7 +8,7 @@ use scenarios::{
     Waypoint, World,
 };
 
-/// The vehicle of Kang, Huang, Wen (2020), with a k that is not unphysical.
+/// The vehicle of Kang, Huang, Wen (2020), with a physically plausible k.
 pub fn model() -> Model {
     let limits = |thrust_n, attitude_deg: f64, cable_deg: f64, tension_n| Limits {
         thrust_n,
@@ -73,5 +73,5 @@ pub fn plan(trajectory: Trajectory) -> Plan {
     Plan::new("arena", "by-hand", 0, vec![trajectory.into()])
 }
 
-/// Nothing to report to.
+/// Ignores the progress.
 pub fn silent(_: f64) {}

@@ -1,5 +1,5 @@
-//! Plans by hand: the taut system is differentially flat. From the load's path follow the cable, the quadrotor's path, the
-//! thrust and the attitude (yaw 0):
+//! Plans by differential flatness of the taut system: the load's path determines the cable, the quadrotor's path, the thrust
+//! and the attitude (yaw 0):
 //!
 //! ```text
 //! λ d = -m_L (p_L'' + g e_3),   p_Q = p_L - l_0 d,   F R e_3 = m_Q (p_Q'' + g e_3) - λ d
@@ -11,10 +11,10 @@ use scenarios::slung_load::{Cable, Control, GRAVITY_MPS2, Model, State, Trajecto
 
 /// Distance between nodes, s.
 const NODE_S: f64 = 0.01;
-/// For differences of the attitude, s.
+/// Step of the finite differences of the attitude, s.
 const DELTA_S: f64 = 1e-3;
 
-/// The load from rest at `from_m` to rest at `to_m` in `duration_s`, bowing out sideways by `bow_m` half way.
+/// The load moves from rest at `from_m` to rest at `to_m` in `duration_s`, with a deviation of `bow_m` at half time.
 pub struct Swing {
     pub from_m: Vector3<f64>,
     pub to_m: Vector3<f64>,
@@ -22,7 +22,7 @@ pub struct Swing {
     pub duration_s: f64,
 }
 
-/// A value and its first four derivatives by time.
+/// A value and its first four time derivatives.
 type Jet = [Vector3<f64>; 5];
 
 impl Swing {
@@ -92,11 +92,11 @@ impl Swing {
         (quadrotor + up) * model.mass_kg + (load[2] + up) * model.load_mass_kg
     }
 
-    /// Position of the load and its derivatives: s(share) of degree 13, six derivatives zero at both ends; the bow is
+    /// Position of the load and its derivatives: s(fraction) of degree 13, six derivatives zero at both ends; the bow is
     /// 16 s²(1 - s)².
     fn load(&self, t_s: f64) -> Jet {
-        let share = (t_s / self.duration_s).clamp(0.0, 1.0);
-        let s = smooth_step(share).map(Vector3::repeat);
+        let fraction = (t_s / self.duration_s).clamp(0.0, 1.0);
+        let s = smooth_step(fraction).map(Vector3::repeat);
         let mut rest = s.map(|value| -value);
         rest[0].add_scalar_mut(1.0);
         let bow = product(&product(&s, &rest), &product(&s, &rest));
@@ -129,8 +129,8 @@ fn product(a: &Jet, b: &Jet) -> Jet {
     std::array::from_fn(|order| (0..=order).map(|k| a[k].component_mul(&b[order - k]) * BINOMIALS[order][k]).sum())
 }
 
-/// share⁷ Σ_k C(6+k, k) C(13, 6-k) (-share)^k and its first four derivatives by share.
-fn smooth_step(share: f64) -> [f64; 5] {
+/// fraction⁷ Σ_k C(6+k, k) C(13, 6-k) (-fraction)^k and its first four derivatives by fraction.
+fn smooth_step(fraction: f64) -> [f64; 5] {
     let choose = |n: u32, k: u32| (0..k).fold(1.0, |c, i| c * f64::from(n - i) / f64::from(i + 1));
     let mut jet = [0.0; 5];
     for k in 0..=6_u32 {
@@ -138,7 +138,7 @@ fn smooth_step(share: f64) -> [f64; 5] {
         for (order, value) in jet.iter_mut().enumerate() {
             let power = 7 + k as i32;
             let falling = (0..order as i32).fold(1.0, |product, i| product * f64::from(power - i));
-            *value += coefficient * falling * share.powi(power - order as i32);
+            *value += coefficient * falling * fraction.powi(power - order as i32);
         }
     }
     jet

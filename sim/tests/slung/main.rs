@@ -1,5 +1,4 @@
-//! Quadrotors with slung loads: the plant against closed-form motions and an independent integrator, the tracker on plans
-//! made by hand.
+//! Quadrotors with slung loads: the plant against closed forms and an independent integrator, the tracker on hand-made plans.
 
 mod arena;
 mod flatness;

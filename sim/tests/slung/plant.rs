@@ -16,7 +16,7 @@ const OPEN_LOOP: FlightOptions = FlightOptions {
 /// Step of the plant, s.
 const PLANT_STEP_S: f64 = 5e-4;
 
-/// Level flight of `duration_s` from `start`, all four thrusts going linearly from one total to the other, N.
+/// Level flight of `duration_s` from `start`, with a total thrust that is linear in time, N.
 fn flown(start: State, cable: Cable, total_n: [f64; 2], duration_s: f64) -> Flight {
     let thrusts = total_n.map(|total_n| [total_n / 4.0; 4]);
     let nodes = [(0.0, start, thrusts[0], cable), (duration_s, start, thrusts[1], cable)];
@@ -46,7 +46,7 @@ fn log(flight: &Flight) -> impl Iterator<Item = (&Sample, &LoadSample)> {
     flight.vehicles[0].samples.iter().zip(&flight.vehicles[0].loads)
 }
 
-fn largest_stretch_m(flight: &Flight) -> f64 {
+fn max_stretch_m(flight: &Flight) -> f64 {
     let length_m = |(s, l): (&Sample, &LoadSample)| distance_m(s.position_m, l.position_m);
     log(flight).map(length_m).fold(0.0, f64::max) - L_0
 }
@@ -69,7 +69,7 @@ fn a_free_pendulum_has_its_period_and_keeps_its_energy() {
     }
     let period_s = std::f64::consts::TAU * (L_0 * M_Q / total_n).sqrt() / a;
 
-    // The load is farthest to the left at every whole period: compare the swing there with the first one.
+    // The load is at its left extreme at every whole period: compare the swing there with the first one.
     let samples: Vec<_> = log(&flight).collect();
     let swings = (20.0 / period_s) as usize;
     let index = (swings as f64 * period_s / 0.002).round() as usize;
@@ -78,17 +78,17 @@ fn a_free_pendulum_has_its_period_and_keeps_its_energy() {
     let late_s = turning as f64 * 0.002 - swings as f64 * period_s;
     let lost_m = relative(turning) - relative(0);
     println!(
-        "after {swings} swings: late {late_s:.4} s, swing {lost_m:.2e} m less, time_chunk {:.2e} m",
-        largest_stretch_m(&flight)
+        "after {swings} swings: late {late_s:.4} s, swing {lost_m:.2e} m less, stretch {:.2e} m",
+        max_stretch_m(&flight)
     );
     assert!(late_s.abs() < 0.004, "{late_s} s");
     assert!(lost_m.abs() < 1e-3, "{lost_m} m");
-    assert!(largest_stretch_m(&flight) < 1e-5);
+    assert!(max_stretch_m(&flight) < 1e-5);
     assert!(flight.events.is_empty(), "{:?}", flight.events);
 }
 
 #[test]
-fn a_dropped_load_is_caught_when_and_with_the_impulse_that_it_must() {
+fn a_dropped_load_is_caught_at_the_right_time_and_with_the_right_impulse() {
     let (total_n, drop_m) = (M_Q * GRAVITY_MPS2, 0.3);
     let load_m = [0.0, 0.0, -(L_0 - drop_m)];
     let flight = flown(state([0.0; 3], [0.0; 3], load_m, [0.0; 3]), Cable::Slack, [total_n; 2], 1.0);
@@ -104,18 +104,18 @@ fn a_dropped_load_is_caught_when_and_with_the_impulse_that_it_must() {
     println!("caught {:.2e} s late, impulse {:.2e} N s too much", t_s - fall_s, flown_ns - impulse_ns);
     assert!((t_s - fall_s).abs() < 1e-3, "{t_s} instead of {fall_s} s");
     assert!((flown_ns - impulse_ns).abs() < 0.01 * impulse_ns, "{flown_ns} instead of {impulse_ns} N s");
-    assert!(largest_stretch_m(&flight) < 1e-3, "{}", largest_stretch_m(&flight));
-    // What the cable gives and takes stays between the two: momentum is that of the forces.
+    assert!(max_stretch_m(&flight) < 1e-3, "{}", max_stretch_m(&flight));
+    // The forces of the cable are internal: the total momentum is that of the external forces.
     let (last, load) = log(&flight).last().unwrap();
     let momentum = M_Q * last.velocity_mps[2] + M_L * load.velocity_mps[2];
     let expected = (total_n - (M_Q + M_L) * GRAVITY_MPS2) * last.t_s;
     assert!((momentum - expected).abs() < 1e-9, "{momentum} {expected}");
 }
 
-/// The steps of the plant meet the catch somewhere: its impulse is that of one step, or of two. Whichever it is, the ends of
-/// the cable no longer part as soon as it is over.
+/// The catch is at any time within a step of the plant, so that its impulse is distributed over one step or two. In either case
+/// the ends of the cable do not separate afterwards.
 #[test]
-fn after_a_hard_catch_the_ends_of_the_cable_do_not_part() {
+fn after_a_hard_catch_the_ends_of_the_cable_do_not_separate() {
     let total_n = M_Q * GRAVITY_MPS2;
     for shift in 0..12 {
         let drop_m = 0.5 + 5e-4 * f64::from(shift);
@@ -132,7 +132,7 @@ fn after_a_hard_catch_the_ends_of_the_cable_do_not_part() {
 
 #[test]
 fn slack_and_taut_agree_with_an_independent_integrator() {
-    // Thrown up and sideways, caught twice and more, with a thrust that falls and rises.
+    // Thrown up and sideways, with several catches, and with a thrust that decreases and increases.
     let start = state([0.0; 3], [0.1, -0.2, 0.0], [0.1, 0.05, 0.2], [1.2, 0.4, 1.0]);
     let pair = Pair { p: [0.0; 3], v: [0.1, -0.2, 0.0], load_p: [0.1, 0.05, 0.2], load_v: [1.2, 0.4, 1.0] };
     let total = |t: f64| [0.0, 0.0, 16.0 - 2.0 * t];
@@ -142,10 +142,7 @@ fn slack_and_taut_agree_with_an_independent_integrator() {
     for ((sample, load), wanted) in log(&flight).zip(&states) {
         worst_m = worst_m.max(distance_m(sample.position_m, wanted.p)).max(distance_m(load.position_m, wanted.load_p));
     }
-    println!(
-        "largest distance {worst_m:.2e} m, time_chunk {:.2e} m; switches {switches:?}",
-        largest_stretch_m(&flight)
-    );
+    println!("maximum distance {worst_m:.2e} m, stretch {:.2e} m; switches {switches:?}", max_stretch_m(&flight));
     println!("events {:?}", flight.events);
     assert!(switches.iter().filter(|switch| switch.1.is_some()).count() >= 1);
     assert_eq!(flight.events.len(), switches.len(), "{:?} {switches:?}", flight.events);
@@ -163,7 +160,7 @@ fn slack_and_taut_agree_with_an_independent_integrator() {
 }
 
 #[test]
-fn a_parked_load_stays_where_it_lies() {
+fn a_load_on_the_ground_stays_at_rest() {
     let (start, total_n) = (state([0.0, 0.0, 0.35], [0.0; 3], [0.0; 3], [0.0; 3]), M_Q * GRAVITY_MPS2);
     let nodes = [(0.0, start, [total_n / 4.0; 4], Cable::Slack), (3.0, start, [total_n / 4.0; 4], Cable::Slack)];
     let flight = fly_with(&scenario(), &plan(trajectory(&nodes)), 0, &OPEN_LOOP, &mut silent);

@@ -1,6 +1,6 @@
-//! An integrator of its own: classical Runge-Kutta of order 4 in cable angles, small steps, events at the switches.
+//! An independent integrator: classical Runge-Kutta of order 4 in cable angles, with small steps and events at the switches.
 //!
-//! Two point masses; the quadrotor feels a force that is given as a function of time. It shares no formula with the
+//! Two point masses; the force on the quadrotor is a function of time. It shares no formula with the
 //! simulator: taut motion is integrated in (p, α, β) by the equations of Kang, Huang, Wen (2020), slack motion as free fall.
 
 /// Position and velocity of quadrotor and load.
@@ -12,7 +12,7 @@ pub struct Pair {
     pub load_v: [f64; 3],
 }
 
-/// A switch of the cable: when, s, and its impulse, N s, if it became taut.
+/// A switch of the cable: its time, s, and its impulse, N s, if the cable became taut.
 pub type Switch = (f64, Option<f64>);
 
 pub const M_Q: f64 = 1.32;
@@ -85,7 +85,7 @@ pub fn length_m(pair: &Pair) -> f64 {
     (0..3).map(|i| (pair.load_p[i] - pair.p[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The force is the same at every stage's time only in the mean: its average over a step is exact to order 4 by Simpson.
+/// The force is averaged over a step by Simpson's rule, of order 4.
 fn slack_step(pair: &Pair, t_s: f64, h_s: f64, force_n: &dyn Fn(f64) -> [f64; 3]) -> Pair {
     let rate = |t: f64, x: &[f64; 6]| -> [f64; 6] {
         let f = force_n(t);

@@ -1,4 +1,4 @@
-//! The tracker on plans made by hand.
+//! The tracker on hand-made plans.
 
 use nalgebra::Vector3;
 use scenarios::slung_load::{Cable, Control, GRAVITY_MPS2, State};
@@ -24,13 +24,13 @@ fn flown(change: impl FnOnce(&mut Scenario)) -> Flight {
     fly(&scenario, &plan(swing().plan(&scenario.models.slung_load["quad"])), 1, &mut silent)
 }
 
-fn largest_error_m(flight: &Flight) -> f64 {
+fn max_error_m(flight: &Flight) -> f64 {
     let error = |(a, b): ([f64; 3], [f64; 3])| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
     let samples = flight.vehicles[0].samples.iter();
     samples.map(|sample| error((sample.position_m, sample.reference_position_m))).fold(0.0, f64::max)
 }
 
-fn largest_load_error_m(flight: &Flight) -> f64 {
+fn max_load_error_m(flight: &Flight) -> f64 {
     let error = |(a, b): ([f64; 3], [f64; 3])| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
     let samples = flight.vehicles[0].loads.iter();
     samples.map(|sample| error((sample.position_m, sample.reference_position_m))).fold(0.0, f64::max)
@@ -40,8 +40,8 @@ fn report(what: &str, flight: &Flight) {
     let saturated = flight.vehicles[0].samples.iter().filter(|sample| sample.is_saturated()).count();
     println!(
         "{what}: error {:.4} m, load {:.4} m, saturated {saturated} of {}, {} events",
-        largest_error_m(flight),
-        largest_load_error_m(flight),
+        max_error_m(flight),
+        max_load_error_m(flight),
         flight.vehicles[0].samples.len(),
         flight.events.len()
     );
@@ -72,17 +72,17 @@ fn the_plan_from_flatness_obeys_the_equations() {
 }
 
 #[test]
-fn undisturbed_it_stays_on_the_plan() {
+fn the_undisturbed_flight_follows_the_plan() {
     let flight = flown(|_| {});
     report("undisturbed", &flight);
-    assert!(largest_error_m(&flight) < 1e-4, "{}", largest_error_m(&flight));
-    assert!(largest_load_error_m(&flight) < 1e-4);
+    assert!(max_error_m(&flight) < 1e-4, "{}", max_error_m(&flight));
+    assert!(max_load_error_m(&flight) < 1e-4);
     assert!(flight.events.is_empty(), "{:?}", flight.events);
 }
 
-/// Quadrotor and load together, so that the cable is as long as before.
+/// Quadrotor and load are offset together, so that the cable keeps its length.
 #[test]
-fn the_start_is_drawn_where_the_scenario_asks_for_it() {
+fn the_start_is_drawn_from_the_disc_of_the_scenario() {
     let [nominal, drawn] = [0.0, 0.04].map(|radius_m| {
         let flight = flown(|s| s.simulation.mismatch.start_radius_m = radius_m);
         let log = &flight.vehicles[0];
@@ -94,7 +94,7 @@ fn the_start_is_drawn_where_the_scenario_asks_for_it() {
 }
 
 #[test]
-fn disturbed_it_stays_near() {
+fn disturbed_flights_stay_close_to_the_plan() {
     let mass =
         flown(|s| s.simulation.mismatch = Mismatch { mass_ratio: 1.05, load_mass_ratio: 1.05, ..Mismatch::default() });
     report("mass", &mass);
@@ -111,8 +111,8 @@ fn disturbed_it_stays_near() {
     });
     report("all", &all);
     for flight in [mass, noise, gust, lag, all] {
-        assert!(largest_error_m(&flight) < 0.02, "{}", largest_error_m(&flight));
-        assert!(largest_load_error_m(&flight) < 0.03, "{}", largest_load_error_m(&flight));
+        assert!(max_error_m(&flight) < 0.02, "{}", max_error_m(&flight));
+        assert!(max_load_error_m(&flight) < 0.03, "{}", max_load_error_m(&flight));
     }
 }
 
@@ -135,7 +135,7 @@ fn gusts(scenario: &mut Scenario) {
     scenario.simulation.wind = Some(Wind { mean_mps: [0.0; 3], gusts: None, pulses: vec![pulse] });
 }
 
-/// Drop and catch: slack for a fall of 0.2 m, then the impact, then hovering down to rest.
+/// Drop and catch: slack over a fall of 0.2 m, then the impact, then a deceleration to rest.
 #[test]
 fn a_catch_is_flown_through() {
     let model = model();
@@ -157,7 +157,7 @@ fn a_catch_is_flown_through() {
         .unwrap()
         .body;
     let (after, impulse_ns) = sim::slung_load::impact(&plant, &before);
-    // Both fall at the same speed now; brake at 2 m/s².
+    // Both fall at the same speed; brake at 2 m/s².
     let speed_mps = -after.velocity_mps.z;
     let brake_s = speed_mps / 2.0;
     let end = propagate(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, fall_s + brake_s], 0.01);
@@ -179,5 +179,5 @@ fn a_catch_is_flown_through() {
     let [event] = flight.events.as_slice() else { panic!("{:?}", flight.events) };
     let EventKind::CableTaut { impulse_ns: flown_ns } = event.kind else { panic!("{event:?}") };
     assert!((event.t_s - fall_s).abs() < 0.005 && (flown_ns - impulse_ns).abs() < 0.02);
-    assert!(largest_error_m(&flight) < 0.01, "{}", largest_error_m(&flight));
+    assert!(max_error_m(&flight) < 0.01, "{}", max_error_m(&flight));
 }

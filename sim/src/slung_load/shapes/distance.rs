@@ -1,25 +1,25 @@
 //! Signed distance between convex shapes and upright prisms.
 //!
-//! Separated shapes: the point nearest to the origin of their difference, by the method of Gilbert, Johnson and Keerthi
-//! (1988). Every iteration bounds the distance from both sides, |v| from above and v·w/|v| from below, and the bound from
-//! below is what is returned: the result never flatters. Overlapping shapes: the least gap along the normals of the prism's
-//! faces and of its edges against the shape's, which is the depth, or more.
+//! Separated shapes: the point of their Minkowski difference closest to the origin, by the method of Gilbert, Johnson and
+//! Keerthi (1988). Every iteration bounds the distance, |v| from above and v·w/|v| from below. The lower bound is returned, so
+//! that the result is conservative. Overlapping shapes: the minimum overlap along the normals of the prism's faces and of its
+//! edges with the shape's, which is the penetration depth or more.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use scenarios::{Prism, Range};
 
-/// Distance between the bounds at which the search ends, m.
+/// Difference of the bounds at which the iteration ends, m.
 const TOLERANCE_M: f64 = 1e-10;
-/// Below this distance shapes overlap, m.
+/// Below this distance the shapes overlap, m.
 const OVERLAP_M: f64 = 1e-9;
-/// A direction that has less than this share across the axis is along it.
-const ALONG: f64 = 1e-12;
-/// More iterations are not needed, but rounding might let the last bounds stand still.
+/// A direction with a smaller fraction than this across the axis is parallel to it.
+const PARALLEL: f64 = 1e-12;
+/// Maximum number of iterations: fewer are needed, but rounding may stall the bounds.
 const MAX_ITERATIONS: usize = 200;
-/// How far a prism without bottom or top reaches beyond the shape, m: any length says the same.
+/// Length by which an unbounded prism is continued above and below the shape, m. The distance does not depend on it.
 pub const OVERHANG_M: f64 = 1.0;
 
-/// A flat disc or a straight line.
+/// A flat disc or a line segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ConvexPart {
     Disc { center_m: Vector3<f64>, axis: Vector3<f64>, radius_m: f64 },
@@ -27,13 +27,13 @@ pub(super) enum ConvexPart {
 }
 
 impl ConvexPart {
-    /// The point that lies farthest in a direction.
+    /// Support point: the point farthest in a direction.
     fn support_m(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Disc { center_m, axis, radius_m } => {
                 let in_plane = |vector: &Vector3<f64>| vector - axis * axis.dot(vector);
-                // Of a direction along the axis rounding would leave noise, which points out of the plane: once more.
-                let across = in_plane(direction).try_normalize(ALONG * direction.norm());
+                // For a direction almost parallel to the axis the projection is mostly rounding, so that it is repeated.
+                let across = in_plane(direction).try_normalize(PARALLEL * direction.norm());
                 center_m + across.map_or_else(Vector3::zeros, |across| in_plane(&across).normalize() * *radius_m)
             }
             Self::Line { ends_m: [a, b] } => {
@@ -46,7 +46,7 @@ impl ConvexPart {
         }
     }
 
-    /// Normals for which the shape may touch an edge of this direction.
+    /// Normal of a contact between the shape and an edge of this direction.
     fn normals_against(&self, edge: &Vector3<f64>) -> Option<Vector3<f64>> {
         match self {
             Self::Disc { axis, .. } => edge.cross(&axis.cross(edge)).try_normalize(1e-9),
@@ -55,22 +55,22 @@ impl ConvexPart {
     }
 }
 
-/// A plane with a prism behind it: what is in front by d is farther away from the prism than d.
+/// A supporting plane of a prism: a point at distance d in front of the plane is at least d away from the prism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparatingPlane {
-    /// Away from the prism, of unit length, world frame.
+    /// Unit normal that points away from the prism, world frame.
     pub normal: Vector3<f64>,
-    /// What the normal gives, as a product, for the foremost point of the prism, m.
+    /// Scalar product of the normal and the support point of the prism, m.
     pub offset_m: f64,
 }
 
-/// Signed distance between a shape and a prism with its corners counterclockwise, m.
+/// Signed distance between a shape and a prism, whose corners are counterclockwise, m.
 pub(super) fn to_prism_m(shape: &ConvexPart, prism: &Prism) -> f64 {
     to_prism(shape, prism).0
 }
 
-/// The same with a plane between the two that is as far from the shape, if they do not overlap. Of a prism without bottom or
-/// top it is one for shapes within [`OVERHANG_M`] of this one.
+/// Signed distance as [`to_prism_m`], and a supporting plane of the prism at that distance from the shape if they do not
+/// overlap. For an unbounded prism the plane is valid for shapes within [`OVERHANG_M`] of this one.
 pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<SeparatingPlane>) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
@@ -86,7 +86,7 @@ pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<Separa
     }
 }
 
-/// Signed distance between a point and a prism with its corners counterclockwise, m.
+/// Signed distance between a point and a prism, whose corners are counterclockwise, m.
 pub(super) fn point_to_prism_m(point_m: &Vector3<f64>, prism: &Prism) -> f64 {
     let beside_m = prism.signed_distance_m([point_m.x, point_m.y]);
     let above_m = prism.z_m.map_or(f64::NEG_INFINITY, |z| (point_m.z - z.max).max(z.min - point_m.z));
@@ -98,12 +98,12 @@ pub(super) fn point_to_prism_m(point_m: &Vector3<f64>, prism: &Prism) -> f64 {
 
 fn prism_support_m(prism: &Prism, z_m: Range, direction: &Vector3<f64>) -> Vector3<f64> {
     let along = |corner: &[f64; 2]| corner[0] * direction.x + corner[1] * direction.y;
-    let farthest = prism.corners_m.iter().max_by(|a, b| along(a).total_cmp(&along(b)));
-    let [x, y] = farthest.copied().expect("a prism has corners");
+    let support = prism.corners_m.iter().max_by(|a, b| along(a).total_cmp(&along(b)));
+    let [x, y] = support.copied().expect("a prism has corners");
     Vector3::new(x, y, if direction.z >= 0.0 { z_m.max } else { z_m.min })
 }
 
-/// Directions along which prism and shape may part.
+/// Candidate directions of separation of prism and shape.
 fn normals(shape: &ConvexPart, prism: &Prism) -> Vec<Vector3<f64>> {
     let n = prism.corners_m.len();
     let mut normals = Vec::new();
@@ -124,37 +124,37 @@ fn normals(shape: &ConvexPart, prism: &Prism) -> Vec<Vector3<f64>> {
     normals.iter().flat_map(|normal| [*normal, -normal]).collect()
 }
 
-/// The least overlap along these directions, m.
+/// The minimum overlap along these directions, m.
 fn depth_m(difference: &impl Fn(&Vector3<f64>) -> Vector3<f64>, normals: &[Vector3<f64>]) -> f64 {
     let overlap_m = |normal: &Vector3<f64>| difference(normal).dot(normal);
-    normals.iter().map(overlap_m).fold(f64::INFINITY, |least, overlap_m| least.min(overlap_m.max(0.0)))
+    normals.iter().map(overlap_m).fold(f64::INFINITY, |min_m, overlap_m| min_m.min(overlap_m.max(0.0)))
 }
 
-/// Distance of the origin from a convex set, given by its farthest points, m, and the direction in which the set is at least so
-/// far away; `None` if it holds the origin. NaN if it is made of such.
-fn separation(farthest: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
-    let mut nearest = farthest(&Vector3::x());
-    let mut simplex = Simplex::of(nearest);
+/// Distance of the origin from a convex set, given by its support function, m, and the direction in which the set is at least
+/// that far away; `None` if the set contains the origin. NaN if the set has NaN coordinates.
+fn separation(support: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
+    let mut closest = support(&Vector3::x());
+    let mut simplex = Simplex::new(closest);
     let (mut lower_m, mut normal) = (f64::NEG_INFINITY, Vector3::zeros());
     for _ in 0..MAX_ITERATIONS {
-        let distance_m = nearest.norm();
+        let distance_m = closest.norm();
         if distance_m.is_nan() {
             return Some((f64::NAN, normal));
         }
         if distance_m <= OVERLAP_M {
             return None;
         }
-        let corner = farthest(&-nearest);
-        let bound_m = nearest.dot(&corner) / distance_m;
+        let corner = support(&-closest);
+        let bound_m = closest.dot(&corner) / distance_m;
         if bound_m > lower_m {
-            (lower_m, normal) = (bound_m, nearest / distance_m);
+            (lower_m, normal) = (bound_m, closest / distance_m);
         }
         if distance_m - lower_m <= TOLERANCE_M {
             break;
         }
-        (nearest, simplex) = simplex.with(corner).nearest();
+        (closest, simplex) = simplex.with(corner).closest();
     }
-    // Without a plane between them, they have not been told apart: then they overlap.
+    // Without a separating plane the shapes count as overlapping.
     (lower_m > 0.0).then_some((lower_m, normal))
 }
 
@@ -166,42 +166,42 @@ struct Simplex {
 }
 
 impl Simplex {
-    fn of(corner: Vector3<f64>) -> Self {
+    fn new(corner: Vector3<f64>) -> Self {
         Self { corners: [corner; 4], count: 1 }
     }
 
-    /// With one more corner; one that has four already holds the origin, and never asks for more.
+    /// With one more corner. A simplex with four corners contains the origin, and is never extended.
     fn with(mut self, corner: Vector3<f64>) -> Self {
         self.corners[self.count.min(3)] = corner;
         self.count = (self.count + 1).min(4);
         self
     }
 
-    /// The point of it nearest to the origin, and the face that this lies in: of all faces that hold their own plane's
-    /// nearest point, the nearest.
-    fn nearest(&self) -> (Vector3<f64>, Self) {
-        let mut best = (self.corners[0], Self::of(self.corners[0]));
-        let mut least_m2 = f64::INFINITY;
+    /// The point of the simplex closest to the origin, and the face that contains it: of all faces that contain the closest
+    /// point of their own plane, the closest one.
+    fn closest(&self) -> (Vector3<f64>, Self) {
+        let mut best = (self.corners[0], Self::new(self.corners[0]));
+        let mut min_m2 = f64::INFINITY;
         for chosen in 1_u32..(1 << self.count) {
             let mut face = Self { count: 0, ..*self };
             for index in (0..self.count).filter(|index| chosen & (1 << index) != 0) {
                 face = face.with(self.corners[index]);
             }
-            let Some(nearest) = face.nearest_of_plane() else { continue };
-            if nearest.norm_squared() < least_m2 {
-                (best, least_m2) = ((nearest, face), nearest.norm_squared());
+            let Some(point) = face.closest_of_plane() else { continue };
+            if point.norm_squared() < min_m2 {
+                (best, min_m2) = ((point, face), point.norm_squared());
             }
         }
         best
     }
 
-    /// The point nearest to the origin of the plane through all corners, if it lies between them.
+    /// The point closest to the origin of the plane through all corners, if it lies between them.
     ///
-    /// With p_0 as the base, Σ λ_i = 1: the others' shares solve (p_i - p_0)·(p_j - p_0) λ_j = -(p_i - p_0)·p_0.
-    fn nearest_of_plane(&self) -> Option<Vector3<f64>> {
+    /// Its barycentric coordinates λ_j with respect to all corners but p_0 solve (p_i - p_0)·(p_j - p_0) λ_j = -(p_i - p_0)·p_0.
+    fn closest_of_plane(&self) -> Option<Vector3<f64>> {
         let base = self.corners[0];
         let edge = |i: usize| self.corners[i + 1] - base;
-        let shares = match self.count {
+        let barycentric = match self.count {
             1 => Vector3::zeros(),
             2 => {
                 let a = edge(0);
@@ -210,16 +210,16 @@ impl Simplex {
             3 => {
                 let (a, b) = (edge(0), edge(1));
                 let gram = Matrix2::new(a.dot(&a), a.dot(&b), b.dot(&a), b.dot(&b));
-                let shares = gram.lu().solve(&-Vector2::new(a.dot(&base), b.dot(&base)))?;
-                Vector3::new(shares.x, shares.y, 0.0)
+                let solution = gram.lu().solve(&-Vector2::new(a.dot(&base), b.dot(&base)))?;
+                Vector3::new(solution.x, solution.y, 0.0)
             }
             _ => {
-                // Three edges span space: the origin itself is the nearest point.
+                // Three edges span space: the origin itself is the closest point.
                 Matrix3::from_columns(&[edge(0), edge(1), edge(2)]).lu().solve(&-base)?
             }
         };
-        let lies_between = shares.sum() <= 1.0 && shares.iter().all(|share| *share >= 0.0);
-        let offset = |i: usize| edge(i) * shares[i];
+        let lies_between = barycentric.sum() <= 1.0 && barycentric.iter().all(|coordinate| *coordinate >= 0.0);
+        let offset = |i: usize| edge(i) * barycentric[i];
         lies_between.then(|| (0..self.count - 1).fold(base, |point, i| point + offset(i)))
     }
 }
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_before_a_wall_is_as_far_as_it_reaches() {
+    fn distance_of_a_disc_from_a_wall_is_closed_form() {
         for step in 0..500 {
             let (angle, x_m) = (f64::from(step) * 0.11, 0.04 * (f64::from(step) * 0.37).sin());
             let (roll, pitch) = (0.6 * angle.sin(), 0.5 * (1.7 * angle).cos());
@@ -257,7 +257,7 @@ mod tests {
         }
     }
 
-    /// Against the distance of many points of the shape, which is never smaller.
+    /// The distance of many points of the shape is an upper bound.
     #[test]
     fn distances_agree_with_those_of_many_points() {
         let (mut seen_apart, mut seen_overlapping) = (0, 0);
@@ -269,9 +269,9 @@ mod tests {
             let ConvexPart::Disc { center_m, axis, radius_m } = shape else { unreachable!() };
             let [u, v] = [axis.cross(&Vector3::x()).normalize(), axis.cross(&axis.cross(&Vector3::x()).normalize())];
             let rings = (0..=60).flat_map(|ring| (0..240).map(move |spoke| (f64::from(ring) / 60.0, f64::from(spoke))));
-            let points = rings.map(|(share, spoke)| {
+            let points = rings.map(|(fraction, spoke)| {
                 let (sin, cos) = (spoke * std::f64::consts::TAU / 240.0).sin_cos();
-                center_m + (u * cos + v * sin) * (radius_m * share)
+                center_m + (u * cos + v * sin) * (radius_m * fraction)
             });
             let sampled_m = points.map(|point| point_to_prism_m(&point, &prism)).fold(f64::INFINITY, f64::min);
             let distance_m = to_prism_m(&shape, &prism);
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_told_apart_to_the_last_micrometre() {
+    fn a_line_is_separated_down_to_a_micrometre() {
         let line = |x_m: f64| ConvexPart::Line { ends_m: [Vector3::new(x_m, -1.0, 2.0), Vector3::new(x_m, 1.0, 0.5)] };
         for gap_m in [1.0, 1e-3, 1e-6] {
             assert!((to_prism_m(&line(0.05 + gap_m), &prism(None)) - gap_m).abs() < 1e-9);

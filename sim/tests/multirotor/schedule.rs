@@ -1,4 +1,4 @@
-//! Who is asked when, what he is told, and when his answer is flown.
+//! When planners are called, what they observe, and when their results take effect.
 
 use std::sync::{Arc, Mutex};
 
@@ -8,9 +8,9 @@ use sim::{Flight, fly};
 
 use crate::arena::scenario;
 
-/// What a planner was told.
+/// What a planner observed.
 #[derive(Clone, Debug)]
-struct Told {
+struct Observed {
     t_s: f64,
     takes_effect_s: f64,
     first_in_force_m: [f64; 3],
@@ -19,15 +19,15 @@ struct Told {
     discovered: Vec<String>,
 }
 
-/// Remembers what it is told, and creeps eastwards at 1 m/s.
-struct Scribe {
-    told: Arc<Mutex<Vec<Told>>>,
+/// Records its observations, and moves east at 1 m/s.
+struct RecordingPlanner {
+    observed: Arc<Mutex<Vec<Observed>>>,
 }
 
-impl InLoopPlanner for Scribe {
+impl InLoopPlanner for RecordingPlanner {
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
-        let mut told = self.told.lock().expect("nobody panicked");
-        told.push(Told {
+        let mut observed = self.observed.lock().expect("nobody panicked");
+        observed.push(Observed {
             t_s: observation.t_s,
             takes_effect_s: observation.takes_effect_s,
             first_in_force_m: observation.in_force[0].position_m,
@@ -38,88 +38,91 @@ impl InLoopPlanner for Scribe {
         let node =
             |t_s: f64, speed_mps: f64| Node { t_s, position_m: [t_s, 0.0, 5.0], velocity_mps: [speed_mps, 0.0, 0.0] };
         let from_s = observation.takes_effect_s;
-        // The last metre per second goes within half a metre.
+        // It decelerates from 1 m/s to rest within half a metre.
         let end = Node { t_s: from_s + 1.0, position_m: [from_s + 0.5, 0.0, 5.0], velocity_mps: [0.0; 3] };
         ReplanResult::fly(vec![node(from_s, 1.0), end])
     }
 }
 
-fn flown(change: impl FnOnce(&mut Scenario)) -> (Vec<Told>, Flight) {
+fn flown(change: impl FnOnce(&mut Scenario)) -> (Vec<Observed>, Flight) {
     let mut scenario = scenario("point-mass");
     scenario.simulation.max_duration_s = 3.0;
     scenario.simulation.wind = None;
     change(&mut scenario);
-    let told = Arc::new(Mutex::new(Vec::new()));
-    let planner: Box<dyn InLoopPlanner> = Box::new(Scribe { told: Arc::clone(&told) });
+    let observed = Arc::new(Mutex::new(Vec::new()));
+    let planner: Box<dyn InLoopPlanner> = Box::new(RecordingPlanner { observed: Arc::clone(&observed) });
     let flight = fly(&scenario, vec![planner], 1, &mut |_| {});
-    let told = told.lock().expect("nobody panicked").clone();
-    (told, flight)
+    let observed = observed.lock().expect("nobody panicked").clone();
+    (observed, flight)
 }
 
 #[test]
-fn answers_in_time_take_effect_at_the_deadline() {
-    let (told, flight) = flown(|scenario| {
+fn results_in_time_take_effect_at_the_deadline() {
+    let (observed, flight) = flown(|scenario| {
         scenario.simulation.planning.period_s = 0.25;
         scenario.simulation.planning.deadline_s = 0.1;
         scenario.simulation.planning.median_s = 0.08;
     });
-    assert_eq!(told.len(), 13);
-    for (index, told) in told.iter().enumerate() {
-        assert!((told.t_s - 0.25 * index as f64).abs() < 1e-9 && (told.takes_effect_s - told.t_s - 0.1).abs() < 1e-9);
-        assert_eq!(told.last, if index == 0 { ReplanStatus::None } else { ReplanStatus::InTime });
+    assert_eq!(observed.len(), 13);
+    for (index, observed) in observed.iter().enumerate() {
+        assert!(
+            (observed.t_s - 0.25 * index as f64).abs() < 1e-9
+                && (observed.takes_effect_s - observed.t_s - 0.1).abs() < 1e-9
+        );
+        assert_eq!(observed.last, if index == 0 { ReplanStatus::None } else { ReplanStatus::InTime });
     }
-    assert_eq!(told[0].first_in_force_m, [0.0, 0.0, 5.0]);
-    assert!((told[1].first_in_force_m[0] - 0.1).abs() < 1e-9);
+    assert_eq!(observed[0].first_in_force_m, [0.0, 0.0, 5.0]);
+    assert!((observed[1].first_in_force_m[0] - 0.1).abs() < 1e-9);
     let reference_m = |t_s: f64| flight.vehicles[0].samples[(t_s * 100.0).round() as usize].reference_position_m[0];
     assert!(reference_m(0.09) == 0.0 && (reference_m(0.1) - 0.1).abs() < 1e-9);
 }
 
 #[test]
-fn a_late_answer_is_flown_late_from_its_middle_on() {
-    let (told, flight) = flown(|scenario| {
+fn a_late_result_is_entered_after_its_beginning() {
+    let (observed, flight) = flown(|scenario| {
         scenario.simulation.planning.deadline_s = 0.1;
         scenario.simulation.planning.time = PlanningClock::Recorded;
         scenario.simulation.planning.recorded_s = vec![0.05, 0.17];
     });
-    assert_eq!(told[1].last, ReplanStatus::InTime);
-    let ReplanStatus::Late { by_s } = told[2].last else { panic!("{:?}", told[2].last) };
+    assert_eq!(observed[1].last, ReplanStatus::InTime);
+    let ReplanStatus::Late { by_s } = observed[2].last else { panic!("{:?}", observed[2].last) };
     assert!((by_s - 0.07).abs() < 1e-9, "{by_s}");
-    // Asked at 0.25 s for 0.35 s, there at 0.42 s: until then the first reference brakes on.
+    // Called at 0.25 s for 0.35 s, available at 0.42 s: until then the first reference continues to decelerate.
     let reference_m = |t_s: f64| flight.vehicles[0].samples[(t_s * 100.0).round() as usize].reference_position_m[0];
     let braking_m = |t_s: f64| 0.1 + (t_s - 0.1) - 0.5 * (t_s - 0.1) * (t_s - 0.1);
     assert!((reference_m(0.41) - braking_m(0.41)).abs() < 1e-9);
-    let joined_m = 0.35 + 0.07 - 0.5 * 0.07 * 0.07;
-    assert!((reference_m(0.42) - joined_m).abs() < 1e-9, "{}", reference_m(0.42));
+    let entered_m = 0.35 + 0.07 - 0.5 * 0.07 * 0.07;
+    assert!((reference_m(0.42) - entered_m).abs() < 1e-9, "{}", reference_m(0.42));
     let followed = &flight.planning.as_ref().expect("a log").followed[0];
     assert!(followed.times_s.windows(2).any(|pair| pair[0] == pair[1]), "{:?}", followed.times_s);
 }
 
 #[test]
-fn a_planner_that_is_busy_misses_its_turn() {
-    let (told, _) = flown(|scenario| {
+fn a_busy_planner_misses_its_call() {
+    let (observed, _) = flown(|scenario| {
         scenario.simulation.planning.median_s = 0.6;
     });
-    let asked: Vec<f64> = told.iter().map(|told| told.t_s).collect();
+    let asked: Vec<f64> = observed.iter().map(|observed| observed.t_s).collect();
     assert_eq!(asked.len(), 5, "{asked:?}");
     assert!(asked.windows(2).all(|pair| (pair[1] - pair[0] - 0.75).abs() < 1e-9), "{asked:?}");
 }
 
 #[test]
-fn an_obstacle_is_known_once_a_part_of_it_is_within_range() {
-    let (told, flight) = flown(|scenario| {
+fn an_obstacle_is_known_once_its_surface_is_within_range() {
+    let (observed, flight) = flown(|scenario| {
         scenario.simulation.max_duration_s = 4.0;
         scenario.world.cylinders.push(Cylinder { name: "far".into(), center_m: [10.5, 0.0], radius_m: 0.5 });
         scenario.world.cylinders.push(Cylinder { name: "near".into(), center_m: [0.0, 5.0], radius_m: 0.5 });
-        scenario.world.cylinders.push(Cylinder { name: "told".into(), center_m: [30.0, 5.0], radius_m: 0.5 });
+        scenario.world.cylinders.push(Cylinder { name: "known".into(), center_m: [30.0, 5.0], radius_m: 0.5 });
         scenario.world.hidden = vec!["far".into(), "near".into()];
     });
-    assert_eq!(told[0].known, ["near", "told"]);
-    assert_eq!(told[0].discovered, ["near"]);
+    assert_eq!(observed[0].known, ["near", "known"]);
+    assert_eq!(observed[0].discovered, ["near"]);
     // 8 m from its surface at x = 2 m, where the vehicle is a little after 2 s.
-    let first = told.iter().find(|told| told.known.contains(&"far".to_owned())).expect("it is found");
+    let first = observed.iter().find(|observed| observed.known.contains(&"far".to_owned())).expect("it is found");
     assert!((2.0..2.6).contains(&first.t_s), "{first:?}");
     assert_eq!(first.discovered, ["far"]);
-    assert_eq!(told.iter().filter(|told| !told.discovered.is_empty()).count(), 2);
+    assert_eq!(observed.iter().filter(|observed| !observed.discovered.is_empty()).count(), 2);
     let found: Vec<f64> = flight.events.iter().map(|event| event.t_s).collect();
     assert_eq!(found.len(), 2, "{:?}", flight.events);
 }
