@@ -72,7 +72,7 @@ fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoad
     let parts = Parts::new(scenario.slung_load_model(&scenario.vehicles[0]));
     let reach_m = |body: &SlungLoadState| body.cable_m().xy().norm() - parts.body_radius_m();
     for pair in planned.knots.windows(2) {
-        let (before, after) = (reach_m(&pair[0].body), reach_m(&pair[1].body));
+        let (before, after) = (reach_m(&pair[0].state), reach_m(&pair[1].state));
         if (before > 0.0) != (after > 0.0) && pair[1].t_s > pair[0].t_s {
             metrics.envelope_switches_s.push(pair[0].t_s + (pair[1].t_s - pair[0].t_s) * before / (before - after));
         }
@@ -80,7 +80,7 @@ fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoad
     metrics.planned_thrust_n = extremes(planned.knots.iter().flat_map(|knot| knot.thrust_n.iter().copied()));
     metrics.planned_tension_n =
         extremes(planned.knots.iter().map(|knot| knot.tension_n).filter(|tension| *tension != 0.0));
-    metrics.planned_swing_deg = largest(planned.knots.iter().map(|knot| swing_deg(&knot.body)));
+    metrics.planned_swing_deg = largest(planned.knots.iter().map(|knot| swing_deg(&knot.state)));
     let impact = |(t_s, impulse_ns): &(f64, f64)| switch(*t_s, Cable::Taut, Some(*impulse_ns));
     metrics.planned_impacts = planned.impacts.iter().map(impact).collect();
 }

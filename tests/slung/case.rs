@@ -57,7 +57,7 @@ impl Case {
             Waypoint { load: Some(LoadPoint { x_m: 0.0, y_m: 0.0, z_m: 1.55 }), ..Waypoint::at_rest([0.0, 0.0, 2.0]) };
         let first = State::at(&start, model.cable_length_m);
         let fall_s = (2.0 * 0.2 / GRAVITY_MPS2).sqrt();
-        let last = |knots: Vec<sim::slung_load::Knot>| knots[knots.len() - 1].body;
+        let last = |knots: Vec<sim::slung_load::Knot>| knots[knots.len() - 1].state;
         let before =
             last(propagate(&plant, &SlungLoadState::from(&first), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01));
         let (after, _) = impact(&plant, &before);

@@ -65,12 +65,12 @@ impl Plant {
     /// with the component of the relative velocity across the cable. Gravity acts on both ends alike and cancels.
     ///
     /// - `thrust_n`: total thrust F, N
-    pub fn tension_n(&self, body: &SlungLoadState, thrust_n: f64) -> f64 {
-        let cable_m = body.cable_m();
+    pub fn tension_n(&self, state: &SlungLoadState, thrust_n: f64) -> f64 {
+        let cable_m = state.cable_m();
         let (length_m, d) = (cable_m.norm(), cable_m.normalize());
-        let relative_mps = body.load_relative_mps();
+        let relative_mps = state.load_relative_mps();
         let across_mps = relative_mps - d * d.dot(&relative_mps);
-        let pull_mps2 = across_mps.norm_squared() / length_m - thrust_n / self.mass_kg * d.dot(&body.thrust_axis());
+        let pull_mps2 = across_mps.norm_squared() / length_m - thrust_n / self.mass_kg * d.dot(&state.thrust_axis());
         pull_mps2 * self.reduced_mass_kg()
     }
 
@@ -80,14 +80,14 @@ impl Plant {
     }
 
     /// Accelerations of quadrotor and load under a total thrust, N; world frame, m/s².
-    pub fn accelerations_mps2(&self, body: &SlungLoadState, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
+    pub fn accelerations_mps2(&self, state: &SlungLoadState, thrust_n: f64, cable: Cable) -> [Vector3<f64>; 2] {
         let gravity = Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
-        let free = body.thrust_axis() * (thrust_n / self.mass_kg) + gravity;
+        let free = state.thrust_axis() * (thrust_n / self.mass_kg) + gravity;
         match cable {
-            Cable::Slack if self.is_resting(body) => [free, Vector3::zeros()],
+            Cable::Slack if self.is_resting(state) => [free, Vector3::zeros()],
             Cable::Slack => [free, gravity],
             Cable::Taut => {
-                let pull_n = body.cable_m().normalize() * self.tension_n(body, thrust_n);
+                let pull_n = state.cable_m().normalize() * self.tension_n(state, thrust_n);
                 [free + pull_n / self.mass_kg, gravity - pull_n / self.load_mass_kg]
             }
         }
@@ -104,23 +104,23 @@ impl Plant {
     }
 
     /// Does the load lie on the ground?
-    pub fn is_resting(&self, body: &SlungLoadState) -> bool {
-        body.load_position_m.z <= self.resting_height_m + RESTING_M && body.load_velocity_mps.norm() <= RESTING_MPS
+    pub fn is_resting(&self, state: &SlungLoadState) -> bool {
+        state.load_position_m.z <= self.resting_height_m + RESTING_M && state.load_velocity_mps.norm() <= RESTING_MPS
     }
 
     /// Time derivative of the state under four thrusts, N.
     pub(super) fn rate(&self, numbers: &Numbers, thrust_n: &Vector4<f64>, cable: Cable) -> Numbers {
-        let body = SlungLoadState::from_numbers(numbers);
+        let state = SlungLoadState::from_numbers(numbers);
         let (thrust_n, torque_nm) = self.wrench(thrust_n);
-        let [acceleration, load_acceleration] = self.accelerations_mps2(&body, thrust_n, cable);
+        let [acceleration, load_acceleration] = self.accelerations_mps2(&state, thrust_n, cable);
         let quaternion = Quaternion::from(numbers.fixed_rows::<4>(6).into_owned());
-        let attitude_rate = quaternion * Quaternion::from_imag(body.body_rate_radps) * 0.5;
+        let attitude_rate = quaternion * Quaternion::from_imag(state.body_rate_radps) * 0.5;
         let mut rate = Numbers::zeros();
-        rate.fixed_rows_mut::<3>(0).copy_from(&body.velocity_mps);
+        rate.fixed_rows_mut::<3>(0).copy_from(&state.velocity_mps);
         rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
         rate.fixed_rows_mut::<4>(6).copy_from(&attitude_rate.coords);
-        rate.fixed_rows_mut::<3>(10).copy_from(&self.angular_acceleration_radps2(&body.body_rate_radps, &torque_nm));
-        rate.fixed_rows_mut::<3>(13).copy_from(&body.load_velocity_mps);
+        rate.fixed_rows_mut::<3>(10).copy_from(&self.angular_acceleration_radps2(&state.body_rate_radps, &torque_nm));
+        rate.fixed_rows_mut::<3>(13).copy_from(&state.load_velocity_mps);
         rate.fixed_rows_mut::<3>(16).copy_from(&load_acceleration);
         rate
     }

@@ -70,9 +70,9 @@ fn weights() -> ErrorRates {
 
 /// The linearised equations discretised over one step, to second order.
 fn discretised(plant: &Plant, point: &ReferencePoint) -> (ErrorRates, InputRates) {
-    let body = &point.body;
-    let [acceleration, _] = plant.accelerations_mps2(body, point.thrust_n.sum(), point.cable);
-    let (a, b) = linearised(point.cable, &body.cable_m(), &body.load_relative_mps(), &acceleration);
+    let state = &point.state;
+    let [acceleration, _] = plant.accelerations_mps2(state, point.thrust_n.sum(), point.cable);
+    let (a, b) = linearised(point.cable, &state.cable_m(), &state.load_relative_mps(), &acceleration);
     let half = ErrorRates::identity() + a * (STEP_S / 2.0);
     (ErrorRates::identity() + half * a * STEP_S, half * b * STEP_S)
 }
@@ -83,7 +83,7 @@ fn before_jump(plant: &Plant, before: &ReferencePoint, after: &ReferencePoint, p
     if (before.cable, after.cable) != (Slack, Taut) {
         return *p;
     }
-    let d: Vector3<f64> = after.body.cable_m().normalize();
+    let d: Vector3<f64> = after.state.cable_m().normalize();
     let along = d * d.transpose() * plant.reduced_mass_kg();
     let mut jump = ErrorRates::identity();
     for (row, mass_kg, sign) in [(6, plant.mass_kg, 1.0), (12, plant.load_mass_kg, -1.0)] {

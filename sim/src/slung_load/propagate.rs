@@ -11,7 +11,7 @@ pub struct Knot {
     /// Time, s.
     pub t_s: f64,
     /// State.
-    pub body: SlungLoadState,
+    pub state: SlungLoadState,
     /// Thrusts of the rotors, N.
     pub thrust_n: Vector4<f64>,
     /// Tension of the cable, N: 0 if it is slack, negative where a taut cable would have to push.
@@ -39,24 +39,24 @@ pub fn propagate(
     let steps = (duration_s / max_step_s).ceil().max(1.0);
     let step_s = duration_s / steps;
     let thrust_at = |fraction: f64| from + (to - from) * fraction;
-    let knot = |t_s: f64, body: SlungLoadState, fraction: f64| {
+    let knot = |t_s: f64, state: SlungLoadState, fraction: f64| {
         let thrust_n = thrust_at(fraction);
         let tension_n = match cable {
-            Cable::Taut => plant.tension_n(&body, thrust_n.sum()),
+            Cable::Taut => plant.tension_n(&state, thrust_n.sum()),
             Cable::Slack => 0.0,
         };
-        Knot { t_s, body, thrust_n, tension_n }
+        Knot { t_s, state, thrust_n, tension_n }
     };
     let mut knots = vec![knot(times_s[0], *start, 0.0)];
     let mut numbers = start.to_numbers();
     for step in 0..steps as usize {
         let rate =
             |numbers: &_, fraction: f64| plant.rate(numbers, &thrust_at((step as f64 + fraction) / steps), cable);
-        let body = SlungLoadState::from_numbers(&runge_kutta::advanced(&numbers, step_s, rate));
-        numbers = body.to_numbers();
+        let state = SlungLoadState::from_numbers(&runge_kutta::advanced(&numbers, step_s, rate));
+        numbers = state.to_numbers();
         let is_last = step + 1 == steps as usize;
         let t_s = if is_last { times_s[1] } else { times_s[0] + (step + 1) as f64 * step_s };
-        knots.push(knot(t_s, body, (step + 1) as f64 / steps));
+        knots.push(knot(t_s, state, (step + 1) as f64 / steps));
     }
     knots
 }

@@ -26,7 +26,7 @@ pub struct ReferencePoint {
     /// Time, s.
     pub t_s: f64,
     /// State.
-    pub body: SlungLoadState,
+    pub state: SlungLoadState,
     /// Planned thrusts, N.
     pub thrust_n: Vector4<f64>,
     /// State of the cable from here on.
@@ -63,22 +63,22 @@ impl Reference {
     /// Hover at the end of the plan.
     fn hover(&self, t_s: f64) -> ReferencePoint {
         let end = &self.points[self.points.len() - 1];
-        let yaw = end.body.attitude.euler_angles().2;
+        let yaw = end.state.attitude.euler_angles().2;
         let carried_kg = if end.cable == Cable::Taut { self.plant.load_mass_kg } else { 0.0 };
         let thrust_n = (self.plant.mass_kg + carried_kg) * scenarios::slung_load::GRAVITY_MPS2 / 4.0;
         let load_position_m = match end.cable {
-            Cable::Taut => end.body.position_m - Vector3::z() * self.plant.cable_length_m,
-            Cable::Slack => end.body.load_position_m,
+            Cable::Taut => end.state.position_m - Vector3::z() * self.plant.cable_length_m,
+            Cable::Slack => end.state.load_position_m,
         };
-        let body = SlungLoadState {
+        let state = SlungLoadState {
             velocity_mps: Vector3::zeros(),
             attitude: UnitQuaternion::from_euler_angles(0.0, 0.0, yaw),
             body_rate_radps: Vector3::zeros(),
             load_position_m,
             load_velocity_mps: Vector3::zeros(),
-            ..end.body
+            ..end.state
         };
-        ReferencePoint { t_s, body, thrust_n: Vector4::repeat(thrust_n), cable: end.cable }
+        ReferencePoint { t_s, state, thrust_n: Vector4::repeat(thrust_n), cable: end.cable }
     }
 }
 
@@ -93,11 +93,12 @@ fn interval_points(trajectory: &Trajectory, plant: &Plant, interval: usize) -> V
     let cable = trajectory.cable[interval];
     let start = SlungLoadState::from(&trajectory.states[interval]);
     let knots = propagate(plant, &start, controls, cable, times_s, PIECE_S);
-    let defect = Defect::between(&knots[knots.len() - 1].body, &SlungLoadState::from(&trajectory.states[interval + 1]));
+    let defect =
+        Defect::between(&knots[knots.len() - 1].state, &SlungLoadState::from(&trajectory.states[interval + 1]));
     let point = |knot: &Knot| {
         let fraction = (knot.t_s - times_s[0]) / (times_s[1] - times_s[0]);
-        let body = defect.corrected(&knot.body, fraction);
-        ReferencePoint { t_s: knot.t_s, body, thrust_n: knot.thrust_n, cable }
+        let state = defect.corrected(&knot.state, fraction);
+        ReferencePoint { t_s: knot.t_s, state, thrust_n: knot.thrust_n, cable }
     };
     knots.iter().map(point).collect()
 }
@@ -126,15 +127,15 @@ impl Defect {
     }
 
     /// A state corrected by s²(3 - 2s) of the defect, s the fraction of the interval, in [0, 1].
-    fn corrected(&self, body: &SlungLoadState, fraction: f64) -> SlungLoadState {
+    fn corrected(&self, state: &SlungLoadState, fraction: f64) -> SlungLoadState {
         let weight = fraction * fraction * (3.0 - 2.0 * fraction);
         SlungLoadState {
-            position_m: body.position_m + self.position_m * weight,
-            velocity_mps: body.velocity_mps + self.velocity_mps * weight,
-            attitude: body.attitude * UnitQuaternion::from_scaled_axis(self.rotation * weight),
-            body_rate_radps: body.body_rate_radps + self.body_rate_radps * weight,
-            load_position_m: body.load_position_m + self.load_position_m * weight,
-            load_velocity_mps: body.load_velocity_mps + self.load_velocity_mps * weight,
+            position_m: state.position_m + self.position_m * weight,
+            velocity_mps: state.velocity_mps + self.velocity_mps * weight,
+            attitude: state.attitude * UnitQuaternion::from_scaled_axis(self.rotation * weight),
+            body_rate_radps: state.body_rate_radps + self.body_rate_radps * weight,
+            load_position_m: state.load_position_m + self.load_position_m * weight,
+            load_velocity_mps: state.load_velocity_mps + self.load_velocity_mps * weight,
         }
     }
 }
@@ -154,8 +155,8 @@ fn between(from: &ReferencePoint, to: &ReferencePoint, t_s: f64) -> ReferencePoi
             + p1 * (3.0 * s2 - 2.0 * s3)
             + v1 * ((s3 - s2) * duration_s)
     };
-    let (a, b) = (&from.body, &to.body);
-    let body = SlungLoadState {
+    let (a, b) = (&from.state, &to.state);
+    let state = SlungLoadState {
         position_m: cubic(&a.position_m, &a.velocity_mps, &b.position_m, &b.velocity_mps),
         velocity_mps: linear(&a.velocity_mps, &b.velocity_mps),
         attitude: a.attitude.nlerp(&b.attitude, s),
@@ -164,5 +165,5 @@ fn between(from: &ReferencePoint, to: &ReferencePoint, t_s: f64) -> ReferencePoi
         load_velocity_mps: linear(&a.load_velocity_mps, &b.load_velocity_mps),
     };
     let thrust_n = from.thrust_n + (to.thrust_n - from.thrust_n) * s;
-    ReferencePoint { t_s, body, thrust_n, cable: from.cable }
+    ReferencePoint { t_s, state, thrust_n, cable: from.cable }
 }

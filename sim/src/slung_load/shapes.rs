@@ -51,18 +51,20 @@ impl Parts {
     }
 
     /// Signed distance between a part and an obstacle, whose corners are counterclockwise, m: negative if they overlap.
-    pub fn distance_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
+    pub fn distance_m(&self, part: Part, state: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
             Part::Body => {
                 let disc = ConvexPart::Disc {
-                    center_m: body.position_m,
-                    axis: body.thrust_axis(),
+                    center_m: state.position_m,
+                    axis: state.thrust_axis(),
                     radius_m: self.body_radius_m,
                 };
                 to_prism_m(&disc, obstacle)
             }
-            Part::Cable => to_prism_m(&ConvexPart::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
-            Part::Load => point_to_prism_m(&body.load_position_m, obstacle) - self.load_radius_m,
+            Part::Cable => {
+                to_prism_m(&ConvexPart::Line { ends_m: [state.position_m, state.load_position_m] }, obstacle)
+            }
+            Part::Load => point_to_prism_m(&state.load_position_m, obstacle) - self.load_radius_m,
         }
     }
 
@@ -71,48 +73,48 @@ impl Parts {
     pub fn distance_and_plane(
         &self,
         part: Part,
-        body: &SlungLoadState,
+        state: &SlungLoadState,
         obstacle: &Prism,
     ) -> (f64, Option<SeparatingPlane>) {
         match part {
             Part::Body => {
-                let (center_m, axis) = (body.position_m, body.thrust_axis());
+                let (center_m, axis) = (state.position_m, state.thrust_axis());
                 to_prism(&ConvexPart::Disc { center_m, axis, radius_m: self.body_radius_m }, obstacle)
             }
-            Part::Cable => to_prism(&ConvexPart::Line { ends_m: [body.position_m, body.load_position_m] }, obstacle),
+            Part::Cable => to_prism(&ConvexPart::Line { ends_m: [state.position_m, state.load_position_m] }, obstacle),
             Part::Load => {
-                let plane = to_prism(&ConvexPart::Line { ends_m: [body.load_position_m; 2] }, obstacle).1;
-                (self.distance_m(part, body, obstacle), plane)
+                let plane = to_prism(&ConvexPart::Line { ends_m: [state.load_position_m; 2] }, obstacle).1;
+                (self.distance_m(part, state, obstacle), plane)
             }
         }
     }
 
     /// A cheap lower bound of [`distance_m`](Self::distance_m), from the ball around the part, m.
-    pub fn distance_lower_bound_m(&self, part: Part, body: &SlungLoadState, obstacle: &Prism) -> f64 {
+    pub fn distance_lower_bound_m(&self, part: Part, state: &SlungLoadState, obstacle: &Prism) -> f64 {
         match part {
-            Part::Body => point_to_prism_m(&body.position_m, obstacle) - self.body_radius_m,
+            Part::Body => point_to_prism_m(&state.position_m, obstacle) - self.body_radius_m,
             Part::Cable => {
-                let middle_m = (body.position_m + body.load_position_m) / 2.0;
-                point_to_prism_m(&middle_m, obstacle) - body.cable_m().norm() / 2.0
+                let middle_m = (state.position_m + state.load_position_m) / 2.0;
+                point_to_prism_m(&middle_m, obstacle) - state.cable_m().norm() / 2.0
             }
-            Part::Load => self.distance_m(part, body, obstacle),
+            Part::Load => self.distance_m(part, state, obstacle),
         }
     }
 
     /// Signed horizontal distance between the envelope circle and an obstacle, at any altitude, m.        [Kang 2020, eq. 14]
-    pub fn envelope_distance_m(&self, body: &SlungLoadState, obstacle: &Prism) -> f64 {
-        obstacle.signed_distance_m([body.position_m.x, body.position_m.y]) - self.envelope_radius_m(body)
+    pub fn envelope_distance_m(&self, state: &SlungLoadState, obstacle: &Prism) -> f64 {
+        obstacle.signed_distance_m([state.position_m.x, state.position_m.y]) - self.envelope_radius_m(state)
     }
 
     /// Altitude of the lowest point of the body, m.
-    pub fn height_m(&self, body: &SlungLoadState) -> f64 {
-        let upright = body.thrust_axis().z;
-        body.position_m.z - self.body_radius_m * (1.0 - upright * upright).max(0.0).sqrt()
+    pub fn height_m(&self, state: &SlungLoadState) -> f64 {
+        let upright = state.thrust_axis().z;
+        state.position_m.z - self.body_radius_m * (1.0 - upright * upright).max(0.0).sqrt()
     }
 
     /// Radius of the envelope circle, m: the larger one of the body's radius and the load's horizontal distance.
-    pub fn envelope_radius_m(&self, body: &SlungLoadState) -> f64 {
-        body.cable_m().xy().norm().max(self.body_radius_m)
+    pub fn envelope_radius_m(&self, state: &SlungLoadState) -> f64 {
+        state.cable_m().xy().norm().max(self.body_radius_m)
     }
 
     /// Radius of the load's ball, m.

@@ -71,7 +71,7 @@ impl SlungLoadSim {
         };
         let reference = Reference::new(trajectory, &nominal);
         let first = reference.at(0.0);
-        let start = start_state(request, vehicle, &first.body);
+        let start = start_state(request, vehicle, &first.state);
         let plant_steps = (settings.step_s / MAX_PLANT_STEP_S).ceil().max(1.0) as usize * request.options.substeps();
         Self {
             pair: TetheredPair::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
@@ -146,7 +146,7 @@ impl SlungLoadSim {
         reference: &ReferencePoint,
         thrusts: &Thrusts,
     ) {
-        let desired = &reference.body;
+        let desired = &reference.state;
         let control = |thrust_n: &Vector4<f64>| Control { thrust_n: (*thrust_n).into() };
         self.log.samples.push(Sample {
             t_s,

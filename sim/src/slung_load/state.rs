@@ -107,15 +107,15 @@ impl From<&State> for SlungLoadState {
 }
 
 impl From<&SlungLoadState> for State {
-    fn from(body: &SlungLoadState) -> Self {
-        let (roll, pitch, yaw) = body.attitude.euler_angles();
+    fn from(state: &SlungLoadState) -> Self {
+        let (roll, pitch, yaw) = state.attitude.euler_angles();
         Self {
-            position_m: body.position_m.into(),
-            velocity_mps: body.velocity_mps.into(),
+            position_m: state.position_m.into(),
+            velocity_mps: state.velocity_mps.into(),
             roll_pitch_yaw_rad: [roll, pitch, yaw],
-            body_rate_radps: body.body_rate_radps.into(),
-            load_position_m: body.load_position_m.into(),
-            load_velocity_mps: body.load_velocity_mps.into(),
+            body_rate_radps: state.body_rate_radps.into(),
+            load_position_m: state.load_position_m.into(),
+            load_velocity_mps: state.load_velocity_mps.into(),
         }
     }
 }

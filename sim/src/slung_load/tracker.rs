@@ -74,7 +74,7 @@ impl Tracker {
     }
 
     fn correction_mps2(&mut self, measured: &SlungLoadState, reference: &ReferencePoint) -> Vector3<f64> {
-        let desired = &reference.body;
+        let desired = &reference.state;
         let error_m = measured.position_m - desired.position_m;
         self.integral_ms += error_m * self.step_s;
         let norm_ms = self.integral_ms.norm().max(MAX_INTEGRAL_MS);
@@ -96,7 +96,7 @@ impl Tracker {
         ahead: &ReferencePoint,
         correction_mps2: &Vector3<f64>,
     ) -> Vector3<f64> {
-        let [planned_mps2, _] = self.plant.accelerations_mps2(&ahead.body, ahead.thrust_n.sum(), ahead.cable);
+        let [planned_mps2, _] = self.plant.accelerations_mps2(&ahead.state, ahead.thrust_n.sum(), ahead.cable);
         let acceleration_mps2 = planned_mps2 + correction_mps2;
         let specific_force_mps2 = acceleration_mps2 + Vector3::z() * GRAVITY_MPS2;
         let pull_n = match ahead.cable {
@@ -121,12 +121,12 @@ impl Tracker {
         ahead: &ReferencePoint,
         force_n: &Vector3<f64>,
     ) -> Vector3<f64> {
-        let planned_axis = ahead.body.thrust_axis();
+        let planned_axis = ahead.state.thrust_axis();
         let tilt = UnitQuaternion::rotation_between(&planned_axis, force_n).unwrap_or_else(UnitQuaternion::identity);
         let (_, planned_nm) = self.plant.wrench(&ahead.thrust_n);
-        let planned_radps2 = self.plant.angular_acceleration_radps2(&ahead.body.body_rate_radps, &planned_nm);
+        let planned_radps2 = self.plant.angular_acceleration_radps2(&ahead.state.body_rate_radps, &planned_nm);
         let desired =
-            AttitudeState { attitude: tilt * reference.body.attitude, rate_radps: reference.body.body_rate_radps };
+            AttitudeState { attitude: tilt * reference.state.attitude, rate_radps: reference.state.body_rate_radps };
         torque_nm(&measured.attitude_state(), &desired, &planned_radps2, &self.plant.inertia_kgm2)
     }
 }

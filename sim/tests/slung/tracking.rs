@@ -58,7 +58,7 @@ fn the_plan_from_flatness_obeys_the_equations() {
         let controls = [&trajectory.controls[k], &trajectory.controls[k + 1]];
         let end =
             propagate(&plant, &start, controls, Cable::Taut, [trajectory.times_s[k], trajectory.times_s[k + 1]], 0.01);
-        let (end, next) = (end.last().unwrap().body, SlungLoadState::from(&trajectory.states[k + 1]));
+        let (end, next) = (end.last().unwrap().state, SlungLoadState::from(&trajectory.states[k + 1]));
         assert!((end.position_m - next.position_m).norm() < 1e-7, "{k}");
         assert!(
             (end.velocity_mps - next.velocity_mps).norm() < 1e-4,
@@ -155,13 +155,13 @@ fn a_catch_is_flown_through() {
     let before = propagate(&plant, &SlungLoadState::from(&start), [&hover; 2], Cable::Slack, [0.0, fall_s], 0.01)
         .last()
         .unwrap()
-        .body;
+        .state;
     let (after, impulse_ns) = sim::slung_load::impact(&plant, &before);
     // Both fall at the same speed; brake at 2 m/s².
     let speed_mps = -after.velocity_mps.z;
     let brake_s = speed_mps / 2.0;
     let end = propagate(&plant, &after, [&brake; 2], Cable::Taut, [fall_s, fall_s + brake_s], 0.01);
-    let end = end.last().unwrap().body;
+    let end = end.last().unwrap().state;
     let hover_both_n = [model.hover_thrust_n(); 4];
     let rest = State::from(&end);
     let t = fall_s + brake_s;

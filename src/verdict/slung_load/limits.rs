@@ -68,7 +68,7 @@ impl<'a> LimitChecks<'a> {
                 self.map.path(worst, motion);
             }
             for knot in &planned.knots {
-                self.attitude(worst, &knot.body.attitude, self.physical.attitude_deg, knot.t_s);
+                self.attitude(worst, &knot.state.attitude, self.physical.attitude_deg, knot.t_s);
             }
         })
     }
@@ -123,7 +123,7 @@ impl<'a> LimitChecks<'a> {
     pub fn check_planned_swing(&self, spec: &CheckSpec, planned: &PlannedMotion) -> CheckResult {
         check_limits(spec, |worst| {
             for knot in &planned.knots {
-                self.cable(worst, &knot.body, self.physical.cable_deg, knot.t_s);
+                self.cable(worst, &knot.state, self.physical.cable_deg, knot.t_s);
             }
         })
     }

@@ -97,7 +97,7 @@ impl<'a> TerminalConditions<'a> {
 }
 
 fn planned_end(planned: &PlannedMotion) -> Option<(SlungLoadState, f64)> {
-    planned.knots.last().map(|knot| (knot.body, knot.t_s))
+    planned.knots.last().map(|knot| (knot.state, knot.t_s))
 }
 
 /// Quadrotor and load at the first sample at or beyond `end_s`.
