@@ -60,8 +60,8 @@ impl Air {
         }
     }
 
-    /// World from gust axes: u along the horizontal mean wind (without wind, along the vehicle's horizontal velocity), v to its
-    /// left, w up.
+    /// World from gust axes: u along the horizontal mean wind (without wind, along the vehicle's horizontal velocity),
+    /// v to its left, w up.
     fn world_from_gust(&self, vehicle_mps: &Vector3<f64>) -> nalgebra::Matrix3<f64> {
         let along = if self.mean_mps.xy().norm() > 0.0 { self.mean_mps } else { vehicle_mps - self.mean_mps };
         let horizontal = Vector3::new(along.x, along.y, 0.0);

@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 /// - `start_m`, `end_m`: position of one relative to the other at the beginning and at the end, r and r'
 /// - `reach_m`: sum of their radii R
 ///
-/// Returns the fraction of the motion at first contact: 0 if they overlap from the beginning, `None` if they never touch.
+/// Returns the fraction of the motion at first contact: 0 if they overlap from the beginning, `None` if they never
+/// touch.
 pub(crate) fn time_of_impact(start_m: &Vector3<f64>, end_m: &Vector3<f64>, reach_m: f64) -> Option<f64> {
     let gap = start_m.norm_squared() - reach_m * reach_m;
     if gap <= 0.0 {

@@ -10,9 +10,9 @@ use crate::request::{FlightOptions, FlightRequest, Guidance};
 ///
 /// `guidance` is one of
 ///
-/// - a plan, complete and checked: one trajectory per vehicle, in the order of the scenario, with at least two nodes. Every
-///   vehicle starts in the first state of its trajectory and tracks it, until `coast_s` after the end of the plan or
-///   until `max_duration_s`.
+/// - a plan, complete and checked: one trajectory per vehicle, in the order of the scenario, with at least two nodes.
+///   Every vehicle starts in the first state of its trajectory and tracks it, until `coast_s` after the end of the plan
+///   or until `max_duration_s`.
 /// - in-loop planners, one per vehicle, in the order of the scenario. They replan during the flight, until all vehicles
 ///   rest at their goals and `coast_s` more, or until `max_duration_s`.
 ///

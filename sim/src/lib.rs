@@ -4,8 +4,8 @@
 //! Plan -> reference -> tracker -> controls -> forces -> rapier -> truth -> sensors -> tracker
 //! ```
 //!
-//! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier, and
-//! only `families` lists the vehicle families. [`fly`] is the entry point.
+//! The plants are written from physics and share no code with the planners' models. Only `rapier_world` knows rapier,
+//! and only `families` lists the vehicle families. [`fly`] is the entry point.
 
 mod actuation;
 mod air;

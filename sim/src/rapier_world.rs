@@ -16,8 +16,8 @@ const FRICTION: f64 = 0.8;
 
 /// Point masses and rigid bodies under gravity and forces, at a fixed step.
 ///
-/// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse applied before its step
-/// and half after it, gravity's included, the position moves with the mean velocity of the step:
+/// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse applied before its
+/// step and half after it, gravity's included, the position moves with the mean velocity of the step:
 ///
 /// ```text
 /// v_m = v + h/2 (F/m + g),   p' = p + h v_m,   v' = v_m + h/2 (F/m + g)
@@ -25,8 +25,8 @@ const FRICTION: f64 = 0.8;
 ///
 /// which is the implicit midpoint rule, of second order, if F is the force at v_m in the middle of the step.
 ///
-/// Bodies have no colliders unless they are to rest on the ground: a vehicle that collides leaves the flight, so that no
-/// contact force is needed, and the families detect collisions from the paths of their vehicles.
+/// Bodies have no colliders unless they are to rest on the ground: a vehicle that collides leaves the flight, so that
+/// no contact force is needed, and the families detect collisions from the paths of their vehicles.
 pub(crate) struct RapierWorld {
     physics: PhysicsWorld,
     bodies: Vec<Body>,
@@ -46,8 +46,8 @@ struct Body {
 impl RapierWorld {
     /// An empty world with gravity. `step_s` > 0; rapier clips speeds at `max_speed_mps`.
     ///
-    /// With one solver iteration and no internal stabilisation, which dissipates energy, the impulse of a rope is applied in
-    /// full and gives its tension.
+    /// With one solver iteration and no internal stabilisation, which dissipates energy, the impulse of a rope is
+    /// applied in full and gives its tension.
     pub fn new(step_s: f64, max_speed_mps: f64) -> Self {
         let mut physics = PhysicsWorld::new();
         physics.gravity = Vector::new(0.0, 0.0, -GRAVITY_MPS2);
@@ -88,7 +88,8 @@ impl RapierWorld {
         self.bodies.len() - 1
     }
 
-    /// Makes rapier compute the mass of a body, which is otherwise 0 before the first step: the first impulse would be lost.
+    /// Makes rapier compute the mass of a body, which is otherwise 0 before the first step: the first impulse would be
+    /// lost.
     fn update_mass(&mut self, handle: RigidBodyHandle) {
         let PhysicsWorld { bodies, colliders, .. } = &mut self.physics;
         bodies[handle].recompute_mass_properties_from_colliders(colliders);
@@ -156,8 +157,8 @@ impl RapierWorld {
 
     /// Advances the world by one step.
     pub fn step(&mut self) {
-        // Rapier applies all of gravity's impulse before it moves the bodies: half of it is taken back before the step, and
-        // applied after it.
+        // Rapier applies all of gravity's impulse before it moves the bodies: half of it is taken back before the step,
+        // and applied after it.
         self.apply_half_impulses(-1.0);
         self.physics.step();
         self.apply_half_impulses(1.0);

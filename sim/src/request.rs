@@ -48,8 +48,8 @@ pub enum ControlMode {
     OpenLoop,
 }
 
-/// How a flight differs from an ordinary one, to examine plant and tracker separately: the tests compare open-loop flights
-/// with an independent integrator, and let the tracker recover from a wrong start.
+/// How a flight differs from an ordinary one, to examine plant and tracker separately: the tests compare open-loop
+/// flights with an independent integrator, and let the tracker recover from a wrong start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlightOptions {
     /// What determines the controls.
@@ -58,8 +58,8 @@ pub struct FlightOptions {
     pub start_offset_m: [f64; 3],
     /// Initial velocity over ground of every vehicle relative to the first state of its plan, world frame, m/s.
     pub start_velocity_offset_mps: [f64; 3],
-    /// Number of times that the plant's step is halved. Commands are still held, and the log written, once per step of the
-    /// scenario.
+    /// Number of times that the plant's step is halved. Commands are still held, and the log written, once per step of
+    /// the scenario.
     pub halvings: u32,
 }
 

@@ -12,8 +12,8 @@ pub(crate) struct SaturationDetector {
 }
 
 impl SaturationDetector {
-    /// Observes one step. Returns an event with its time, s. The end of a saturation is reported once the break has lasted long
-    /// enough, with the time at which the break began.
+    /// Observes one step. Returns an event with its time, s. The end of a saturation is reported once the break has
+    /// lasted long enough, with the time at which the break began.
     pub fn observe(&mut self, t_s: f64, is_saturated: bool) -> Option<(f64, EventKind)> {
         if is_saturated {
             self.free_since_s = None;

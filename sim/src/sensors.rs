@@ -82,7 +82,8 @@ impl<T: Copy> Delay<T> {
         Self { steps: (delay_s / step_s).round() as usize, pending: VecDeque::new() }
     }
 
-    /// Takes the measurement of this step, and returns the one that the vehicle receives now. To be called once per step.
+    /// Takes the measurement of this step, and returns the one that the vehicle receives now. To be called once per
+    /// step.
     pub fn pass(&mut self, measured: T) -> T {
         self.pending.push_back(measured);
         let oldest = self.pending[0];

@@ -1,5 +1,5 @@
-//! The quadrotor with a slung load, from physics: Newton's and Euler's laws in Cartesian coordinates, and a cable that only
-//! pulls.
+//! The quadrotor with a slung load, from physics: Newton's and Euler's laws in Cartesian coordinates, and a cable that
+//! only pulls.
 //!
 //! The planners formulate the same dynamics in cable angles (Kang, Huang, Wen 2020); the two share no formula.
 

@@ -31,8 +31,8 @@ impl StateHash {
 }
 
 impl Flight {
-    /// Hashes of everything that was logged until the end of each period of `every_s`, s, and until the end of the flight, in the
-    /// order of time.
+    /// Hashes of everything that was logged until the end of each period of `every_s`, s, and until the end of the
+    /// flight, in the order of time.
     pub fn running_hash(&self, every_s: f64) -> Vec<StateHash> {
         let mut hash = StateHash::default();
         let mut running = Vec::new();

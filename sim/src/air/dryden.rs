@@ -1,7 +1,7 @@
 //! Dryden's forming filters, driven by white noise and discretised exactly.
 //!
-//! The independent variable is s = t V / L (the distance through the air, in scale lengths), and the output has unit variance,
-//! so that intensity, scale length and airspeed may change without a transient. MIL-F-8785C, 3.7.1.2:
+//! The independent variable is s = t V / L (the distance through the air, in scale lengths), and the output has unit
+//! variance, so that intensity, scale length and airspeed may change without a transient. MIL-F-8785C, 3.7.1.2:
 //!
 //! ```text
 //! H_u(p) = sqrt(2) / (1 + p)                    autocorrelation e^-s             (longitudinal)

@@ -15,8 +15,8 @@ const ALOFT_FT: f64 = 2000.0;
 /// Scale length of all components at medium and high altitude, ft.
 const SCALE_ALOFT_FT: f64 = 1750.0;
 
-/// Minimum airspeed at which the vehicle moves through the gusts, m/s: frozen turbulence does not change around a vehicle at
-/// rest.
+/// Minimum airspeed at which the vehicle moves through the gusts, m/s: frozen turbulence does not change around a
+/// vehicle at rest.
 const MIN_AIRSPEED_MPS: f64 = 1.0;
 
 /// Continuous gusts in Dryden's form (MIL-F-8785C, 3.7): longitudinal u, lateral v, vertical w, independent.

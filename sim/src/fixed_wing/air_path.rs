@@ -27,8 +27,8 @@ pub struct AirPath {
 impl AirPath {
     /// The axes of a velocity relative to the air, m/s.
     ///
-    /// Where a direction is undefined (no airspeed, vertical flight), `forward` is x and `left` is y: a vehicle in such a state
-    /// has violated its limits long before, and its log stays finite.
+    /// Where a direction is undefined (no airspeed, vertical flight), `forward` is x and `left` is y: a vehicle in such
+    /// a state has violated its limits long before, and its log stays finite.
     pub fn new(air_velocity_mps: &Vector3<f64>) -> Self {
         let speed_mps = air_velocity_mps.norm();
         let forward = if speed_mps > DEGENERATE { air_velocity_mps * (1.0 / speed_mps) } else { Vector3::x() };

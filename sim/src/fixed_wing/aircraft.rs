@@ -91,8 +91,8 @@ impl Aircraft {
         self.log.samples.truncate(steps + 1);
     }
 
-    /// Beginnings and ends of saturations from step `first` on, with their times, s. Every sample is observed once, when it is
-    /// certain that it will not be truncated.
+    /// Beginnings and ends of saturations from step `first` on, with their times, s. Every sample is observed once,
+    /// when it is certain that it will not be truncated.
     pub fn observe_saturation(&mut self, first: usize) -> Vec<(f64, EventKind)> {
         let new = if first == 0 { 0 } else { first + 1 };
         let Self { log, saturation, .. } = self;

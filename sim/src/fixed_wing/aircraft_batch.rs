@@ -7,8 +7,8 @@ use crate::rapier_world::RapierWorld;
 /// Rapier clips faster bodies.
 const MAX_SPEED_MPS: f64 = 1000.0;
 
-/// Aircraft that share a rapier world: enough of them to distribute the fixed cost of a world's step, few enough that every
-/// thread has several batches.
+/// Aircraft that share a rapier world: enough of them to distribute the fixed cost of a world's step, few enough that
+/// every thread has several batches.
 pub(super) struct AircraftBatch {
     world: RapierWorld,
     aircraft: Vec<Aircraft>,

@@ -32,8 +32,8 @@ pub(super) struct SweptPath<'a> {
     pub samples: &'a [Sample],
 }
 
-/// All collisions within a time chunk, in the order of time, then of the aircraft. Each pair appears with its first contact
-/// only. Contacts between two steps are found, too.
+/// All collisions within a time chunk, in the order of time, then of the aircraft. Each pair appears with its first
+/// contact only. Contacts between two steps are found, too.
 ///
 /// Candidate pairs are found by sweep and prune along x.
 pub(super) fn collisions(paths: &[SweptPath<'_>], cylinders: &[Cylinder]) -> Vec<Collision> {

@@ -15,8 +15,8 @@ const TIME_CHUNK_S: f64 = 1.0;
 
 /// Simulates fixed wings that fly a plan.
 ///
-/// Aircraft do not interact, so that batches of them are simulated in parallel, one time chunk after the other. The log of an
-/// aircraft that collided within the chunk is truncated; no other aircraft is affected by it.
+/// Aircraft do not interact, so that batches of them are simulated in parallel, one time chunk after the other. The log
+/// of an aircraft that collided within the chunk is truncated; no other aircraft is affected by it.
 pub(crate) fn simulate(request: &FlightRequest<'_>, plan: &Plan, progress: &mut dyn FnMut(f64)) -> FleetLog {
     let chunk_steps = (TIME_CHUNK_S / request.step_s()).ceil().max(1.0) as usize;
     let mut fleet = Fleet::new(request, plan);

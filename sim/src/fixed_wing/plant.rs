@@ -3,7 +3,8 @@ use scenarios::fixed_wing::Control;
 
 use super::air_path::{AirPath, gravity_mps2};
 
-/// Maximum number of iterations for the velocity in the middle of a step. Each reduces the error by 2 V / (g n h), some 500.
+/// Maximum number of iterations for the velocity in the middle of a step. Each reduces the error by 2 V / (g n h), some
+/// 500.
 const MAX_ITERATIONS: usize = 10;
 
 /// Change of the velocity at which the iteration ends, m/s; the error that remains is some 500 times smaller.

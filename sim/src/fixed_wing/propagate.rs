@@ -30,8 +30,8 @@ impl Knot {
 /// - `duration_s`: length of the interval, s, > 0
 /// - `max_step_s`: maximum distance between two knots, which are equidistant, s, > 0
 ///
-/// Newton's law for (position, velocity) is integrated by a Runge-Kutta method of order 6, one step per knot: with steps of
-/// 0.25 s the error over a flight of 230 s of an ordinary aircraft is below 1e-8 m.
+/// Newton's law for (position, velocity) is integrated by a Runge-Kutta method of order 6, one step per knot: with
+/// steps of 0.25 s the error over a flight of 230 s of an ordinary aircraft is below 1e-8 m.
 ///
 /// Returns the knots from `t0_s` to `t0_s + duration_s`, both ends included.
 pub fn propagate(start: &State, controls: [Control; 2], t0_s: f64, duration_s: f64, max_step_s: f64) -> Vec<Knot> {

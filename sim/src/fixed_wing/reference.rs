@@ -11,11 +11,11 @@ const PIECE_S: f64 = 0.25;
 
 /// A plan as a continuous motion, for a tracker to follow.
 ///
-/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the planned
-/// controls, plus a smooth correction by the interval's defect: a quintic that begins at zero and ends, with zero second
-/// derivative, at the difference (position and velocity) between the next node and the end of the solution. Position and
-/// velocity are therefore continuous and interpolate every node; a consistent plan is not changed. After the last node the
-/// reference continues straight with the last velocity.
+/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the
+/// planned controls, plus a smooth correction by the interval's defect: a quintic that begins at zero and ends, with
+/// zero second derivative, at the difference (position and velocity) between the next node and the end of the solution.
+/// Position and velocity are therefore continuous and interpolate every node; a consistent plan is not changed. After
+/// the last node the reference continues straight with the last velocity.
 #[derive(Clone, Debug)]
 pub struct Reference {
     pieces: Vec<Piece>,

@@ -22,8 +22,8 @@ pub struct AppliedControls {
 /// p' = v,   v' = f(v - w(t)) / r + g        f: specific force of the load factors, r: mass ratio
 /// ```
 ///
-/// The Runge-Kutta method is of order 6, the simulator's of order 2: over 2.5 s with steps of 10 ms they differ by less than a
-/// millimetre, nearly all of which is the simulator's error.
+/// The Runge-Kutta method is of order 6, the simulator's of order 2: over 2.5 s with steps of 10 ms they differ by less
+/// than a millimetre, nearly all of which is the simulator's error.
 ///
 /// - `start`: at the beginning of the step
 /// - `applied`: what acts over the step

@@ -10,9 +10,10 @@ use crate::sensors::Measurement;
 /// a_cmd = a_ref + ω² (p_ref - p) + 2 ζ ω (v_ref - v)
 /// ```
 ///
-/// with a_ref the acceleration of the planned load factors along the reference. For a consistent plan, without disturbance
-/// and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; an inconsistency of the plan acts as a disturbance. The
-/// tracker knows neither the wind nor the true mass: it takes the velocity over ground for the velocity through the air.
+/// with a_ref the acceleration of the planned load factors along the reference. For a consistent plan, without
+/// disturbance and inside the limits, the error obeys e'' + 2 ζ ω e' + ω² e = 0; an inconsistency of the plan acts as a
+/// disturbance. The tracker knows neither the wind nor the true mass: it takes the velocity over ground for the
+/// velocity through the air.
 #[derive(Clone, Debug)]
 pub(super) struct Tracker {
     /// ω², 1/s².
@@ -34,8 +35,8 @@ impl Tracker {
     /// - `measured`, `reference`: now, for the feedback
     /// - `ahead`: the reference half a step ahead, for the feed-forward
     ///
-    /// The load factors refer to the axes of the air path half a step ahead, so that holding the command causes no lag of first
-    /// order.
+    /// The load factors refer to the axes of the air path half a step ahead, so that holding the command causes no lag
+    /// of first order.
     pub fn command(&self, measured: &Measurement, reference: &ReferencePoint, ahead: &ReferencePoint) -> Control {
         let acceleration_mps2 = acceleration_mps2(&ahead.velocity_mps, ahead.control)
             + (reference.position_m - measured.position_m) * self.position_gain

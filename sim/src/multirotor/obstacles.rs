@@ -49,13 +49,13 @@ impl Obstacles {
         }
     }
 
-    /// First contact of a ball that moves along a straight line at constant velocity with an obstacle. Returns the fraction of
-    /// its path, and the obstacle.
+    /// First contact of a ball that moves along a straight line at constant velocity with an obstacle. Returns the
+    /// fraction of its path, and the obstacle.
     ///
     /// - `times_s`, `ends_m`: times and positions at the beginning and the end of the path
     ///
-    /// Conservative advancement: the distance cannot decrease faster than the sum of the speeds, so that the ball is advanced
-    /// by the time that the current distance allows, until there is contact or the path ends.
+    /// Conservative advancement: the distance cannot decrease faster than the sum of the speeds, so that the ball is
+    /// advanced by the time that the current distance allows, until there is contact or the path ends.
     pub fn time_of_impact(&self, times_s: [f64; 2], ends_m: [Vector3<f64>; 2], radius_m: f64) -> Option<(f64, usize)> {
         let duration_s = times_s[1] - times_s[0];
         let path_m = (ends_m[1] - ends_m[0]).norm();

@@ -1,8 +1,8 @@
 use nalgebra::Vector3;
 use scenarios::in_loop::Node;
 
-/// Nodes as a continuous motion, for a tracker to follow: between two nodes the cubic with their positions and velocities;
-/// hover before the first node and after the last one.
+/// Nodes as a continuous motion, for a tracker to follow: between two nodes the cubic with their positions and
+/// velocities; hover before the first node and after the last one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     nodes: Vec<Node>,

@@ -37,7 +37,8 @@ impl Replay {
         Self { nominal_mass_kg, mass_kg: nominal_mass_kg * mass_ratio, drag_area_m2: model.drag_area_m2 }
     }
 
-    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. Returns position, m, and velocity, m/s, at its end.
+    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. Returns position, m, and velocity, m/s, at
+    /// its end.
     ///
     /// - first argument: position, m, and velocity, m/s, at the beginning of the step, world frame
     /// - `lift`: over the step

@@ -48,12 +48,12 @@ const ROUNDING_MARGIN: f64 = 1.0 - 1e-12;
 /// Yaw rate of a quadrotor per rad of yaw error, rad/s: low, since rotors have little torque about the vertical axis.
 const YAW_RATE_PER_RAD: f64 = 0.5;
 
-/// Maximum jerk of the acceleration that a quadrotor is commanded, m/s³. Plans step from one acceleration to the next, but a
-/// quadrotor has to tilt in between, at some 3 rad/s for this jerk.
+/// Maximum jerk of the acceleration that a quadrotor is commanded, m/s³. Plans step from one acceleration to the next,
+/// but a quadrotor has to tilt in between, at some 3 rad/s for this jerk.
 const MAX_JERK_MPS3: f64 = 30.0;
 
-/// An acceleration inside the vehicle's limits: it neither exceeds the maximum acceleration, nor leads beyond the maximum
-/// speed within a step.
+/// An acceleration inside the vehicle's limits: it neither exceeds the maximum acceleration, nor leads beyond the
+/// maximum speed within a step.
 ///
 /// - `velocity_mps`: measured velocity over ground; the vehicle does not know the wind
 pub(super) fn limited_mps2(
@@ -126,8 +126,8 @@ impl Autopilot {
         [command_n, allocation::limited(&rotors, inside.0, &inside.1, limits)]
     }
 
-    /// Total thrust, N, and torque, N m, for an acceleration: the thrust axis turns to the force by the smallest rotation, and
-    /// the yaw angle slowly returns to 0 (east).
+    /// Total thrust, N, and torque, N m, for an acceleration: the thrust axis turns to the force by the smallest
+    /// rotation, and the yaw angle slowly returns to 0 (east).
     fn wrench(&self, measured: &AttitudeState, acceleration_mps2: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let force_n = (acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.mass_kg;
         let axis = measured.attitude * Vector3::z();

@@ -3,7 +3,8 @@ use scenarios::Range;
 
 use super::RotorGeometry;
 
-/// Thrusts for a total thrust, N, and a torque, N m, without regard to their limits: the inverse of [`RotorGeometry::wrench`].
+/// Thrusts for a total thrust, N, and a torque, N m, without regard to their limits: the inverse of
+/// [`RotorGeometry::wrench`].
 pub(crate) fn unlimited(rotors: &RotorGeometry, total_n: f64, torque_nm: &Vector3<f64>) -> Vector4<f64> {
     let [tilt_n, yaw_n] = parts(rotors, torque_nm);
     Vector4::repeat(total_n / 4.0) + tilt_n + yaw_n
@@ -11,8 +12,8 @@ pub(crate) fn unlimited(rotors: &RotorGeometry, total_n: f64, torque_nm: &Vector
 
 /// Thrusts inside their limits that approximate a total thrust, N, and a torque, N m.
 ///
-/// The torque about the body's z axis is reduced first, then the torque about x and y, which keeps its direction. The total
-/// thrust has priority over both.
+/// The torque about the body's z axis is reduced first, then the torque about x and y, which keeps its direction. The
+/// total thrust has priority over both.
 pub(crate) fn limited(rotors: &RotorGeometry, total_n: f64, torque_nm: &Vector3<f64>, limits: Range) -> Vector4<f64> {
     let [tilt_n, yaw_n] = parts(rotors, torque_nm);
     let mut thrust_n = Vector4::repeat((total_n / 4.0).clamp(limits.min, limits.max));

@@ -41,8 +41,8 @@ impl LaggedRotors {
         Self { thrust_n, time_constant_s }
     }
 
-    /// Advances the rotors by a step of `step_s` under a command, N. Returns the thrusts in the middle of the step, N: the mean
-    /// of those at its two ends.
+    /// Advances the rotors by a step of `step_s` under a command, N. Returns the thrusts in the middle of the step, N:
+    /// the mean of those at its two ends.
     pub fn advance(&mut self, command_n: &Vector4<f64>, step_s: f64) -> Vector4<f64> {
         let Some(time_constant_s) = self.time_constant_s else {
             self.thrust_n = *command_n;

@@ -25,7 +25,8 @@ impl CableDetector {
         self.cable
     }
 
-    /// Observes one step that began at `t_s`, s. Returns a switch with its time, s, once its phase has lasted long enough.
+    /// Observes one step that began at `t_s`, s. Returns a switch with its time, s, once its phase has lasted long
+    /// enough.
     pub fn observe(&mut self, t_s: f64, step_s: f64, cable: Cable, impulse_ns: f64) -> Option<(f64, EventKind)> {
         if cable == self.cable {
             self.other = None;

@@ -12,9 +12,9 @@ const STEP_S: f64 = 0.01;
 /// Duration of hover after the end of the plan over which the recursion starts, s: long enough for it to converge.
 const HOVER_S: f64 = 10.0;
 
-/// Weights of the squared errors, per second: ∫e, e, e', load position, load velocity. The weight of a squared acceleration,
-/// (m/s²)², is 1. The quadrotor alone would have a natural frequency of about 600^(1/4) = 5 rad/s; the load's weights damp its
-/// swing.
+/// Weights of the squared errors, per second: ∫e, e, e', load position, load velocity. The weight of a squared
+/// acceleration, (m/s²)², is 1. The quadrotor alone would have a natural frequency of about 600^(1/4) = 5 rad/s; the
+/// load's weights damp its swing.
 const WEIGHTS: [f64; 5] = [400.0, 600.0, 20.0, 60.0, 20.0];
 
 /// Time-varying linear-quadratic regulator about a reference.
@@ -23,8 +23,8 @@ const WEIGHTS: [f64; 5] = [400.0, 600.0, 20.0, 60.0, 20.0];
 /// P_k = Q h + A_kᵀ P_{k+1} A_k - A_kᵀ P_{k+1} B_k K_k,   K_k = (R h + B_kᵀ P_{k+1} B_k)⁻¹ B_kᵀ P_{k+1} A_k
 /// ```
 ///
-/// The recursion runs backwards in time through taut and slack phases. At an impact the two velocity errors along the cable
-/// become equal; the shift of its time is neglected.
+/// The recursion runs backwards in time through taut and slack phases. At an impact the two velocity errors along the
+/// cable become equal; the shift of its time is neglected.
 #[derive(Clone, Debug)]
 pub(super) struct Gains {
     /// One per step of the recursion, in the order of time.

@@ -1,8 +1,8 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use scenarios::slung_load::{Cable, GRAVITY_MPS2};
 
-/// Errors that the tracker feeds back, world frame: ∫e, e (position) and e' (velocity) of the quadrotor, then position and
-/// velocity of the load.
+/// Errors that the tracker feeds back, world frame: ∫e, e (position) and e' (velocity) of the quadrotor, then position
+/// and velocity of the load.
 pub(super) type Errors = SVector<f64, 15>;
 /// Derivative of the error rates with respect to the errors.
 pub(super) type ErrorRates = SMatrix<f64, 15, 15>;

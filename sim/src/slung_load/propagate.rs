@@ -24,8 +24,8 @@ pub struct Knot {
 /// - `times_s`: of the two ends of the interval, in increasing order
 /// - `max_step_s`: maximum distance between two knots, which are equidistant, s, > 0
 ///
-/// The Runge-Kutta method is of order 6, with one step per knot: with steps of 10 ms the error over an interval is below
-/// 1e-9 m. Returns the knots from the start to the end of the interval, both included.
+/// The Runge-Kutta method is of order 6, with one step per knot: with steps of 10 ms the error over an interval is
+/// below 1e-9 m. Returns the knots from the start to the end of the interval, both included.
 pub fn propagate(
     plant: &Plant,
     start: &SlungLoadState,

@@ -11,9 +11,9 @@ const PIECE_S: f64 = 0.005;
 
 /// A plan as a continuous motion, for a tracker to follow.
 ///
-/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the planned
-/// thrusts, plus a smooth correction by the interval's defect, so that it interpolates every node. At an impact it is
-/// discontinuous, as the plan is. After the last node it hovers there.
+/// On each interval it is the solution of the nonlinear equations of motion from the interval's first node under the
+/// planned thrusts, plus a smooth correction by the interval's defect, so that it interpolates every node. At an impact
+/// it is discontinuous, as the plan is. After the last node it hovers there.
 #[derive(Clone, Debug)]
 pub struct Reference {
     plant: Plant,
@@ -46,12 +46,14 @@ impl Reference {
         self.points[self.points.len() - 1].t_s
     }
 
-    /// Its points in the order of time. At a node two of them have the same time; the second one is the limit from the right.
+    /// Its points in the order of time. At a node two of them have the same time; the second one is the limit from the
+    /// right.
     pub fn points(&self) -> &[ReferencePoint] {
         &self.points
     }
 
-    /// The reference at `t_s`, s, which must not be before the first node. At a discontinuity, the limit from the right.
+    /// The reference at `t_s`, s, which must not be before the first node. At a discontinuity, the limit from the
+    /// right.
     pub fn at(&self, t_s: f64) -> ReferencePoint {
         let after = self.points.partition_point(|point| point.t_s <= t_s);
         match self.points.get(after) {

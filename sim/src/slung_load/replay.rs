@@ -19,7 +19,8 @@ pub struct AppliedControls {
     pub wind_mps: [Vector3<f64>; 2],
 }
 
-/// Replays a flight by the momentum of its two bodies: the forces are taken from the log, the motion is integrated anew.
+/// Replays a flight by the momentum of its two bodies: the forces are taken from the log, the motion is integrated
+/// anew.
 ///
 /// ```text
 /// m_Q p_Q'' = F R(t) e_3 + T d - m_Q g e_3 + drag,     m_L p_L'' = -T d - m_L g e_3 + drag,   d along the cable

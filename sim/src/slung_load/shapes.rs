@@ -68,8 +68,8 @@ impl Parts {
         }
     }
 
-    /// Signed distance as [`distance_m`](Self::distance_m), and a plane between obstacle and part (for the load, its centre) if
-    /// they do not overlap.
+    /// Signed distance as [`distance_m`](Self::distance_m), and a plane between obstacle and part (for the load, its
+    /// centre) if they do not overlap.
     pub fn distance_and_plane(
         &self,
         part: Part,

@@ -4,8 +4,8 @@ use scenarios::slung_load::State;
 use crate::kinematics::AttitudeState;
 use crate::sensors::Sensors;
 
-/// State of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x forward,
-/// y left, z up.
+/// State of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x
+/// forward, y left, z up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlungLoadState {
     /// Position of the quadrotor, m.

@@ -11,8 +11,8 @@ const MAX_SPEED_MPS: f64 = 400.0;
 
 /// A quadrotor, a load, and a rope between them as rapier bodies, at a fixed step.
 ///
-/// The rope keeps the distance by an impulse inside rapier's step, where the velocities along it are those of the middle of
-/// the step (see [`RapierWorld`]).
+/// The rope keeps the distance by an impulse inside rapier's step, where the velocities along it are those of the
+/// middle of the step (see [`RapierWorld`]).
 pub(super) struct TetheredPair {
     world: RapierWorld,
     quadrotor: usize,
@@ -36,7 +36,8 @@ pub(super) struct AppliedForces {
 }
 
 impl TetheredPair {
-    /// The pair in a state. `load_radius_m`: the load rests on the ground, if the plant has one, with its centre this high.
+    /// The pair in a state. `load_radius_m`: the load rests on the ground, if the plant has one, with its centre this
+    /// high.
     pub fn new(plant: &Plant, load_radius_m: f64, start: &SlungLoadState, step_s: f64) -> Self {
         let mut world = RapierWorld::new(step_s, MAX_SPEED_MPS);
         let quadrotor = world.add_rigid_body(
@@ -56,10 +57,10 @@ impl TetheredPair {
 
     /// The state now.
     ///
-    /// Half of each step's impulses is applied after rapier's own step, but the rope's impulse inside it. While the cable
-    /// stays taut, half of the rope's impulse belongs to the next step: without a correction the ends would seem to separate
-    /// at λ h/(2 m). The correction is computed from this velocity and not from the last impulse, part of which may belong to
-    /// an impact.
+    /// Half of each step's impulses is applied after rapier's own step, but the rope's impulse inside it. While the
+    /// cable stays taut, half of the rope's impulse belongs to the next step: without a correction the ends would seem
+    /// to separate at λ h/(2 m). The correction is computed from this velocity and not from the last impulse, part of
+    /// which may belong to an impact.
     pub fn state(&self) -> SlungLoadState {
         let PointState { position_m, velocity_mps } = self.world.point_state(self.quadrotor);
         let AttitudeState { attitude, rate_radps } = self.world.attitude_state(self.quadrotor);

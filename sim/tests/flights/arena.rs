@@ -95,8 +95,9 @@ pub fn constant_controls(start: State, control: Control, duration_s: f64) -> Tra
     }
 }
 
-/// Turns, climbs and changes of speed for 230 s, with 5 s between the nodes: a consistent plan with states from the polar
-/// equations. Each control counteracts the climb and the speed error of the node before, so that both stay bounded.
+/// Turns, climbs and changes of speed for 230 s, with 5 s between the nodes: a consistent plan with states from the
+/// polar equations. Each control counteracts the climb and the speed error of the node before, so that both stay
+/// bounded.
 pub fn manoeuvres() -> Trajectory {
     let times_s: Vec<f64> = (0..=46).map(|node| 5.0 * f64::from(node)).collect();
     let control = |t_s: f64, state: &State| Control {

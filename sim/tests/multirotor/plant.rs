@@ -1,5 +1,5 @@
-//! The logged controls integrated independently, from Newton's and Euler's laws, by a Runge-Kutta method of order 4 with small
-//! steps.
+//! The logged controls integrated independently, from Newton's and Euler's laws, by a Runge-Kutta method of order 4
+//! with small steps.
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 use scenarios::multirotor::GRAVITY_MPS2;

@@ -1,5 +1,5 @@
-//! Plans by differential flatness of the taut system: the load's path determines the cable, the quadrotor's path, the thrust
-//! and the attitude (yaw 0):
+//! Plans by differential flatness of the taut system: the load's path determines the cable, the quadrotor's path, the
+//! thrust and the attitude (yaw 0):
 //!
 //! ```text
 //! λ d = -m_L (p_L'' + g e_3),   p_Q = p_L - l_0 d,   F R e_3 = m_Q (p_Q'' + g e_3) - λ d
@@ -92,8 +92,8 @@ impl Swing {
         (quadrotor + up) * model.mass_kg + (load[2] + up) * model.load_mass_kg
     }
 
-    /// Position of the load and its derivatives: s(fraction) of degree 13, six derivatives zero at both ends; the bow is
-    /// 16 s²(1 - s)².
+    /// Position of the load and its derivatives: s(fraction) of degree 13, six derivatives zero at both ends; the bow
+    /// is 16 s²(1 - s)².
     fn load(&self, t_s: f64) -> Jet {
         let fraction = (t_s / self.duration_s).clamp(0.0, 1.0);
         let s = smooth_step(fraction).map(Vector3::repeat);

@@ -1,4 +1,5 @@
-//! Quadrotors with slung loads: the plant against closed forms and an independent integrator, the tracker on hand-made plans.
+//! Quadrotors with slung loads: the plant against closed forms and an independent integrator, the tracker on hand-made
+//! plans.
 
 mod arena;
 mod flatness;

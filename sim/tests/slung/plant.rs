@@ -112,8 +112,8 @@ fn a_dropped_load_is_caught_at_the_right_time_and_with_the_right_impulse() {
     assert!((momentum - expected).abs() < 1e-9, "{momentum} {expected}");
 }
 
-/// The catch is at any time within a step of the plant, so that its impulse is distributed over one step or two. In either case
-/// the ends of the cable do not separate afterwards.
+/// The catch is at any time within a step of the plant, so that its impulse is distributed over one step or two. In
+/// either case the ends of the cable do not separate afterwards.
 #[test]
 fn after_a_hard_catch_the_ends_of_the_cable_do_not_separate() {
     let total_n = M_Q * GRAVITY_MPS2;

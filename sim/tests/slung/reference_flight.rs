@@ -1,7 +1,8 @@
-//! An independent integrator: classical Runge-Kutta of order 4 in cable angles, with small steps and events at the switches.
+//! An independent integrator: classical Runge-Kutta of order 4 in cable angles, with small steps and events at the
+//! switches.
 //!
-//! Two point masses; the force on the quadrotor is a function of time. It shares no formula with the
-//! simulator: taut motion is integrated in (p, α, β) by the equations of Kang, Huang, Wen (2020), slack motion as free fall.
+//! Two point masses; the force on the quadrotor is a function of time. It shares no formula with the simulator: taut
+//! motion is integrated in (p, α, β) by the equations of Kang, Huang, Wen (2020), slack motion as free fall.
 
 /// Position and velocity of quadrotor and load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +21,8 @@ pub const M_L: f64 = 0.2;
 pub const L_0: f64 = 0.65;
 pub const G: f64 = 9.81;
 
-/// Integrates to `end_s` by steps of `h_s` under a force on the quadrotor, N. Returns the states every `every` steps and
-/// the switches.
+/// Integrates to `end_s` by steps of `h_s` under a force on the quadrotor, N. Returns the states every `every` steps
+/// and the switches.
 pub fn integrate(
     start: Pair,
     taut: bool,

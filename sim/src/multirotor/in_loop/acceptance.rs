@@ -7,8 +7,8 @@ const MAX_NODES: usize = 100_000;
 /// Times that differ by less than this, s, are equal up to rounding.
 const SAME_TIME_S: f64 = 1e-9;
 
-/// The reason why a reference cannot be flown, if it cannot: it is malformed, or begins too late. Whether it is safe is for
-/// the judge to decide.
+/// The reason why a reference cannot be flown, if it cannot: it is malformed, or begins too late. Whether it is safe is
+/// for the judge to decide.
 pub(super) fn defect(nodes: &[Node], takes_effect_s: f64) -> Option<String> {
     let [first, .., last] = nodes else {
         return Some(format!("{} nodes, at least two are needed", nodes.len()));

@@ -1,9 +1,9 @@
 //! Signed distance between convex shapes and upright prisms.
 //!
-//! Separated shapes: the point of their Minkowski difference closest to the origin, by the method of Gilbert, Johnson and
-//! Keerthi (1988). Every iteration bounds the distance, |v| from above and v·w/|v| from below. The lower bound is returned, so
-//! that the result is conservative. Overlapping shapes: the minimum overlap along the normals of the prism's faces and of its
-//! edges with the shape's, which is the penetration depth or more.
+//! Separated shapes: the point of their Minkowski difference closest to the origin, by the method of Gilbert, Johnson
+//! and Keerthi (1988). Every iteration bounds the distance, |v| from above and v·w/|v| from below. The lower bound is
+//! returned, so that the result is conservative. Overlapping shapes: the minimum overlap along the normals of the
+//! prism's faces and of its edges with the shape's, which is the penetration depth or more.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use scenarios::{Prism, Range};
@@ -32,7 +32,8 @@ impl ConvexPart {
         match self {
             Self::Disc { center_m, axis, radius_m } => {
                 let in_plane = |vector: &Vector3<f64>| vector - axis * axis.dot(vector);
-                // For a direction almost parallel to the axis the projection is mostly rounding, so that it is repeated.
+                // For a direction almost parallel to the axis the projection is mostly rounding, so that it is
+                // repeated.
                 let across = in_plane(direction).try_normalize(PARALLEL * direction.norm());
                 center_m + across.map_or_else(Vector3::zeros, |across| in_plane(&across).normalize() * *radius_m)
             }
@@ -69,8 +70,8 @@ pub(super) fn to_prism_m(shape: &ConvexPart, prism: &Prism) -> f64 {
     to_prism(shape, prism).0
 }
 
-/// Signed distance as [`to_prism_m`], and a supporting plane of the prism at that distance from the shape if they do not
-/// overlap. For an unbounded prism the plane is valid for shapes within [`OVERHANG_M`] of this one.
+/// Signed distance as [`to_prism_m`], and a supporting plane of the prism at that distance from the shape if they do
+/// not overlap. For an unbounded prism the plane is valid for shapes within [`OVERHANG_M`] of this one.
 pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<SeparatingPlane>) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
@@ -130,8 +131,8 @@ fn depth_m(difference: &impl Fn(&Vector3<f64>) -> Vector3<f64>, normals: &[Vecto
     normals.iter().map(overlap_m).fold(f64::INFINITY, |min_m, overlap_m| min_m.min(overlap_m.max(0.0)))
 }
 
-/// Distance of the origin from a convex set, given by its support function, m, and the direction in which the set is at least
-/// that far away; `None` if the set contains the origin. NaN if the set has NaN coordinates.
+/// Distance of the origin from a convex set, given by its support function, m, and the direction in which the set is at
+/// least that far away; `None` if the set contains the origin. NaN if the set has NaN coordinates.
 fn separation(support: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
     let mut closest = support(&Vector3::x());
     let mut simplex = Simplex::new(closest);
@@ -177,8 +178,8 @@ impl Simplex {
         self
     }
 
-    /// The point of the simplex closest to the origin, and the face that contains it: of all faces that contain the closest
-    /// point of their own plane, the closest one.
+    /// The point of the simplex closest to the origin, and the face that contains it: of all faces that contain the
+    /// closest point of their own plane, the closest one.
     fn closest(&self) -> (Vector3<f64>, Self) {
         let mut best = (self.corners[0], Self::new(self.corners[0]));
         let mut min_m2 = f64::INFINITY;
@@ -197,7 +198,8 @@ impl Simplex {
 
     /// The point closest to the origin of the plane through all corners, if it lies between them.
     ///
-    /// Its barycentric coordinates λ_j with respect to all corners but p_0 solve (p_i - p_0)·(p_j - p_0) λ_j = -(p_i - p_0)·p_0.
+    /// Its barycentric coordinates λ_j with respect to all corners but p_0 solve (p_i - p_0)·(p_j - p_0) λ_j = -(p_i -
+    /// p_0)·p_0.
     fn closest_of_plane(&self) -> Option<Vector3<f64>> {
         let base = self.corners[0];
         let edge = |i: usize| self.corners[i + 1] - base;
