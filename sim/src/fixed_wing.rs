@@ -21,4 +21,4 @@ pub use attitude::world_from_body;
 pub(crate) use fleet::simulate;
 pub use propagate::{Knot, propagate, rollout};
 pub use reference::{Reference, ReferencePoint};
-pub use replay::{AppliedControls, replayed};
+pub use replay::{AppliedControls, Replay};

@@ -1,6 +1,8 @@
 //! Butcher's method of order 6 with 7 stages.        [Butcher 1964, On Runge-Kutta processes of high order, J. Aust. Math. Soc. 4]
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector3, Vector6};
+
+use crate::kinematics::PointState;
 
 const STAGES: usize = 7;
 const NODES: [f64; STAGES] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0, 1.0 / 2.0, 1.0 / 2.0, 1.0];
@@ -29,6 +31,25 @@ pub(crate) fn advanced<const N: usize>(
         rates[stage] = rate(&(state + increment * step_s), NODES[stage]);
     }
     state + weighted_sum(&WEIGHTS, &rates) * step_s
+}
+
+/// The state of a point after a step of `step_s`, s.
+///
+/// - `acceleration`: at a velocity, m/s, and a fraction of the step in [0, 1]; m/s²
+pub(crate) fn advanced_point(
+    start: &PointState,
+    step_s: f64,
+    acceleration: impl Fn(&Vector3<f64>, f64) -> Vector3<f64>,
+) -> PointState {
+    let end = advanced(&stacked(&start.position_m, &start.velocity_mps), step_s, |state, fraction| {
+        let velocity_mps = state.fixed_rows::<3>(3).into_owned();
+        stacked(&velocity_mps, &acceleration(&velocity_mps, fraction))
+    });
+    PointState { position_m: end.fixed_rows::<3>(0).into_owned(), velocity_mps: end.fixed_rows::<3>(3).into_owned() }
+}
+
+fn stacked(upper: &Vector3<f64>, lower: &Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(upper.x, upper.y, upper.z, lower.x, lower.y, lower.z)
 }
 
 fn weighted_sum<const N: usize>(weights: &[f64], rates: &[SVector<f64, N>; STAGES]) -> SVector<f64, N> {

@@ -1,8 +1,9 @@
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector3;
 use scenarios::Interpolation;
 use scenarios::fixed_wing::{Control, State, Trajectory};
 
 use super::air_path::acceleration_mps2;
+use crate::kinematics::PointState;
 use crate::runge_kutta;
 
 /// A point of a motion, world frame.
@@ -20,6 +21,10 @@ impl Knot {
     /// A planned state at its time.
     pub fn new(state: &State, t_s: f64) -> Self {
         Self { t_s, position_m: state.position_m().into(), velocity_mps: state.velocity_mps().into() }
+    }
+
+    pub(super) fn point_state(&self) -> PointState {
+        PointState { position_m: self.position_m, velocity_mps: self.velocity_mps }
     }
 }
 
@@ -64,13 +69,16 @@ fn extend(knots: &mut Vec<Knot>, controls: [Control; 2], end_s: f64, max_step_s:
     let duration_s = end_s - start.t_s;
     let steps = (duration_s / max_step_s).ceil().max(1.0);
     let step_s = duration_s / steps;
-    let mut motion = Motion::new(&start);
+    let mut state = start.point_state();
     knots.reserve(steps as usize);
     for step in 0..steps as usize {
-        let control = |c: f64| first_order_hold(controls, (step as f64 + c) / steps);
-        motion = motion.advanced(control, step_s);
+        let control = |fraction: f64| first_order_hold(controls, (step as f64 + fraction) / steps);
+        state = runge_kutta::advanced_point(&state, step_s, |velocity_mps, fraction| {
+            acceleration_mps2(velocity_mps, control(fraction))
+        });
+        let PointState { position_m, velocity_mps } = state;
         let t_s = if step + 1 == steps as usize { end_s } else { start.t_s + (step + 1) as f64 * step_s };
-        knots.push(motion.at(t_s));
+        knots.push(Knot { t_s, position_m, velocity_mps });
     }
 }
 
@@ -78,37 +86,4 @@ fn extend(knots: &mut Vec<Knot>, controls: [Control; 2], end_s: f64, max_step_s:
 pub(super) fn first_order_hold([first, last]: [Control; 2], fraction: f64) -> Control {
     let [first, last] = [first.to_array(), last.to_array()];
     Control::from_array(std::array::from_fn(|axis| first[axis] + (last[axis] - first[axis]) * fraction))
-}
-
-/// Position (first three) and velocity (last three), world frame, m and m/s.
-#[derive(Clone, Copy)]
-struct Motion(Vector6<f64>);
-
-impl Motion {
-    fn new(knot: &Knot) -> Self {
-        let mut vector = Vector6::zeros();
-        vector.fixed_rows_mut::<3>(0).copy_from(&knot.position_m);
-        vector.fixed_rows_mut::<3>(3).copy_from(&knot.velocity_mps);
-        Self(vector)
-    }
-
-    fn at(&self, t_s: f64) -> Knot {
-        Knot {
-            t_s,
-            position_m: self.0.fixed_rows::<3>(0).into_owned(),
-            velocity_mps: self.0.fixed_rows::<3>(3).into_owned(),
-        }
-    }
-
-    /// (p, v)' = (v, a(v, u)).
-    fn rate(&self, control: Control) -> Vector6<f64> {
-        let velocity = self.0.fixed_rows::<3>(3).into_owned();
-        let acceleration = acceleration_mps2(&velocity, control);
-        Vector6::new(velocity.x, velocity.y, velocity.z, acceleration.x, acceleration.y, acceleration.z)
-    }
-
-    /// One Runge-Kutta step. `control`: at a fraction of the step in [0, 1].
-    fn advanced(&self, control: impl Fn(f64) -> Control, step_s: f64) -> Self {
-        Self(runge_kutta::advanced(&self.0, step_s, |motion, fraction| Self(*motion).rate(control(fraction))))
-    }
 }

@@ -1,7 +1,8 @@
-use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use nalgebra::{UnitQuaternion, Vector3};
 use scenarios::multirotor::{GRAVITY_MPS2, Model};
 
 use crate::air::drag_n;
+use crate::kinematics::PointState;
 use crate::runge_kutta;
 
 /// What lifts a multirotor over one step of the simulator.
@@ -50,19 +51,13 @@ impl Replay {
         wind_mps: [Vector3<f64>; 2],
         step_s: f64,
     ) -> [Vector3<f64>; 2] {
-        let mut motion = Vector6::zeros();
-        motion.fixed_rows_mut::<3>(0).copy_from(&position_m);
-        motion.fixed_rows_mut::<3>(3).copy_from(&velocity_mps);
-        let motion = runge_kutta::advanced(&motion, step_s, |motion, fraction| {
-            let velocity_mps = motion.fixed_rows::<3>(3).into_owned();
+        let start = PointState { position_m, velocity_mps };
+        let end = runge_kutta::advanced_point(&start, step_s, |velocity_mps, fraction| {
             let wind_mps = wind_mps[0] + (wind_mps[1] - wind_mps[0]) * fraction;
             let force_n = self.lift_n(lift, fraction) + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
-            let mut rate = Vector6::zeros();
-            rate.fixed_rows_mut::<3>(0).copy_from(&velocity_mps);
-            rate.fixed_rows_mut::<3>(3).copy_from(&(force_n / self.mass_kg - Vector3::z() * GRAVITY_MPS2));
-            rate
+            force_n / self.mass_kg - Vector3::z() * GRAVITY_MPS2
         });
-        [0, 3].map(|row| motion.fixed_rows::<3>(row).into_owned())
+        [end.position_m, end.velocity_mps]
     }
 
     fn lift_n(&self, lift: &AppliedControls, fraction: f64) -> Vector3<f64> {

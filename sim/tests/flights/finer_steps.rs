@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use scenarios::{Scenario, Sensors, Wind};
-use sim::fixed_wing::{AppliedControls, Knot, replayed};
+use sim::fixed_wing::{AppliedControls, Knot, Replay};
 use sim::{Flight, FlightOptions, fly_with};
 
 use crate::arena;
@@ -42,6 +42,7 @@ fn a_replay_agrees_with_the_flight_and_detects_a_wrong_mass() {
     let flight = flown(&scenario, 0);
     let samples = &flight.vehicles[0].samples;
     let error_m = |mass_ratio: f64| {
+        let replay = Replay::new(mass_ratio);
         let knot = |index: usize| Knot {
             t_s: samples[index].t_s,
             position_m: arena::position(&samples[index]),
@@ -49,8 +50,8 @@ fn a_replay_agrees_with_the_flight_and_detects_a_wrong_mass() {
         };
         let follow = |motion: Knot, index: usize| {
             let wind_mps = [index, index + 1].map(|index| Vector3::from(samples[index].wind_mps));
-            let applied = AppliedControls { control: samples[index].load_factors().control, wind_mps, mass_ratio };
-            replayed(&motion, &applied, samples[index + 1].t_s)
+            let applied = AppliedControls { control: samples[index].load_factors().control, wind_mps };
+            replay.advanced(&motion, &applied, samples[index + 1].t_s)
         };
         ((4000..4250).fold(knot(4000), follow).position_m - knot(4250).position_m).norm()
     };

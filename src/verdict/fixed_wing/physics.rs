@@ -1,7 +1,7 @@
 //! Replay of a fixed wing's log: its controls and air determine its motion.
 
 use scenarios::{CheckSpec, Scenario};
-use sim::fixed_wing::{AppliedControls, Knot, replayed};
+use sim::fixed_wing::{AppliedControls, Knot, Replay};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::evidence::CheckResult;
@@ -15,12 +15,12 @@ use crate::verdict::physics::{Defect, check_largest, difference_m};
 /// distance between this flight and one with the better integrator.
 pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: &Flight) -> CheckResult {
     let window_s = 2.0 / scenario.simulation.tracker.natural_frequency_radps;
-    let mass_ratio = scenario.simulation.mismatch.mass_ratio;
-    check_largest(spec, scenario, flight, |_, log| Ok(largest_defect(log, window_s, mass_ratio)))
+    let replay = Replay::new(scenario.simulation.mismatch.mass_ratio);
+    check_largest(spec, scenario, flight, |_, log| Ok(largest_defect(log, window_s, &replay)))
 }
 
 /// Of one aircraft. `None` if its log has no step.
-fn largest_defect(log: &VehicleLog, window_s: f64, mass_ratio: f64) -> Option<Defect> {
+fn largest_defect(log: &VehicleLog, window_s: f64, replay: &Replay) -> Option<Defect> {
     let mut worst: Option<Defect> = None;
     let mut began_s = f64::NEG_INFINITY;
     let mut motion = knot(log.samples.first()?);
@@ -28,12 +28,11 @@ fn largest_defect(log: &VehicleLog, window_s: f64, mass_ratio: f64) -> Option<De
         if pair[0].t_s - began_s >= window_s {
             (motion, began_s) = (knot(&pair[0]), pair[0].t_s);
         }
-        let acting = AppliedControls {
+        let applied = AppliedControls {
             control: pair[0].load_factors().control,
             wind_mps: [pair[0].wind_mps.into(), pair[1].wind_mps.into()],
-            mass_ratio,
         };
-        motion = replayed(&motion, &acting, pair[1].t_s);
+        motion = replay.advanced(&motion, &applied, pair[1].t_s);
         let logged = knot(&pair[1]);
         let defect_m = difference_m(
             &(motion.position_m - logged.position_m),

@@ -90,7 +90,7 @@ pub fn check_planned_cable(
         (trajectory.times_s[node], if is_taut { beyond_m.abs() } else { beyond_m.max(0.0) })
     });
     let slack =
-        planned.knots.iter().map(|knot| (knot.t_s, (knot.body.cable_m().norm() - model.cable_length_m).max(0.0)));
+        planned.knots.iter().map(|knot| (knot.t_s, (knot.state.cable_m().norm() - model.cable_length_m).max(0.0)));
     let worst = taut.chain(slack).reduce(|worst, next| if is_larger(next.1, worst.1) { next } else { worst });
     let (at_s, beyond_m) = worst.ok_or(MissingEvidence::NoNode)?;
     Ok(spec.at_most(Measurement::value(beyond_m).at(at_s).with(&trajectory.vehicle), limit_m))

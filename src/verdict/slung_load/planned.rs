@@ -56,7 +56,7 @@ impl PlannedMotion {
         let trajectory = plan.trajectories[0].slung_load();
         let intervals = trajectory.times_s.len() - 1;
         let knots: Vec<Knot> = (0..intervals).flat_map(|interval| integrated(trajectory, &plant, interval)).collect();
-        let samples = knots.iter().map(|knot| MotionSample { t_s: knot.t_s, body: knot.body }).collect();
+        let samples = knots.iter().map(|knot| MotionSample { t_s: knot.t_s, body: knot.state }).collect();
         let motion = SlungLoadMotion::new(samples).sampled();
         let motions = motions(&trajectory.vehicle, motion.samples())?;
         let defects = (0..intervals).map(|interval| defect(trajectory, &plant, interval)).collect();
@@ -108,7 +108,7 @@ fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
     let mut end = first;
     while end < last {
         let knots = integrated_from(&body, trajectory, plant, end);
-        body = knots[knots.len() - 1].body;
+        body = knots[knots.len() - 1].state;
         end += 1;
         let switches = trajectory.cable[end] != trajectory.cable[end - 1];
         if becomes_taut(trajectory, end) {
@@ -146,7 +146,7 @@ fn impacts(trajectory: &Trajectory, plant: &Plant) -> Vec<(f64, f64)> {
     let nodes = (1..trajectory.times_s.len()).filter(|node| becomes_taut(trajectory, *node));
     let impulse = |node: usize| {
         let knots = integrated(trajectory, plant, node - 1);
-        (trajectory.times_s[node], impact(plant, &knots[knots.len() - 1].body).1)
+        (trajectory.times_s[node], impact(plant, &knots[knots.len() - 1].state).1)
     };
     nodes.map(impulse).collect()
 }

@@ -11,7 +11,7 @@ pub fn defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory, l
     let plant = Plant::nominal(scenario.slung_load_model(vehicle), scenario.world.ground_m);
     let reference = Reference::new(trajectory.slung_load(), &plant);
     log.samples.iter().zip(&log.loads).find_map(|(sample, load)| {
-        let planned = reference.at(sample.t_s).body;
+        let planned = reference.at(sample.t_s).state;
         strays("", sample.t_s, sample.reference_position_m, &planned.position_m)
             .or_else(|| strays(" for the load", sample.t_s, load.reference_position_m, &planned.load_position_m))
     })
