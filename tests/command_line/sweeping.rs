@@ -29,7 +29,8 @@ fn merged_partitions_are_the_sweep_of_one_machine() {
 
     let output = workplace.harness(&["merge", parts[0], "-o", "half"]);
     assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains("4 of 7 samples are missing; the first is sample 0"), "{}", stderr(&output));
+    let errors = stderr(&output).replace("\n  │ ", " ");
+    assert!(errors.contains("4 of 7 samples are missing; the first is sample 0"), "{errors}");
     assert!(!workplace.path("half/sweep.json").exists());
 }
 
