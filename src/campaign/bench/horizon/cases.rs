@@ -10,7 +10,7 @@ use super::Plan;
 /// number of iterations, an earlier end could not show.
 const STALL: usize = 10;
 
-/// The paper's experiments (its section 5), and ours.
+/// The experiments of section 5 of the paper, and a comparison of samplers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Experiment {
@@ -82,12 +82,11 @@ pub fn all(plan: &Plan) -> Vec<Case> {
         cases.push(Case { experiment, name, scenario, planner });
     };
     let usual = Horizon::default;
-    let ways = |cost_map| Horizon { cost_map: Some(cost_map), ..Horizon::default() };
     let map = &plan.paper_map;
-    add(Experiment::CostMaps, map, "rhc-fpso, visibility", "rhc-fpso", ways(CostMap::Visibility));
-    add(Experiment::CostMaps, map, "rhc-fpso, voronoi", "rhc-fpso", ways(CostMap::Voronoi));
-    add(Experiment::CostMaps, map, "rhc, visibility", "rhc", ways(CostMap::Visibility));
-    add(Experiment::CostMaps, map, "rhc, voronoi", "rhc", ways(CostMap::Voronoi));
+    add(Experiment::CostMaps, map, "rhc-fpso, visibility", "rhc-fpso", with_cost_map(CostMap::Visibility));
+    add(Experiment::CostMaps, map, "rhc-fpso, voronoi", "rhc-fpso", with_cost_map(CostMap::Voronoi));
+    add(Experiment::CostMaps, map, "rhc, visibility", "rhc", with_cost_map(CostMap::Visibility));
+    add(Experiment::CostMaps, map, "rhc, voronoi", "rhc", with_cost_map(CostMap::Voronoi));
     for planner in ["sparse-astar", "rrt", "rrt-star", "rhc-fpso", "rhc"] {
         add(Experiment::Baselines, map, planner, planner, usual());
     }
@@ -125,6 +124,10 @@ pub fn all(plan: &Plan) -> Vec<Case> {
         }
     }
     cases
+}
+
+fn with_cost_map(cost_map: CostMap) -> Horizon {
+    Horizon { cost_map: Some(cost_map), ..Horizon::default() }
 }
 
 fn field(form: PotentialFieldForm, is_squared: bool) -> Horizon {

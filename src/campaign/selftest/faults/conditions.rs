@@ -1,4 +1,4 @@
-//! What can be wrong with a flight in wind, seen through noise.
+//! Faults of flights in wind and with sensor noise.
 
 use super::super::{Fault, ReferenceCase};
 
@@ -10,12 +10,12 @@ pub fn faults() -> Vec<Fault> {
             calm.simulation.wind = None;
             it.fly_in(&calm);
         }),
-        Fault::new("flight.conditions", "the wind blew with its sign switched", |it| {
+        Fault::new("flight.conditions", "the wind blew with the opposite sign", |it| {
             let mut turned = it.scenario.clone();
-            turn(&mut turned);
+            reverse_wind(&mut turned);
             it.fly_in(&turned);
         }),
-        Fault::new("flight.dynamics", "the wind in the log has its sign switched, the one that acted has not", |it| {
+        Fault::new("flight.dynamics", "the wind in the log has the opposite sign of the wind that acted", |it| {
             each_sample(it, |sample| sample.wind_mps = sample.wind_mps.map(|component| -component));
         }),
         Fault::new("flight.conditions", "the sensors had no noise", |it| {
@@ -41,7 +41,7 @@ pub fn faults() -> Vec<Fault> {
     ]
 }
 
-fn turn(scenario: &mut scenarios::Scenario) {
+fn reverse_wind(scenario: &mut scenarios::Scenario) {
     let Some(wind) = &mut scenario.simulation.wind else { return };
     wind.mean_mps = wind.mean_mps.map(|component| -component);
     wind.pulses.iter_mut().for_each(|pulse| pulse.peak_mps = pulse.peak_mps.map(|component| -component));

@@ -1,4 +1,4 @@
-//! What can be wrong with any flight log.
+//! Faults of flight logs of all families.
 
 use sim::{Event, EventKind};
 
@@ -19,7 +19,7 @@ fn incomplete() -> Vec<Fault> {
         Fault::new("flight.complete", "a log is missing", |it| {
             it.flight().vehicles.pop();
         }),
-        Fault::new("flight.complete", "a log stands twice", |it| {
+        Fault::new("flight.complete", "a log is duplicated", |it| {
             let twice = it.flight().vehicles[0].clone();
             it.flight().vehicles.push(twice);
         }),
@@ -28,8 +28,8 @@ fn incomplete() -> Vec<Fault> {
         }),
         Fault::new("flight.complete", "a log is empty", |it| keep(it, 0.0)),
         Fault::new("flight.complete", "the last quarter of a flight is missing", |it| {
-            let share = it.planned_steps() as f64 / it.steps() as f64;
-            keep(it, 0.75 * share);
+            let fraction = it.planned_steps() as f64 / it.steps() as f64;
+            keep(it, 0.75 * fraction);
         }),
         Fault::new("flight.complete", "a flight ends just before its plan", |it| {
             let planned = it.planned_steps();
@@ -42,7 +42,7 @@ fn incomplete() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle].t_s -= 0.1;
         }),
-        Fault::new("flight.complete", "a sample stands twice", |it| {
+        Fault::new("flight.complete", "a sample is duplicated", |it| {
             let middle = it.steps() / 2;
             let twice = it.samples(0)[middle];
             it.samples(0).insert(middle, twice);
@@ -60,10 +60,10 @@ fn incomplete() -> Vec<Fault> {
 }
 
 fn not_numbers() -> Vec<Fault> {
-    let at_middle = |spoil: fn(&mut sim::Sample)| {
+    let at_middle = |mutate: fn(&mut sim::Sample)| {
         move |it: &mut ReferenceCase| {
             let middle = it.steps() / 2;
-            spoil(&mut it.samples(0)[middle]);
+            mutate(&mut it.samples(0)[middle]);
         }
     };
     vec![
@@ -77,10 +77,10 @@ fn not_numbers() -> Vec<Fault> {
                 it.measured_velocity_mps[2] = f64::NAN;
             }),
         ),
-        Fault::new("flight.finite", "an event is at no time", |it| {
+        Fault::new("flight.finite", "the time of an event is not a number", |it| {
             it.flight().events.push(Event { t_s: f64::NAN, kind: EventKind::SaturationBegan, vehicles: vec![] });
         }),
-        Fault::new("flight.finite", "an impact has no number for its impulse", |it| {
+        Fault::new("flight.finite", "the impulse of an impact is not a number", |it| {
             let kind = EventKind::CableTaut { impulse_ns: f64::NAN };
             it.flight().events.push(Event { t_s: 1.0, kind, vehicles: vec![] });
         }),
@@ -92,18 +92,18 @@ fn against_physics() -> Vec<Fault> {
         Fault::new("flight.goal", "a vehicle stands still from the beginning", |it| freeze(it, 0.0, 1.0)),
         Fault::new("flight.goal", "a vehicle stands still from the middle on", |it| freeze(it, 0.5, 1.0)),
         Fault::new("flight.dynamics", "a vehicle stands still for three samples", |it| {
-            let share = 3.0 / it.steps() as f64;
-            freeze(it, 0.4, 0.4 + share);
+            let fraction = 3.0 / it.steps() as f64;
+            freeze(it, 0.4, 0.4 + fraction);
         }),
         Fault::new("flight.dynamics", "a vehicle jumps aside for one sample, inside the tracking limit", |it| {
             let (middle, half_m) = (it.steps() / 2 + 3, 0.5 * it.scenario.limits().tracking_max_m);
             it.shift(0, middle..middle + 1, [0.0, half_m, 0.0]);
         }),
         Fault::new("flight.dynamics", "a vehicle slides sideways, inside the tracking limit", |it| {
-            let (steps, most_m) = (it.steps(), 0.9 * it.scenario.limits().tracking_rms_m);
+            let (steps, max_m) = (it.steps(), 0.9 * it.scenario.limits().tracking_rms_m);
             for step in 0..steps {
-                let share = (step as f64 / steps as f64 * std::f64::consts::TAU * 8.0).sin();
-                it.shift(0, step..step + 1, [0.0, 0.0, most_m * share]);
+                let phase_sine = (step as f64 / steps as f64 * std::f64::consts::TAU * 8.0).sin();
+                it.shift(0, step..step + 1, [0.0, 0.0, max_m * phase_sine]);
             }
         }),
         Fault::new("flight.dynamics", "velocities are 2 % too large", |it| {
@@ -155,8 +155,8 @@ fn flattering() -> Vec<Fault> {
     ]
 }
 
-fn keep(it: &mut ReferenceCase, share: f64) {
-    let kept = (it.steps() as f64 * share) as usize;
+fn keep(it: &mut ReferenceCase, fraction: f64) {
+    let kept = (it.steps() as f64 * fraction) as usize;
     it.samples(0).truncate(kept);
     it.loads().truncate(kept);
 }
@@ -169,10 +169,10 @@ fn cut_out(it: &mut ReferenceCase, count: usize) {
     }
 }
 
-/// Vehicle and load stay where they are, from one share of the samples to another, at the velocity that they have.
+/// Holds the positions of vehicle and load, and leaves their velocities, from one fraction of the samples to another.
 fn freeze(it: &mut ReferenceCase, from: f64, to: f64) {
     let steps = it.steps();
-    let [from, to] = [from, to].map(|share| ((steps as f64 * share) as usize).min(steps));
+    let [from, to] = [from, to].map(|fraction| ((steps as f64 * fraction) as usize).min(steps));
     let held = it.samples(0)[from.min(steps - 1)];
     it.samples(0)[from..to].iter_mut().for_each(|sample| {
         sample.position_m = held.position_m;
@@ -185,7 +185,7 @@ fn freeze(it: &mut ReferenceCase, from: f64, to: f64) {
     });
 }
 
-/// What two logs hold from some sample on, swapped, apart from what the plans ask for.
+/// Swaps the samples of two logs from one sample on, without their references.
 pub fn swap(it: &mut ReferenceCase, from: usize) {
     let (one, other) = (it.samples(0).clone(), it.samples(1).clone());
     for (vehicle, source) in [(0, &other), (1, &one)] {
@@ -198,7 +198,7 @@ pub fn swap(it: &mut ReferenceCase, from: usize) {
     }
 }
 
-/// The first vehicle is where it should have been some time ago.
+/// Delays the motion of the first vehicle.
 pub fn delay(it: &mut ReferenceCase, late_s: f64) {
     let late = (late_s / it.scenario.simulation.step_s).round() as usize;
     let samples = it.samples(0).clone();

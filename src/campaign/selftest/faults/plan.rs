@@ -1,4 +1,4 @@
-//! What can be wrong with any plan.
+//! Faults of plans of all families.
 
 use scenarios::PlannedEvent;
 
@@ -11,7 +11,7 @@ pub fn faults() -> Vec<Fault> {
         Fault::new("plan.complete", "a trajectory has no node", |it| truncate(it, 0.0)),
         Fault::new("plan.complete", "a trajectory has states and no times", |it| it.times_s(0).clear()),
         Fault::new("plan.complete", "the plan is for a vehicle of another name", |it| it.edit(0).vehicle().push('?')),
-        Fault::new("plan.complete", "a trajectory stands twice", |it| {
+        Fault::new("plan.complete", "a trajectory is duplicated", |it| {
             let twice = it.plan.trajectories[0].clone();
             it.plan.trajectories.push(twice);
         }),
@@ -31,7 +31,7 @@ pub fn faults() -> Vec<Fault> {
         }),
         Fault::new("plan.finite", "one planned time is not a number", |it| it.times_s(0)[2] = f64::NAN),
         Fault::new("plan.finite", "the objective is not a number", |it| it.plan.objective = Some(f64::NAN)),
-        Fault::new("plan.finite", "a planned event is at no time", |it| {
+        Fault::new("plan.finite", "the time of a planned event is not a number", |it| {
             it.plan.diagnostics.events.push(PlannedEvent { at_s: f64::NAN, what: "catch".to_owned() });
         }),
         Fault::new("plan.dynamics", "the plan's clock runs 5 % fast", |it| {

@@ -1,4 +1,4 @@
-//! What can be wrong with a plan or a flight of fixed wings.
+//! Faults of plans and flights of fixed wings.
 
 use scenarios::Cylinder;
 
@@ -28,8 +28,8 @@ fn plans() -> Vec<Fault> {
         }),
         Fault::new("plan.control_limits", "a control jumps at one node", |it| it.fixed_wing(0).controls[10].n_z = 2.0),
         Fault::new("nodes.control_limits", "a control at one node is beyond what planning allows", |it| {
-            let most = it.fixed_wing_model().planning_limits.n_y.max;
-            it.fixed_wing(0).controls[10].n_y = most + 1e-3;
+            let max = it.fixed_wing_model().planning_limits.n_y.max;
+            it.fixed_wing(0).controls[10].n_y = max + 1e-3;
         }),
         Fault::new("nodes.state_limits", "a node is faster than planning allows", |it| {
             let fastest_mps = it.fixed_wing_model().planning_limits.speed_mps.max;
@@ -38,7 +38,7 @@ fn plans() -> Vec<Fault> {
         Fault::new("plan.rollout", "the planned controls pull slightly to one side", |it| {
             it.fixed_wing(0).controls.iter_mut().for_each(|control| control.n_y += 2e-4);
         }),
-        Fault::new("plan.dynamics", "the sign of a planned control is switched", |it| {
+        Fault::new("plan.dynamics", "a planned control has the opposite sign", |it| {
             it.fixed_wing(0).controls.iter_mut().for_each(|control| control.n_y = -control.n_y);
         }),
         Fault::new("plan.separation", "the second plan is a copy of the first", |it| {
@@ -59,7 +59,7 @@ fn plans() -> Vec<Fault> {
 fn flights() -> Vec<Fault> {
     vec![
         Fault::new("flight.complete", "the logs of two vehicles are swapped", |it| it.flight().vehicles.swap(0, 1)),
-        Fault::new("flight.complete", "what two logs hold is swapped", |it| swap(it, 0)),
+        Fault::new("flight.complete", "the contents of two logs are swapped", |it| swap(it, 0)),
         Fault::new("flight.dynamics", "two vehicles change places in the middle of the flight", |it| {
             let middle = it.steps() / 2;
             swap(it, middle);
@@ -76,14 +76,14 @@ fn flights() -> Vec<Fault> {
             }
         }),
         Fault::new("flight.tracking_max", "a vehicle is blown aside for some seconds", |it| {
-            let (middle, most_m) = (it.steps() / 2, it.scenario.limits().tracking_max_m);
-            it.shift(0, middle..middle + 300, [0.0, 1.2 * most_m, 0.0]);
+            let (middle, max_m) = (it.steps() / 2, it.scenario.limits().tracking_max_m);
+            it.shift(0, middle..middle + 300, [0.0, 1.2 * max_m, 0.0]);
         }),
-        Fault::new("flight.tracking_rms", "a vehicle keeps beside its plan", |it| {
-            let (steps, most_m) = (it.steps(), it.scenario.limits().tracking_rms_m);
-            it.shift(0, 0..steps, [0.0, 0.0, 1.1 * most_m]);
+        Fault::new("flight.tracking_rms", "a vehicle flies beside its plan", |it| {
+            let (steps, max_m) = (it.steps(), it.scenario.limits().tracking_rms_m);
+            it.shift(0, 0..steps, [0.0, 0.0, 1.1 * max_m]);
         }),
-        Fault::new("flight.state_limits", "a flight is slower than its wings bear", |it| {
+        Fault::new("flight.state_limits", "a flight is slower than the smallest airspeed", |it| {
             let slowest_mps = it.fixed_wing_model().limits.speed_mps.min;
             let middle = it.steps() / 2;
             let sample = &mut it.samples(0)[middle];
@@ -105,7 +105,7 @@ fn flights() -> Vec<Fault> {
             let tenth = it.planned_steps() / 10;
             it.samples(0)[..tenth].iter_mut().for_each(|sample| load_factors(sample).command.n_x = 1.0);
         }),
-        Fault::new("flight.duration", "a vehicle takes longer than it may", |it| {
+        Fault::new("flight.duration", "a vehicle exceeds the longest duration", |it| {
             let planned_s = it.plan.flight_time_s().unwrap_or(0.0);
             it.scenario.simulation.max_duration_s = planned_s + 0.1;
             delay(it, 0.2);
@@ -142,7 +142,7 @@ fn obstacles() -> Vec<Fault> {
     ]
 }
 
-/// A pole near the first vehicle's path: at the share `between` of a step, its axis so far to the left.
+/// Adds a pole near the path of the first vehicle: at the fraction `between` of a step, its axis `left_m` to the left.
 fn place(it: &mut ReferenceCase, step: usize, between: f64, left_m: f64, radius_m: f64) {
     let [from, to] = [it.samples(0)[step], it.samples(0)[step + 1]];
     let at = |axis: usize| from.position_m[axis] + between * (to.position_m[axis] - from.position_m[axis]);

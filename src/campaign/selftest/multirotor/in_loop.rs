@@ -1,4 +1,4 @@
-//! Flights that were planned while they lasted: what their log says of the planning.
+//! Faults of the planning logs of in-loop flights.
 
 use scenarios::in_loop::ReplanStatus;
 use sim::{EventKind, PlanningLog};
@@ -21,7 +21,7 @@ fn times() -> Vec<Fault> {
         Fault::new("flight.conditions", "answers took no time", |it| {
             planning(it).replans.iter_mut().for_each(|replan| replan.ready_s = replan.asked_s);
         }),
-        Fault::new("flight.conditions", "a planner was asked out of turn", |it| {
+        Fault::new("flight.conditions", "a planner was asked between its periods", |it| {
             let replans = &mut planning(it).replans;
             let mut again = replans[9].clone();
             again.asked_s += 0.1;
@@ -32,14 +32,14 @@ fn times() -> Vec<Fault> {
         Fault::new("flight.conditions", "planners were asked twice as often as the scenario says", |it| {
             it.scenario.simulation.planning.period_s *= 2.0;
         }),
-        Fault::new("flight.conditions", "a turn was left out", |it| {
+        Fault::new("flight.conditions", "a replan is missing", |it| {
             planning(it).replans.remove(9);
         }),
         Fault::new("flight.conditions", "an answer was late, and the log calls it in time", |it| {
             let late = &mut planning(it).replans[9];
             late.takes_effect_s += 0.05;
         }),
-        Fault::new("flight.conditions", "an answer was late, and there is no event of it", |it| {
+        Fault::new("flight.conditions", "an answer was late without an event in the log", |it| {
             let mut slow = it.scenario.clone();
             slow.simulation.planning.median_s = slow.simulation.planning.deadline_s + 0.05;
             it.fly_in(&slow);
@@ -51,27 +51,27 @@ fn times() -> Vec<Fault> {
 
 fn answers() -> Vec<Fault> {
     vec![
-        Fault::new("flight.finite", "an answer holds something that is no number", |it| {
+        Fault::new("flight.finite", "an answer holds a value that is not a number", |it| {
             planning(it).replans.iter_mut().find(|it| !it.nodes.is_empty()).expect("an answer").nodes[1].position_m
                 [0] = f64::NAN;
         }),
-        Fault::new("flight.conditions", "an answer is that of a vehicle that is not there", |it| {
+        Fault::new("flight.conditions", "an answer is for a vehicle that does not exist", |it| {
             planning(it).replans[9].vehicle = 99;
         }),
         Fault::new("flight.conditions", "an answer was flown that had been rejected", |it| {
-            let reason = "it is no motion".to_owned();
+            let reason = "it is not a motion".to_owned();
             let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == ReplanStatus::InTime);
             flown.expect("an answer").outcome = ReplanStatus::Rejected { reason };
         }),
-        Fault::new("flight.conditions", "what was flown is not what was answered", |it| {
+        Fault::new("flight.conditions", "the flown reference is not the answer", |it| {
             let flown = planning(it).replans.iter_mut().skip(9).find(|it| it.outcome == ReplanStatus::InTime);
             let nodes = &mut flown.expect("an answer").nodes;
             nodes.iter_mut().for_each(|node| node.position_m[2] += 0.01);
         }),
-        Fault::new("flight.conditions", "the plan that is reported is not the one that was followed", |it| {
+        Fault::new("flight.conditions", "the reported plan is not the followed reference", |it| {
             it.multirotor(0).states.iter_mut().for_each(|state| state.position_m[2] += 5e-3);
         }),
-        Fault::new("flight.conditions", "the plan that is reported ends before the flight did", |it| {
+        Fault::new("flight.conditions", "the reported plan ends before the flight", |it| {
             let trajectory = it.multirotor(0);
             let kept = trajectory.times_s.len() * 3 / 4;
             trajectory.times_s.truncate(kept);
@@ -86,8 +86,8 @@ fn answers() -> Vec<Fault> {
             }
         }),
         Fault::new("flight.goal", "a goal was moved after the flight", |it| {
-            let most_m = it.scenario.limits().goal_m;
-            it.scenario.vehicles[0].goal.z_m += 1.5 * most_m;
+            let max_m = it.scenario.limits().goal_m;
+            it.scenario.vehicles[0].goal.z_m += 1.5 * max_m;
         }),
     ]
 }

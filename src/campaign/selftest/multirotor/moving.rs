@@ -1,21 +1,21 @@
-//! Flights among obstacles that move.
+//! Faults of flights among moving obstacles.
 
 use scenarios::MovingCylinder;
 use sim::multirotor::Obstacles;
 
 use crate::campaign::selftest::{Fault, ReferenceCase};
 
-/// Steps in which a cart is delayed until it is in the way, s.
-const DELAY_S: f64 = 0.1;
+/// Step by which a moving obstacle is delayed until it is in the way, s.
+const DELAY_STEP_S: f64 = 0.1;
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
     vec![
-        Fault::new("flight.clearance", "a cart that crosses comes later than it was seen", |it| delay(it, 0)),
-        Fault::new("flight.clearance", "a cart that crosses at the end comes later than it was seen", |it| {
+        Fault::new("flight.clearance", "a crossing obstacle comes later than it was sensed", |it| delay(it, 0)),
+        Fault::new("flight.clearance", "an obstacle that crosses at the end comes later than it was sensed", |it| {
             delay(it, 2);
         }),
-        Fault::new("flight.crash", "a cart drove into a vehicle, and the log tells of no crash", |it| delay(it, 1)),
+        Fault::new("flight.crash", "an obstacle hit a vehicle without a crash in the log", |it| delay(it, 1)),
         Fault::new(
             "flight.clearance",
             "a plate of 2 mm crosses the path between two samples, faster than either",
@@ -24,7 +24,7 @@ pub fn faults() -> Vec<Fault> {
                 let [from, to] = [it.samples(0)[middle], it.samples(0)[middle + 1]];
                 let [x_m, y_m] = [0, 1].map(|axis| f64::midpoint(from.position_m[axis], to.position_m[axis]));
                 let (speed_mps, t_s) = (400.0, f64::midpoint(from.t_s, to.t_s));
-                // Far away but for an instant: its way there and back takes longer than the flight.
+                // It passes in an instant, and is far away during the rest of the flight.
                 let (before_m, beyond_m) = (speed_mps * t_s, speed_mps * 200.0);
                 it.scenario.world.moving.push(MovingCylinder {
                     name: "planted".to_owned(),
@@ -36,7 +36,7 @@ pub fn faults() -> Vec<Fault> {
                 });
             },
         ),
-        Fault::new("flight.clearance", "a cart is wider than it was seen", |it| {
+        Fault::new("flight.clearance", "moving obstacles are wider than they were sensed", |it| {
             let clearance_m = it.value("flight.clearance");
             it.scenario.world.moving.iter_mut().for_each(|cart| cart.radius_m += clearance_m + 1e-3);
             it.scenario.world.boxes.clear();
@@ -44,20 +44,18 @@ pub fn faults() -> Vec<Fault> {
     ]
 }
 
-/// Delays a moving obstacle until the first vehicle flies into it.
-///
-/// Panics if it is never in the way: the reference has changed.
+/// Delays a moving obstacle until the first vehicle flies into it. Panics if it is never in the way.
 fn delay(it: &mut ReferenceCase, cart: usize) {
     let reach_m = it.multirotor_model().body_radius_m;
     let samples = it.samples(0).clone();
     for _ in 0..1000 {
         let late = &mut it.scenario.world.moving[cart];
-        late.offset_m -= late.speed_mps * DELAY_S;
+        late.offset_m -= late.speed_mps * DELAY_STEP_S;
         let world = scenarios::World { moving: vec![late.clone()], boxes: Vec::new(), ..it.scenario.world.clone() };
         let alone = Obstacles::new(&world);
         if samples.iter().any(|sample| alone.distance_m(0, sample.t_s, sample.position_m) < 0.5 * reach_m) {
             return;
         }
     }
-    panic!("the cart is never in the way");
+    panic!("the obstacle is never in the way");
 }

@@ -1,4 +1,4 @@
-//! Plans that were there before the flight.
+//! Faults of plans that were made before the flight.
 
 use scenarios::{BoxObstacle, Range};
 
@@ -6,10 +6,10 @@ use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
-    [motions(), obstacles()].into_iter().flatten().collect()
+    [states(), ends(), obstacles()].into_iter().flatten().collect()
 }
 
-fn motions() -> Vec<Fault> {
+fn states() -> Vec<Fault> {
     vec![
         Fault::new("plan.complete", "planned altitudes in feet", |it| {
             it.multirotor(0).states.iter_mut().for_each(|state| state.position_m[2] /= 0.3048);
@@ -32,29 +32,34 @@ fn motions() -> Vec<Fault> {
             let fastest_mps = it.multirotor_model().limits.speed_mps;
             let middle = it.multirotor(0).states.len() / 2;
             let times_s = it.times_s(0);
-            // Twice the way in the same time: the cubic is fastest in its middle.
-            let way_m = fastest_mps * (times_s[middle] - times_s[middle - 1]);
+            // Twice the distance in the same time: the cubic is fastest in its middle.
+            let distance_m = fastest_mps * (times_s[middle] - times_s[middle - 1]);
             let from_m = it.multirotor(0).states[middle - 1].position_m[0];
-            it.multirotor(0).states[middle].position_m[0] = from_m + way_m;
+            it.multirotor(0).states[middle].position_m[0] = from_m + distance_m;
         }),
         Fault::new("nodes.control_limits", "a node comes a tenth too early", |it| {
             let times_s = it.times_s(0);
             let early_s = 0.1 * (times_s[1] - times_s[0]);
             times_s.iter_mut().skip(1).for_each(|t_s| *t_s -= early_s);
         }),
-        Fault::new("plan.control_limits", "the sign of the velocity at one node is switched", |it| {
+        Fault::new("plan.control_limits", "the velocity at one node has the opposite sign", |it| {
             let velocity_mps = &mut it.multirotor(0).states[1].velocity_mps;
             *velocity_mps = velocity_mps.map(|component| -component);
         }),
+    ]
+}
+
+fn ends() -> Vec<Fault> {
+    vec![
         Fault::new("plan.rest", "the plan ends in motion", |it| {
-            let most_mps = it.scenario.limits().rest_mps;
+            let max_mps = it.scenario.limits().rest_mps;
             let last = it.multirotor(0).states.last_mut().expect("a plan has nodes");
-            last.velocity_mps[1] = 1.01 * most_mps;
+            last.velocity_mps[1] = 1.01 * max_mps;
         }),
         Fault::new("plan.goal", "the plan ends beside its goal", |it| {
-            let most_m = it.scenario.limits().goal_m;
+            let max_m = it.scenario.limits().goal_m;
             let last = it.multirotor(0).states.last_mut().expect("a plan has nodes");
-            last.position_m[2] += 1.01 * most_m;
+            last.position_m[2] += 1.01 * max_m;
         }),
         Fault::new("nodes.separation", "two plans share a node", |it| {
             let (state, t_s) = (it.multirotor(0).states[1], it.times_s(0)[1]);
@@ -97,11 +102,11 @@ fn obstacles() -> Vec<Fault> {
             let [x_m, y_m] = half_way(it);
             add(it, [x_m, y_m], [1e-3, 0.4], None);
         }),
-        Fault::new("plan.clearance", "a pole stands a millimetre inside of the rotors' reach", |it| {
+        Fault::new("plan.clearance", "a pole is a millimetre inside the rotors' reach", |it| {
             let ([x_m, y_m], reach_m) = (half_way(it), it.multirotor_model().body_radius_m);
             add(it, [x_m, y_m - reach_m - 9e-3], [0.02, 0.02], None);
         }),
-        Fault::new("plan.clearance", "an obstacle lies below the path, and is too high", |it| {
+        Fault::new("plan.clearance", "an obstacle below the path is too high", |it| {
             let ([x_m, y_m], reach_m) = (half_way(it), it.multirotor_model().body_radius_m);
             let z_m = it.multirotor(0).states[0].position_m[2];
             add(it, [x_m, y_m], [0.5, 0.5], Some(Range::new(0.0, z_m - reach_m + 1e-3)));
@@ -113,14 +118,14 @@ fn obstacles() -> Vec<Fault> {
     ]
 }
 
-/// Where the first vehicle is planned to be half way through its plan, (x, y) in m.
+/// Position of the first vehicle half way through its plan, (x, y) in m.
 pub fn half_way(it: &mut ReferenceCase) -> [f64; 2] {
     let middle_s = 0.5 * it.plan.flight_time_s().unwrap_or(0.0);
     let position_m = sim::multirotor::Reference::new(it.multirotor(0).nodes()).at(middle_s).position_m;
     [position_m.x, position_m.y]
 }
 
-/// A box with its sides along the axes.
+/// Adds a box with its sides along the axes.
 pub fn add(it: &mut ReferenceCase, center_m: [f64; 2], size_m: [f64; 2], z_m: Option<Range>) {
     let heading_deg = 0.0;
     it.scenario.world.boxes.push(BoxObstacle { name: "planted".to_owned(), center_m, size_m, heading_deg, z_m });

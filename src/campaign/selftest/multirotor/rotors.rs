@@ -1,4 +1,4 @@
-//! Flights of a quadrotor that has to tilt before it can accelerate.
+//! Faults of flights of a quadrotor, which has to tilt to accelerate.
 
 use crate::campaign::selftest::Fault;
 use crate::campaign::selftest::reference_case::thrusts;
@@ -39,7 +39,7 @@ pub fn faults() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.samples(0)[middle..middle + 20].iter_mut().for_each(|it| thrusts(it).control.thrust_n[0] += 0.5);
         }),
-        Fault::new("flight.dynamics", "the rotors follow at once, which have a lag", |it| {
+        Fault::new("flight.dynamics", "the rotors have no lag", |it| {
             it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.rotor_time_constant_s = None);
         }),
         Fault::new("flight.dynamics", "another mass flew than the scenario's", |it| {
@@ -52,8 +52,8 @@ pub fn faults() -> Vec<Fault> {
                 let [x, y, ..] = sample.world_from_body;
                 (1.0 - 2.0 * (x * x + y * y)).acos().to_degrees()
             };
-            let most_deg = it.samples(0).iter().map(tilt_deg).fold(0.0, f64::max);
-            it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.tilt_deg = most_deg - 1e-3);
+            let max_deg = it.samples(0).iter().map(tilt_deg).fold(0.0, f64::max);
+            it.multirotor_model().airframe.iter_mut().for_each(|airframe| airframe.tilt_deg = max_deg - 1e-3);
         }),
         Fault::new("flight.saturation", "commands are cut off for a tenth of the time", |it| {
             let tenth = it.planned_steps() / 10;

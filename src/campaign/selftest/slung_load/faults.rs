@@ -1,4 +1,4 @@
-//! What can be wrong with a plan or a flight of a quadrotor with a slung load.
+//! Faults of plans and flights of quadrotors with a slung load.
 
 use scenarios::slung_load::Cable;
 use scenarios::{BoxObstacle, Gate, Range, Window};
@@ -19,14 +19,14 @@ pub fn all() -> Vec<Fault> {
 
 fn plans() -> Vec<Fault> {
     vec![
-        Fault::new("plan.complete", "the planner's own nodes are none of the plan's", |it| {
+        Fault::new("plan.complete", "the planner's nodes are out of range", |it| {
             let beyond = it.slung_load().times_s.len();
             it.slung_load().planner_nodes = vec![0, beyond];
         }),
         Fault::new("nodes.control_limits", "a thrust at one node is beyond what planning allows", |it| {
-            let most_n = it.slung_load_model().planning_limits.thrust_n.max;
+            let max_n = it.slung_load_model().planning_limits.thrust_n.max;
             let node = it.slung_load().planner_nodes()[5];
-            it.slung_load().controls[node].thrust_n[2] = most_n + 1e-3;
+            it.slung_load().controls[node].thrust_n[2] = max_n + 1e-3;
         }),
         Fault::new("plan.control_limits", "a thrust jumps at one node", |it| {
             let node = it.slung_load().times_s.len() / 2;
@@ -57,7 +57,7 @@ fn plans() -> Vec<Fault> {
         Fault::new("plan.state_limits", "the map ends before the goal", |it| {
             it.scenario.world.map.x_m = Range::new(-4.0, 1.9);
         }),
-        Fault::new("plan.swing", "the cable swings farther than it may", |it| {
+        Fault::new("plan.swing", "the cable swings beyond its limit", |it| {
             it.slung_load_model().limits.cable_deg = Range::new(-0.5, 0.5);
         }),
     ]
@@ -65,27 +65,27 @@ fn plans() -> Vec<Fault> {
 
 fn gates() -> Vec<Fault> {
     vec![
-        Fault::new("nodes.gates", "a gate lies aside of the way", |it| put_gate(it, 0.5)),
-        Fault::new("plan.gates", "a gate is missed by a millimetre", |it| put_gate(it, GATE_M + 1e-3)),
+        Fault::new("nodes.gates", "a gate is beside the path", |it| add_gate(it, 0.5)),
+        Fault::new("plan.gates", "a gate is missed by a millimetre", |it| add_gate(it, HALF_GATE_M + 1e-3)),
         Fault::new("flight.gates", "the load is blown past a gate", |it| {
-            put_gate(it, 0.0);
+            add_gate(it, 0.0);
             let steps = it.steps();
-            it.shift(0, 0..steps, [0.0, 5.0 * GATE_M, 0.0]);
+            it.shift(0, 0..steps, [0.0, 5.0 * HALF_GATE_M, 0.0]);
         }),
     ]
 }
 
-/// Half the width of the gates that are put on a plan's way, m.
-const GATE_M: f64 = 0.1;
+/// Half the width of the gates, m.
+const HALF_GATE_M: f64 = 0.1;
 
-/// A gate about the load in the middle of the plan, aside of everywhere that the load comes by so much.
-fn put_gate(it: &mut ReferenceCase, aside_m: f64) {
+/// Adds a gate around the load in the middle of the plan; with `aside_m` > 0, beside everything that the load passes.
+fn add_gate(it: &mut ReferenceCase, aside_m: f64) {
     let middle = it.slung_load().times_s.len() / 2;
     let load_m = it.slung_load().states[middle].load_position_m;
-    let [x_m, _, _] = load_m.map(|at_m| Some(Range::new(at_m - GATE_M, at_m + GATE_M)));
+    let [x_m, _, _] = load_m.map(|at_m| Some(Range::new(at_m - HALF_GATE_M, at_m + HALF_GATE_M)));
     let farthest_m = it.slung_load().states.iter().map(|state| state.load_position_m[1]).fold(f64::MIN, f64::max);
     let y_m = if aside_m > 0.0 { farthest_m + aside_m } else { load_m[1] };
-    let load = Window { x_m, y_m: Some(Range::new(y_m - GATE_M, y_m + GATE_M)), z_m: None };
+    let load = Window { x_m, y_m: Some(Range::new(y_m - HALF_GATE_M, y_m + HALF_GATE_M)), z_m: None };
     let gate = Gate { name: "gate".to_owned(), quadrotor: Window::default(), load };
     it.scenario.world.gates.push(gate);
 }
@@ -93,12 +93,12 @@ fn put_gate(it: &mut ReferenceCase, aside_m: f64) {
 fn flights() -> Vec<Fault> {
     vec![
         Fault::new("flight.tracking_max", "the quadrotor is pushed aside for a moment", |it| {
-            let (middle, most_m) = (it.steps() / 2, it.scenario.limits().tracking_max_m);
-            it.shift(0, middle..middle + 20, [0.0, 1.2 * most_m, 0.0]);
+            let (middle, max_m) = (it.steps() / 2, it.scenario.limits().tracking_max_m);
+            it.shift(0, middle..middle + 20, [0.0, 1.2 * max_m, 0.0]);
         }),
-        Fault::new("flight.tracking_rms", "the quadrotor keeps above its plan", |it| {
-            let (steps, most_m) = (it.steps(), it.scenario.limits().tracking_rms_m);
-            it.shift(0, 0..steps, [0.0, 0.0, 1.1 * most_m]);
+        Fault::new("flight.tracking_rms", "the quadrotor flies above its plan", |it| {
+            let (steps, max_m) = (it.steps(), it.scenario.limits().tracking_rms_m);
+            it.shift(0, 0..steps, [0.0, 0.0, 1.1 * max_m]);
         }),
         Fault::new("flight.control_limits", "a thrust jumps for one sample", |it| {
             let middle = it.steps() / 2;
@@ -131,7 +131,7 @@ fn flights() -> Vec<Fault> {
             it.loads()[middle].position_m[2] = f64::NAN;
         }),
         Fault::new("flight.clearance", "the log holds no load", |it| it.loads().clear()),
-        Fault::new("flight.duration", "the flight may not take so long", |it| {
+        Fault::new("flight.duration", "the flight exceeds the longest duration", |it| {
             it.scenario.simulation.max_duration_s = 0.9 * it.plan.flight_time_s().unwrap_or(0.0);
         }),
         Fault::new("flight.swing", "the load swings out at one sample", |it| {
@@ -145,9 +145,9 @@ fn flights() -> Vec<Fault> {
 fn cables() -> Vec<Fault> {
     vec![
         Fault::new("flight.tension", "the tension has a spike", |it| {
-            let (middle, bears_n) = (it.steps() / 2, it.slung_load_model().limits.tension_n);
+            let (middle, max_n) = (it.steps() / 2, it.slung_load_model().limits.tension_n);
             let samples = (0.02 / it.scenario.simulation.step_s).ceil();
-            it.loads()[middle].tension_n = 1.1 * bears_n * samples;
+            it.loads()[middle].tension_n = 1.1 * max_n * samples;
         }),
         Fault::new("flight.tension", "the cable pushes", |it| {
             let middle = it.steps() / 2;
@@ -160,7 +160,7 @@ fn cables() -> Vec<Fault> {
             let middle = it.steps() / 2;
             it.loads()[middle..middle + 60].iter_mut().for_each(|load| load.position_m[2] -= 0.02);
         }),
-        Fault::new("flight.slack", "the cable became taut, and the log tells of nothing", |it| {
+        Fault::new("flight.slack", "the cable became taut without an event in the log", |it| {
             it.flight().events.retain(|event| !matches!(event.kind, EventKind::CableTaut { .. }));
         }),
         Fault::new("flight.slack", "the cable became taut too late", |it| {
@@ -225,7 +225,7 @@ fn obstacles() -> Vec<Fault> {
     ]
 }
 
-/// A block half way between two samples of the quadrotor, its long side across the path.
+/// Adds a box half way between two samples of the quadrotor, across the path.
 fn place(it: &mut ReferenceCase, step: usize, size_m: [f64; 2], z_m: Option<Range>) {
     let [from, to] = [it.samples(0)[step], it.samples(0)[step + 1]];
     let middle = |axis: usize| f64::midpoint(from.position_m[axis], to.position_m[axis]);
