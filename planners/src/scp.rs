@@ -1,5 +1,6 @@
-//! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): the problem of every vehicle is linearised about
-//! its last trajectory, with the trajectories of the others frozen, and solved as an elastic linear program.
+//! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): the problem of every vehicle is
+//! linearised about its last trajectory, with the trajectories of the others frozen, and solved as an elastic linear
+//! program.
 
 mod avoidance;
 pub mod coupled;

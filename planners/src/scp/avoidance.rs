@@ -1,4 +1,5 @@
-//! Avoidance constraints at the nodes: obstacles (eq. 11) and other vehicles (eq. 12), linearised about the last trajectory.
+//! Avoidance constraints at the nodes: obstacles (eq. 11) and other vehicles (eq. 12), linearised about the last
+//! trajectory.
 //!
 //! ```text
 //! n · C (s_i[k] - sbar_i[k]) >= r - |C (sbar_i[k] - p)|,      n = C (sbar_i[k] - p) / |C (sbar_i[k] - p)|
@@ -20,8 +21,8 @@ pub struct KeepOut<'a> {
     pub tie_break: [f64; 2],
 }
 
-/// Appends the rows of one keep-out disc. Rows that cannot bind are omitted: within a trust region of half-width ρ in x and in
-/// y a vehicle moves by at most sqrt(2) ρ.
+/// Appends the rows of one keep-out disc. Rows that cannot bind are omitted: within a trust region of half-width ρ in x
+/// and in y a vehicle moves by at most sqrt(2) ρ.
 pub fn append_halfspaces(
     trajectory: &Iterate,
     keep_out: &KeepOut,

@@ -1,7 +1,8 @@
-//! Planner `coupled-scp`: one convex program over all vehicles, in which both vehicles of a pair move (cSCP of Xu et al. 2022).
+//! Planner `coupled-scp`: one convex program over all vehicles, in which both vehicles of a pair move (cSCP of Xu et
+//! al. 2022).
 //!
-//! The program lacks the stage structure that the customised interior-point method requires, so Clarabel solves it by sparse
-//! factorisation. The time grows much faster than the fleet; see the table of `harness bench fleets`.
+//! The program lacks the stage structure that the customised interior-point method requires, so Clarabel solves it by
+//! sparse factorisation. The time grows much faster than the fleet; see the table of `harness bench fleets`.
 
 use std::time::Instant;
 

@@ -1,5 +1,5 @@
-//! The common part of the papers' planners: subproblems of single vehicles, with avoidance rows at the nodes against the last
-//! trajectories of the others.
+//! The common part of the papers' planners: subproblems of single vehicles, with avoidance rows at the nodes against
+//! the last trajectories of the others.
 
 use std::time::Instant;
 

@@ -1,5 +1,5 @@
-//! Planner `dpd-scp`: decoupled sequential convex programming in which a vehicle avoids only vehicles of higher priority, in a
-//! ranking by flight time (Xu, Wang, Cao, Sun, Long 2022).
+//! Planner `dpd-scp`: decoupled sequential convex programming in which a vehicle avoids only vehicles of higher
+//! priority, in a ranking by flight time (Xu, Wang, Cao, Sun, Long 2022).
 
 use std::time::Instant;
 
@@ -12,7 +12,8 @@ use super::priority::Priority;
 use super::time_bound::{DampedTimeBound, FLIGHT_TIME_SPREAD_S, flight_time_spread_s};
 use crate::planner::{Planner, PlanningMode, Progress};
 
-/// Difference of two flight times beyond which two vehicles swap ranks, s. The paper's value is not given; this one is ours.
+/// Difference of two flight times beyond which two vehicles swap ranks, s. The paper's value is not given; this one is
+/// ours.
 const SWAP_THRESHOLD_S: f64 = 0.5;
 
 /// The planner, for the registry.
@@ -26,7 +27,8 @@ pub const PLANNER: Planner = Planner {
 
 const NAME: &str = "dpd-scp";
 
-/// Plans for the whole fleet. `progress` receives every iteration. The iteration limit applies to each of the two phases.
+/// Plans for the whole fleet. `progress` receives every iteration. The iteration limit applies to each of the two
+/// phases.
 pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let begin = Instant::now();
     let fleet = FleetProblem::new(scenario, seed);
@@ -53,7 +55,8 @@ impl<'a> PriorityScp<'a> {
         Self { fleet, priority: Priority::new(&flight_times_s, seed), time_bound: DampedTimeBound::new(&last), last }
     }
 
-    /// Runs one phase from the full trust region to convergence, without or with avoidance. Returns whether it converged.
+    /// Runs one phase from the full trust region to convergence, without or with avoidance. Returns whether it
+    /// converged.
     fn run(&mut self, avoiding: bool, history: &mut Vec<Iteration>, progress: &mut dyn FnMut(&Iteration)) -> bool {
         let mut trust_region = self.fleet.options.trust_region;
         let simultaneous = self.fleet.scenario.fleet.simultaneous_arrival;

@@ -1,11 +1,11 @@
 //! Planner `fleet-scp`: sequential convex programming whose plans hold between the nodes.
 //!
-//! As in the papers, the subproblem of each vehicle is linearised about its last trajectory, and all are solved in parallel.
-//! The differences:
+//! As in the papers, the subproblem of each vehicle is linearised about its last trajectory, and all are solved in
+//! parallel. The differences:
 //!
 //! - the dynamics are multiple-shooting constraints, not the trapezoid rule;
-//! - avoidance rows are placed at the closest approach of two vehicles, or of a vehicle and an obstacle, not at the nodes, and
-//!   two vehicles share the missing distance;
+//! - avoidance rows are placed at the closest approach of two vehicles, or of a vehicle and an obstacle, not at the
+//!   nodes, and two vehicles share the missing distance;
 //! - the initial guess is nearly flyable: Dubins paths around obstacles, with a roundabout where many vehicles meet;
 //! - the common time bound is released in the search phase;
 //! - a plan is accepted only when its own flow keeps every limit at all times.

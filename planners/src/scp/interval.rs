@@ -13,8 +13,8 @@ pub struct Interval {
     pub controls: [Control; 2],
     /// Length dt, s.
     pub dt_s: f64,
-    /// Fraction of the interval, from its beginning, during which the control changes linearly from the first to the second
-    /// value; it is constant afterwards. 1: first-order hold.
+    /// Fraction of the interval, from its beginning, during which the control changes linearly from the first to the
+    /// second value; it is constant afterwards. 1: first-order hold.
     pub ramp: f64,
 }
 
@@ -26,8 +26,8 @@ impl Interval {
     }
 }
 
-/// Defect of an interval and its derivatives. The defect is zero when the trajectory satisfies the transcribed equations of
-/// motion.
+/// Defect of an interval and its derivatives. The defect is zero when the trajectory satisfies the transcribed
+/// equations of motion.
 #[derive(Clone, Debug)]
 pub struct Defect {
     /// The defect, in the units of the state.

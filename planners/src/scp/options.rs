@@ -30,8 +30,8 @@ pub struct Options {
 }
 
 impl Options {
-    /// The options of the papers' planners. Defaults are those of Wang, Xu, Long (2020), section 5, except for the shrink factor
-    /// of the trust region and the iteration limit, which the paper does not give.
+    /// The options of the papers' planners. Defaults are those of Wang, Xu, Long (2020), section 5, except for the
+    /// shrink factor of the trust region and the iteration limit, which the paper does not give.
     pub fn new(settings: &PlannerSettings) -> Self {
         let half_widths = |region: &TrustRegion| {
             let (χ, γ) = (region.heading_deg.to_radians(), region.flight_path_deg.to_radians());
@@ -58,8 +58,9 @@ impl Options {
 
     /// The options of `fleet-scp`, with defaults of its own except for the number of intervals.
     ///
-    /// The penalty is far below that of the papers, which makes early, badly linearised subproblems avoid every violation at any
-    /// cost in flight time. It only needs to exceed the multipliers of the rows, a few seconds of step length per scaled unit.
+    /// The penalty is far below that of the papers, which makes early, badly linearised subproblems avoid every
+    /// violation at any cost in flight time. It only needs to exceed the multipliers of the rows, a few seconds of step
+    /// length per scaled unit.
     pub fn fleet(settings: &PlannerSettings) -> Self {
         let paper = Self::new(settings);
         let trust_region = State::new(100.0, 100.0, 25.0, 5.0, 0.2, 0.05);

@@ -1,5 +1,6 @@
-//! Planner `parallel-scp`: decoupled sequential convex programming in which every vehicle avoids the last trajectories of all
-//! others; the subproblems of one iteration are solved in parallel (Wang, Xu, Long 2020, section 2; pdSCP of Xu et al. 2022).
+//! Planner `parallel-scp`: decoupled sequential convex programming in which every vehicle avoids the last trajectories
+//! of all others; the subproblems of one iteration are solved in parallel (Wang, Xu, Long 2020, section 2; pdSCP of Xu
+//! et al. 2022).
 
 use std::time::Instant;
 

@@ -15,8 +15,8 @@ const SLACK_TOLERANCE: f64 = 1e-6;
 /// Largest position defect of a solved plan by the planner's own transcription, m.
 const DEFECT_TOLERANCE_M: f64 = 0.1;
 
-/// Relative difference below which step lengths are made equal: vehicles that arrive together then share their nodes, which the
-/// solver tolerance would otherwise set apart by microseconds.
+/// Relative difference below which step lengths are made equal: vehicles that arrive together then share their nodes,
+/// which the solver tolerance would otherwise set apart by microseconds.
 const EQUAL_DT_TOLERANCE: f64 = 1e-7;
 
 /// The plan of the last iterates.
@@ -49,8 +49,8 @@ pub fn assemble(
     }
 }
 
-/// The iterate as a trajectory of a plan. The end of a control ramp within an interval becomes a node, so that controls are
-/// linear between nodes.
+/// The iterate as a trajectory of a plan. The end of a control ramp within an interval becomes a node, so that controls
+/// are linear between nodes.
 fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
     let mut trajectory = Trajectory {
         vehicle: vehicle.to_string(),
@@ -74,8 +74,8 @@ fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
     trajectory
 }
 
-/// The status of a plan: solved only if the sequence has converged, all subproblems of the last iteration are solved, and the
-/// rows, the transcribed equations of motion and the constraints at the nodes hold.
+/// The status of a plan: solved only if the sequence has converged, all subproblems of the last iteration are solved,
+/// and the rows, the transcribed equations of motion and the constraints at the nodes hold.
 pub fn status(
     scenario: &Scenario,
     history: &[Iteration],

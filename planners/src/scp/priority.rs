@@ -1,10 +1,10 @@
 //! Priorities of the vehicles (Xu, Wang, Cao, Sun, Long 2022, eq. 14-17).
 //!
-//! A vehicle with a short flight has more freedom to deviate: it ranks lower and avoids the vehicles above it. The paper keeps a
-//! relation between pairs, and swaps a pair when the order of its flight times has changed by more than a threshold. Pairwise
-//! swaps can create a cycle (three vehicles, where only the first and the last differ by more than the threshold). Here the
-//! relation is a ranking of all vehicles in which only neighbours are swapped, until no pair of neighbours is left to swap. It
-//! is a strict total order at all times, so a cycle is impossible.
+//! A vehicle with a short flight has more freedom to deviate: it ranks lower and avoids the vehicles above it. The
+//! paper keeps a relation between pairs, and swaps a pair when the order of its flight times has changed by more than a
+//! threshold. Pairwise swaps can create a cycle (three vehicles, where only the first and the last differ by more than
+//! the threshold). Here the relation is a ranking of all vehicles in which only neighbours are swapped, until no pair
+//! of neighbours is left to swap. It is a strict total order at all times, so a cycle is impossible.
 
 use rand::RngExt;
 
@@ -41,7 +41,8 @@ impl Priority {
         &self.order
     }
 
-    /// Updates the ranking: neighbours are swapped where the flight of the higher one is shorter by more than `threshold_s`.
+    /// Updates the ranking: neighbours are swapped where the flight of the higher one is shorter by more than
+    /// `threshold_s`.
     pub fn update(&mut self, flight_times_s: &[f64], threshold_s: f64) {
         // every swap moves a longer flight up, so their number is finite
         for end in 1..self.order.len() {

@@ -1,8 +1,8 @@
-//! Planner `serial-scp`: the vehicles are planned in order of priority, each against those planned before it (spSCP of Xu et
-//! al. 2022).
+//! Planner `serial-scp`: the vehicles are planned in order of priority, each against those planned before it (spSCP of
+//! Xu et al. 2022).
 //!
-//! In each round of an outer loop the sequence of every vehicle runs to convergence, and the common time bound is updated after
-//! the round; the bound therefore lags and creeps up. The loop ends when all vehicles arrive together.
+//! In each round of an outer loop the sequence of every vehicle runs to convergence, and the common time bound is
+//! updated after the round; the bound therefore lags and creeps up. The loop ends when all vehicles arrive together.
 
 use std::time::Instant;
 
@@ -59,8 +59,8 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
 }
 
-/// One round: the sequences of all vehicles in turn. Returns the last result of each, with iterations and time summed over its
-/// sequence, and whether all sequences converged.
+/// One round: the sequences of all vehicles in turn. Returns the last result of each, with iterations and time summed
+/// over its sequence, and whether all sequences converged.
 fn round(
     fleet: &FleetProblem,
     priority: &Priority,

@@ -4,16 +4,17 @@
 //! s_{k+1} - Φ(s_k, u_k, u_{k+1}, dt) = 0
 //! ```
 //!
-//! Φ is computed by the classical Runge-Kutta method of order 4 in [`SUBSTEPS`] equal steps. Its derivatives are those of the
-//! method itself, so that they are exact for this Φ.
+//! Φ is computed by the classical Runge-Kutta method of order 4 in [`SUBSTEPS`] equal steps. Its derivatives are those
+//! of the method itself, so that they are exact for this Φ.
 
 use nalgebra::SMatrix;
 
 use super::dynamics::{self, State, StateJacobian};
 use super::interval::{Defect, Interval};
 
-/// Runge-Kutta steps per interval. Four are enough for the position after one interval of 5 s (a millimetre), but the error of
-/// the flight-path angle accumulates: integrated open loop over 40 intervals, such a plan ends metres from its goal.
+/// Runge-Kutta steps per interval. Four are enough for the position after one interval of 5 s (a millimetre), but the
+/// error of the flight-path angle accumulates: integrated open loop over 40 intervals, such a plan ends metres from its
+/// goal.
 pub const SUBSTEPS: usize = 8;
 
 /// Number of parameters of Φ: V_k, χ_k, γ_k, u_k (3), u_{k+1} (3), dt. The position is left out: Φ is affine in it.
@@ -95,8 +96,8 @@ fn advance(ds: &Sensitivity, k: &State, dk: &Sensitivity, h: f64, interval: &Int
     sum
 }
 
-/// k = f(s, u(fraction)) and its derivative, given that of s. Nothing depends on the position: its three columns of ∂f/∂s
-/// are zero.
+/// k = f(s, u(fraction)) and its derivative, given that of s. Nothing depends on the position: its three columns of
+/// ∂f/∂s are zero.
 fn slope(interval: &Interval, s: &State, ds: &Sensitivity, fraction: f64) -> (State, Sensitivity) {
     let (k, df_ds, df_du) = dynamics::linearise(s, &interval.control_at(fraction));
     let mut dk = df_ds.fixed_columns::<3>(3) * ds.fixed_rows::<3>(3);

@@ -109,14 +109,15 @@ fn append_node_bounds(
         let half = if i < 6 { trust_region[i] } else { 4.0 * bounds.width() };
         program.box_lower.push(-half / NODE_UNITS[i]);
         program.box_upper.push(half / NODE_UNITS[i]);
-        // an elastic bound outside the trust region never binds: it is moved closer, to keep all numbers of similar size
+        // an elastic bound outside the trust region never binds: it is moved closer, to keep all numbers of similar
+        // size
         program.soft_lower.push((bounds.min - value).max(-2.0 * half) / NODE_UNITS[i]);
         program.soft_upper.push((bounds.max - value).min(2.0 * half) / NODE_UNITS[i]);
     }
 }
 
-/// Trust region of dt, and eq. 10 as its elastic lower bound. The elastic upper bound lies outside the trust region and never
-/// binds.
+/// Trust region of dt, and eq. 10 as its elastic lower bound. The elastic upper bound lies outside the trust region and
+/// never binds.
 fn append_dt_bounds(context: &Context, last: &Iterate, program: &mut Program) {
     let half = context.dt_change * last.dt_s;
     program.box_lower.push(-half);

@@ -7,9 +7,9 @@ const AT_BOUND_TOLERANCE: f64 = 1e-6;
 
 /// dt_lb of the next iteration.
 ///
-/// As printed, the bound dt_i >= max_j dtbar_j can never fall, so one bad early iterate slows down the fleet for good. With a
-/// release fraction r > 0, which is not in the paper, the bound falls by r whenever all step lengths are at the bound. If a step
-/// length then stays above the lowered bound, that vehicle cannot fly faster, and r is halved.
+/// As printed, the bound dt_i >= max_j dtbar_j can never fall, so one bad early iterate slows down the fleet for good.
+/// With a release fraction r > 0, which is not in the paper, the bound falls by r whenever all step lengths are at the
+/// bound. If a step length then stays above the lowered bound, that vehicle cannot fly faster, and r is halved.
 #[derive(Clone, Debug)]
 pub struct TimeBound {
     release: f64,
@@ -45,11 +45,12 @@ impl TimeBound {
     }
 }
 
-/// Largest change of a damped step length between two iterations, s. The value of the paper is not given; this one is ours.
+/// Largest change of a damped step length between two iterations, s. The value of the paper is not given; this one is
+/// ours.
 const MAX_DAMPED_CHANGE_S: f64 = 0.05;
 
-/// Largest spread of the flight times of a fleet that arrives together (Xu et al. 2022, eq. 19), s. The value of the paper is not
-/// given; this one is ours.
+/// Largest spread of the flight times of a fleet that arrives together (Xu et al. 2022, eq. 19), s. The value of the
+/// paper is not given; this one is ours.
 pub const FLIGHT_TIME_SPREAD_S: f64 = 0.1;
 
 /// Difference between the longest and the shortest flight time, s.
@@ -58,8 +59,9 @@ pub fn flight_time_spread_s(trajectories: &[Iterate]) -> f64 {
     max_flight_time_s(trajectories) - times_s.fold(f64::INFINITY, f64::min)
 }
 
-/// dt_lb by the rule of Xu et al. 2022, eq. 18: the longest of the damped step lengths, those that have hardly changed since the
-/// last iteration, so that no bad early iterate slows down the fleet. Without a damped step length the bound is unchanged.
+/// dt_lb by the rule of Xu et al. 2022, eq. 18: the longest of the damped step lengths, those that have hardly changed
+/// since the last iteration, so that no bad early iterate slows down the fleet. Without a damped step length the bound
+/// is unchanged.
 #[derive(Clone, Debug)]
 pub struct DampedTimeBound {
     last_s: Vec<f64>,

@@ -1,8 +1,8 @@
 //! Linearised avoidance constraints at instants between the nodes.
 //!
-//! The position at a fraction τ of interval k moves with the nodes, δp(τ) = (1 - τ) δp_k + τ δp_{k+1}, and a row bounds the
-//! motion against a normal n: n · δp(τ) >= -slack. Each of two vehicles makes up half of the missing distance, so that they
-//! keep the full distance together, whatever the other one does.
+//! The position at a fraction τ of interval k moves with the nodes, δp(τ) = (1 - τ) δp_k + τ δp_{k+1}, and a row bounds
+//! the motion against a normal n: n · δp(τ) >= -slack. Each of two vehicles makes up half of the missing distance, so
+//! that they keep the full distance together, whatever the other one does.
 
 use nalgebra::Vector2;
 use scenarios::{Cylinder, Scenario};
@@ -33,9 +33,9 @@ pub struct AvoidanceRow {
 impl AvoidanceRow {
     /// Linearises the distance at a closest approach, for the required distance `required_m`.
     ///
-    /// At larger distances the normal points straight away from the other. Closer than [`PERPENDICULAR_BELOW`], such a row
-    /// would push a vehicle that flies towards the other backwards. There the normal is perpendicular to the relative velocity,
-    /// and the required distance along it is that of the circle around the other.
+    /// At larger distances the normal points straight away from the other. Closer than [`PERPENDICULAR_BELOW`], such a
+    /// row would push a vehicle that flies towards the other backwards. There the normal is perpendicular to the
+    /// relative velocity, and the required distance along it is that of the circle around the other.
     pub fn new(approach: &ClosestApproach, required_m: f64) -> Self {
         let ClosestApproach { relative, distance_m, .. } = *approach;
         let (position_m, velocity_mps) = (relative.position_m, relative.velocity_mps);

@@ -67,8 +67,8 @@ fn rate(at: &MotionSample) -> f64 {
     at.position_m.dot(&at.velocity_mps)
 }
 
-/// Fraction of the step at which the rate changes sign from negative to positive, by false position; halving the rate at
-/// the retained end keeps both ends moving.
+/// Fraction of the step at which the rate changes sign from negative to positive, by false position; halving the rate
+/// at the retained end keeps both ends moving.
 fn minimum_fraction(a: &MotionSample, b: &MotionSample, [mut low, mut high]: [f64; 2], step_s: f64) -> f64 {
     let rate_at = |fraction: f64| rate(&interpolate(a, b, fraction, step_s));
     let (mut rate_low, mut rate_high) = (rate_at(low), rate_at(high));

@@ -9,8 +9,8 @@ use super::closest_approach::{self, ClosestApproach};
 use super::grid::{self, Disc};
 use super::motion::{TimeSlice, VehicleMotion, locate};
 
-/// Bound of the distance between the cubic interpolant and the samples of a time slice, m: far more than an aircraft deviates
-/// within a second or two.
+/// Bound of the distance between the cubic interpolant and the samples of a time slice, m: far more than an aircraft
+/// deviates within a second or two.
 const MAX_DEVIATION_M: f64 = 5.0;
 
 /// The motion of all vehicles on common time slices.

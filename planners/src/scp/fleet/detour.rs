@@ -31,8 +31,8 @@ struct Candidate {
     intrusion_m: f64,
 }
 
-/// The best route found by a beam search over bumps around the obstacles that `route` intrudes on. An intrusion that remains
-/// is left to the subproblems.
+/// The best route found by a beam search over bumps around the obstacles that `route` intrudes on. An intrusion that
+/// remains is left to the subproblems.
 ///
 /// Each step passes the obstacle of deepest intrusion on either side.
 ///
@@ -95,8 +95,8 @@ pub struct ObstacleMap<'a> {
 }
 
 impl ObstacleMap<'_> {
-    /// Intrusion of a route, m: its depths into the obstacles, summed, and its largest distance beyond the map. A kink, which
-    /// bumps on bumps can cause, counts as [`KINK_PENALTY_M`].
+    /// Intrusion of a route, m: its depths into the obstacles, summed, and its largest distance beyond the map. A kink,
+    /// which bumps on bumps can cause, counts as [`KINK_PENALTY_M`].
     pub fn intrusion_m(&self, route: &Route) -> f64 {
         let depth_m = |cylinder: &Cylinder| cylinder.radius_m + self.margin_m - route.nearest(cylinder.center_m).0;
         let intrusions_m: f64 = self.obstacles.iter().map(|cylinder| depth_m(cylinder).max(0.0)).sum();

@@ -1,5 +1,5 @@
-//! Shortest path of bounded curvature from one pose to another by a turn, a straight line and a turn (Dubins, American Journal
-//! of Mathematics 79, 1957). The words of three turns are shortest only between close poses and are left out.
+//! Shortest path of bounded curvature from one pose to another by a turn, a straight line and a turn (Dubins, American
+//! Journal of Mathematics 79, 1957). The words of three turns are shortest only between close poses and are left out.
 
 use std::f64::consts::TAU;
 
@@ -34,8 +34,8 @@ impl DubinsPath {
         shortest.expect("two turns to the same side always reach the goal")
     }
 
-    /// The path with turns to `sides`, 1 for left and -1 for right. `None` if the circles are too close to each other for a
-    /// change of side.
+    /// The path with turns to `sides`, 1 for left and -1 for right. `None` if the circles are too close to each other
+    /// for a change of side.
     fn by_sides(start: Pose, goal: Pose, radius_m: f64, sides: [f64; 2]) -> Option<Self> {
         let [from, to] = [center(&start, sides[0] * radius_m), center(&goal, sides[1] * radius_m)];
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];

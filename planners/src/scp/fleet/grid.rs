@@ -21,11 +21,11 @@ impl Disc {
     }
 }
 
-/// All pairs (i < j) of discs less than `reach_m` apart, in ascending order of i, then of j. Vehicles that have arrived have
-/// no disc.
+/// All pairs (i < j) of discs less than `reach_m` apart, in ascending order of i, then of j. Vehicles that have arrived
+/// have no disc.
 ///
-/// A cell is as wide as the largest distance between the centres of two discs that are near each other, so all neighbours of a
-/// disc lie in nine cells: the cost grows with the number of near pairs, not with that of all pairs.
+/// A cell is as wide as the largest distance between the centres of two discs that are near each other, so all
+/// neighbours of a disc lie in nine cells: the cost grows with the number of near pairs, not with that of all pairs.
 pub fn near_pairs(discs: &[Option<Disc>], reach_m: f64) -> Vec<[usize; 2]> {
     let max_radius_m = discs.iter().flatten().map(|disc| disc.radius_m).fold(0.0, f64::max);
     let cell_m = reach_m + 2.0 * max_radius_m;

@@ -14,9 +14,9 @@ use super::roundabout;
 
 /// Fraction of an interval during which the controls change; they are constant afterwards.
 ///
-/// With controls linear over the whole interval, changes of alternating sign from node to node leave the state at every node
-/// unchanged, so that nothing in the subproblem prevents a zigzag of the controls over the rest of the flight. With a short
-/// ramp, a zigzag decays by a factor of seven from node to node.
+/// With controls linear over the whole interval, changes of alternating sign from node to node leave the state at every
+/// node unchanged, so that nothing in the subproblem prevents a zigzag of the controls over the rest of the flight.
+/// With a short ramp, a zigzag decays by a factor of seven from node to node.
 const RAMP_FRACTION: f64 = 0.25;
 
 /// The initial trajectories.

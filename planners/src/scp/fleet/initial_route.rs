@@ -14,8 +14,8 @@ use super::speed::SpeedProfile;
 /// Turn radius of the initial routes relative to the smallest radius at the initial speed.
 const TURN_RADIUS_FACTOR: f64 = 1.15;
 
-/// Speed on a detour that delays the arrival, as a fraction of the speed range: near the lower limit, with margins on both
-/// sides.
+/// Speed on a detour that delays the arrival, as a fraction of the speed range: near the lower limit, with margins on
+/// both sides.
 const DELAY_SPEED_FRACTION: f64 = 0.25;
 
 /// Route and flight time of one vehicle.
@@ -49,8 +49,8 @@ pub fn initial_routes(scenario: &Scenario, margin_m: f64) -> Vec<InitialRoute> {
     routes
 }
 
-/// The trajectory along an initial route, with its initial and final state. The final heading is that of the scenario up to
-/// full turns.
+/// The trajectory along an initial route, with its initial and final state. The final heading is that of the scenario
+/// up to full turns.
 pub fn trajectory(
     scenario: &Scenario,
     vehicle: &Vehicle,

@@ -1,7 +1,7 @@
 //! State bounds between the nodes.
 //!
-//! The bounds of a subproblem hold at the nodes. Between two nodes a state may overshoot (a speed that rises and falls within
-//! an interval). The bounds of both nodes are tightened by the overshoot of the last trajectory.
+//! The bounds of a subproblem hold at the nodes. Between two nodes a state may overshoot (a speed that rises and falls
+//! within an interval). The bounds of both nodes are tightened by the overshoot of the last trajectory.
 
 use scenarios::Range;
 

@@ -15,7 +15,8 @@ pub struct MotionSample {
     pub velocity_mps: Vector2<f64>,
 }
 
-/// The motion during one time slice at [`SUBSTEPS`] + 1 equidistant instants, with cubic Hermite interpolation between them.
+/// The motion during one time slice at [`SUBSTEPS`] + 1 equidistant instants, with cubic Hermite interpolation between
+/// them.
 pub type TimeSlice = [MotionSample; SUBSTEPS + 1];
 
 /// The flow of one vehicle's trajectory, restarted at every node.
@@ -34,8 +35,8 @@ impl VehicleMotion {
         Self { intervals: (0..trajectory.intervals()).map(flow).collect(), dt_s: trajectory.dt_s }
     }
 
-    /// The motion on time slices of `width_s`; one per interval if `width_s` is the length of an interval. A vehicle that
-    /// arrives within a slice continues in a straight line to its end.
+    /// The motion on time slices of `width_s`; one per interval if `width_s` is the length of an interval. A vehicle
+    /// that arrives within a slice continues in a straight line to its end.
     pub fn slices(&self, width_s: f64) -> Vec<TimeSlice> {
         let own: Vec<TimeSlice> = self.intervals.iter().map(|knots| knots.map(|state| sample(&state))).collect();
         if width_s == self.dt_s {

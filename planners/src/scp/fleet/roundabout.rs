@@ -1,8 +1,8 @@
 //! Breaks the symmetry of many vehicles that meet at one point at one time.
 //!
-//! Such vehicles are neighbours of each other on all sides, so the normals of the avoidance rows cancel. Displaced to their
-//! right, all vehicles circle the point in the same sense. n vehicles with separation R on a circle need a radius of
-//! R / (2 sin(π/n)).
+//! Such vehicles are neighbours of each other on all sides, so the normals of the avoidance rows cancel. Displaced to
+//! their right, all vehicles circle the point in the same sense. n vehicles with separation R on a circle need a radius
+//! of R / (2 sin(π/n)).
 
 use std::f64::consts::PI;
 

@@ -54,8 +54,8 @@ impl Route {
         Pose { position_m, heading_rad: (b[1] - a[1]).atan2(b[0] - a[0]) }
     }
 
-    /// The route displaced by a raised-cosine bump: to its left by `offset_m` at distance `peak_m`, and to zero within `reach_m`
-    /// before and behind (or at the ends of the route, where these are nearer).
+    /// The route displaced by a raised-cosine bump: to its left by `offset_m` at distance `peak_m`, and to zero within
+    /// `reach_m` before and behind (or at the ends of the route, where these are nearer).
     pub fn displaced(&self, offset_m: f64, peak_m: f64, reach_m: f64) -> Self {
         let before_m = reach_m.min(peak_m);
         let behind_m = reach_m.min(self.length_m() - peak_m);
@@ -72,8 +72,8 @@ impl Route {
         Self::through(self.points_m.iter().zip(&self.along_m).map(moved).collect(), self.start_heading_rad)
     }
 
-    /// The route lengthened to `length_m` by successive bumps, if it is shorter: one bump per entry of `sides`, 1 for left and
-    /// -1 for right.
+    /// The route lengthened to `length_m` by successive bumps, if it is shorter: one bump per entry of `sides`, 1 for
+    /// left and -1 for right.
     pub fn lengthened(&self, length_m: f64, sides: &[f64]) -> Self {
         let own_m = self.length_m();
         let half_m = 0.5 * own_m / sides.len() as f64;
@@ -92,8 +92,8 @@ impl Route {
         displaced(low_m)
     }
 
-    /// The point of the route nearest to `point_m`: its distance, m; its position relative to `point_m`, m; and its distance
-    /// along the route, m.
+    /// The point of the route nearest to `point_m`: its distance, m; its position relative to `point_m`, m; and its
+    /// distance along the route, m.
     pub fn nearest(&self, point_m: [f64; 2]) -> (f64, [f64; 2], f64) {
         let mut nearest = (f64::INFINITY, [0.0; 2], 0.0);
         for (at, &along_m) in self.points_m.iter().zip(&self.along_m) {

@@ -1,8 +1,9 @@
 //! Trust region and common time bound of each iteration.
 //!
-//! There are two phases. In the search phase the trust region stays wide, and the common time bound lies below the longest
-//! flight time, so that the slowest vehicle can become faster. Once the flight time has settled, the settling phase shrinks the
-//! trust region and raises the bound to the longest flight time, until the plan's own flow keeps every limit.
+//! There are two phases. In the search phase the trust region stays wide, and the common time bound lies below the
+//! longest flight time, so that the slowest vehicle can become faster. Once the flight time has settled, the settling
+//! phase shrinks the trust region and raises the bound to the longest flight time, until the plan's own flow keeps
+//! every limit.
 
 use super::super::dynamics::State;
 
@@ -24,8 +25,9 @@ const VIOLATED_SHRINK: f64 = 0.75;
 /// Largest violation of a satisfied row, in scaled units.
 const MAX_VIOLATION: f64 = 1e-5;
 
-/// Smallest half-widths of the states at a position half-width of [`MIN_SEARCH_M`], in their units. They scale with the square
-/// root of the position half-width, because the linearisation error grows with the square of the change of heading.
+/// Smallest half-widths of the states at a position half-width of [`MIN_SEARCH_M`], in their units. They scale with the
+/// square root of the position half-width, because the linearisation error grows with the square of the change of
+/// heading.
 const STATE_HALF_WIDTHS: [f64; 6] = [0.0, 0.0, 5.0, 1.0, 0.05, 0.01];
 
 /// Lower bound of the time bound, as a fraction of the flight time of the initial guess.

@@ -14,8 +14,8 @@ pub struct SpeedProfile {
 }
 
 impl SpeedProfile {
-    /// The profile over `length_m` with the cruising speed `cruise_mps`. The route must be long enough for both changes of
-    /// speed.
+    /// The profile over `length_m` with the cruising speed `cruise_mps`. The route must be long enough for both changes
+    /// of speed.
     pub fn cruising(length_m: f64, [start_mps, goal_mps]: [f64; 2], cruise_mps: f64, limit_mps2: f64) -> Self {
         let mut profile = Self {
             speeds_mps: [start_mps, cruise_mps, goal_mps],
