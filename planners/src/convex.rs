@@ -20,8 +20,8 @@
 //! q e_θ + E^T y + F^T λ + v_u - v_l = 0
 //! ```
 //!
-//! This is the paper's P4 with the elastic slacks eliminated: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p and
-//! multipliers λ_2 = (μ + y)/2, λ_3 = (μ - y)/2, so that 4 D_2 D_3/(D_2 + D_3) = 1/(p/(μ - y) + n/(μ + y)); and
+//! This is the paper's P4 with the elastic slacks eliminated: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p
+//! and multipliers λ_2 = (μ + y)/2, λ_3 = (μ - y)/2, so that 4 D_2 D_3/(D_2 + D_3) = 1/(p/(μ - y) + n/(μ + y)); and
 //! s_4 = t, λ_4 = λ, s_5 = β, λ_5 = μ - λ. The products, and therefore the iterates, are the same; the linear system is
 //! smaller.
 //!

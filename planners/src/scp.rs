@@ -1,5 +1,6 @@
-//! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): every vehicle's problem is linearised about
-//! its last trajectory, the others' trajectories frozen, and solved as an elastic linear program.
+//! Sequential convex programming for fixed-wing fleets (Wang, Xu, Long 2020): the problem of every vehicle is
+//! linearised about its last trajectory, with the trajectories of the others frozen, and solved as an elastic linear
+//! program.
 
 mod avoidance;
 pub mod coupled;
@@ -18,8 +19,8 @@ mod priority;
 mod scaling;
 pub mod serial;
 mod shooting;
-mod solve_all;
 mod subproblem;
+mod subproblem_solver;
 mod time_bound;
 mod transcription;
 mod trapezoid;
@@ -28,7 +29,7 @@ use scenarios::Scenario;
 
 use crate::planner::Planner;
 
-/// The planners of this family.
+/// The planners of the fixed-wing family.
 pub(crate) const PLANNERS: &[Planner] =
     &[fleet::PLANNER, coupled::PLANNER, serial::PLANNER, parallel::PLANNER, dynamic_priority::PLANNER];
 

@@ -1,8 +1,8 @@
 //! Arithmetic on four double-precision lanes, one per subproblem or particle.
 //!
-//! Every operation acts on each lane independently and rounds according to IEEE 754, the fused multiply-add included: results
-//! are bit-identical on every processor and do not depend on the other lanes. Processors without a fused multiply-add (x86
-//! before 2013) emulate it in software, slowly.
+//! Every operation acts on each lane independently and rounds according to IEEE 754, the fused multiply-add included:
+//! results are bit-identical on every processor and do not depend on the other lanes. Processors without a fused
+//! multiply-add (x86 before 2013) emulate it in software, slowly.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 

@@ -1,4 +1,4 @@
-//! The iterations of the interior-point methods work in memory that they have had before.
+//! The iterations of the interior-point methods do not allocate.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -9,7 +9,7 @@ use planners::pseudospectral::{Mesh, MultiphaseSystem, Transcription};
 use planners::scp::parallel::plan_and_inspect;
 use planners::slung;
 
-/// Allocations of a second solve of the same program that ends after `max_iterations`.
+/// Number of allocations in a second solve of the same program with `max_iterations`.
 fn allocations(program: &Program, max_iterations: usize) -> u64 {
     let mut solver = InteriorPoint::new(Settings { max_iterations, ..Settings::default() });
     solver.solve(program);
@@ -30,7 +30,7 @@ fn iterations_allocate_nothing() {
     assert_eq!(few, allocations(&program, 6));
 }
 
-/// The nonlinear method on a motion in phases: free durations, an impact, rows at the ends.
+/// The nonlinear method on a multiphase problem: free durations, an impact, terminal constraints.
 #[test]
 fn iterations_of_the_nonlinear_method_allocate_nothing() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/slung/gate.toml");

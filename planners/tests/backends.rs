@@ -1,4 +1,5 @@
-//! The paper's ways to the Newton direction lead to the same optimum as ours, on subproblems of real runs.
+//! The paper's methods for the Newton direction lead to the same optimum as the block factorisation, on subproblems of
+//! planner runs.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -6,15 +7,15 @@ use std::sync::Mutex;
 use planners::convex::{Backend, InteriorPoint, Program, Settings, Status};
 use planners::scp::parallel::plan_and_inspect;
 
-/// Largest relative difference of the objectives (relative to 1 s below 1 s): both are this near to the optimum.
+/// Largest relative difference of the objectives (relative to 1 s below 1 s): both are this close to the optimum.
 const AGREEMENT: f64 = 1e-8;
 
-/// Relative gap from which a solve counts as having reached the solution.
-const NEAR: f64 = 1e-7;
+/// Largest relative gap of a solve that has reached the solution.
+const MAX_GAP: f64 = 1e-7;
 
-/// Share of the subproblems on which a method of the paper may end short of that: they work with squares of the numbers
-/// that the block sweep works with, and lose twice the digits.
-const MOST_SHORT: f64 = 0.2;
+/// Largest fraction of the subproblems on which a method of the paper may end short of that: the reduced matrices hold
+/// the squares of the numbers in the square-root factorisation, and lose twice the digits.
+const MAX_SHORT_FRACTION: f64 = 0.2;
 
 /// Every subproblem of a run with `intervals`, in an order that does not depend on the threads.
 fn subproblems(scenario: &str, intervals: usize) -> Vec<Program> {
@@ -34,16 +35,16 @@ fn assert_same_optimum(programs: &[Program], backend: Backend) {
     assert!(programs.len() > 1);
     let mut short = 0;
     for (i, program) in programs.iter().enumerate() {
-        let ours = InteriorPoint::new(Settings::default()).solve(program);
-        let theirs = InteriorPoint::with_backend(Settings::default(), backend).solve(program);
-        assert_eq!(ours.status, Status::Solved, "{i}: gap {:.1e}", ours.gap);
-        if theirs.status == Status::Solved {
-            let difference = (ours.objective - theirs.objective).abs() / ours.objective.abs().max(1.0);
-            assert!(difference < AGREEMENT, "{backend:?} {i}: {} against {}", ours.objective, theirs.objective);
+        let block = InteriorPoint::new(Settings::default()).solve(program);
+        let reference = InteriorPoint::with_backend(Settings::default(), backend).solve(program);
+        assert_eq!(block.status, Status::Solved, "{i}: gap {:.1e}", block.gap);
+        if reference.status == Status::Solved {
+            let difference = (block.objective - reference.objective).abs() / block.objective.abs().max(1.0);
+            assert!(difference < AGREEMENT, "{backend:?} {i}: {} against {}", block.objective, reference.objective);
         }
-        short += usize::from(theirs.gap.is_nan() || theirs.gap > NEAR);
+        short += usize::from(reference.gap.is_nan() || reference.gap > MAX_GAP);
     }
-    assert!(short as f64 <= MOST_SHORT * programs.len() as f64, "{backend:?}: {short} of {}", programs.len());
+    assert!(short as f64 <= MAX_SHORT_FRACTION * programs.len() as f64, "{backend:?}: {short} of {}", programs.len());
 }
 
 #[test]
@@ -64,7 +65,7 @@ fn sparse_and_dense_reduced_agree_on_small_subproblems() {
 }
 
 #[test]
-fn the_whole_kkt_matrix_agrees_on_small_subproblems() {
+fn dense_kkt_agrees_on_small_subproblems() {
     let programs = subproblems("tests/scenarios/pair.toml", 4);
     let stride = programs.len().div_ceil(4);
     let some: Vec<Program> = programs.into_iter().step_by(stride).collect();
@@ -79,6 +80,6 @@ fn one_solver_serves_programmes_one_after_the_other() {
     for program in same_shape {
         let fresh = InteriorPoint::with_backend(Settings::default(), Backend::SparseLdl).solve(program);
         let reused = solver.solve(program);
-        assert_eq!(fresh.objective.to_bits(), reused.objective.to_bits(), "the past leaves no trace");
+        assert_eq!(fresh.objective.to_bits(), reused.objective.to_bits(), "a solve depends on earlier ones");
     }
 }

@@ -1,4 +1,4 @@
-//! Subproblems that no planner should pose: the interior-point method ends, says what happened, and does not panic.
+//! Programs that no planner should pose: the interior-point method terminates with the right status and does not panic.
 
 use nalgebra::{SMatrix, SVector};
 use planners::convex::{
@@ -9,7 +9,7 @@ use rand::{Rng, RngExt};
 
 const INTERVALS: usize = 8;
 
-/// A random program around a point that satisfies its dynamics.
+/// A random program around a point that satisfies its dynamics constraints.
 fn program(rng: &mut impl Rng) -> Program {
     let mut uniform = || rng.random_range(-1.0..1.0);
     let dynamics = (0..INTERVALS).map(|_| DynamicsConstraint {
@@ -38,7 +38,7 @@ fn program(rng: &mut impl Rng) -> Program {
             bound: 0.3 * uniform(),
         });
         if stage < INTERVALS {
-            let (here, next) = ([uniform(), uniform()], [uniform(), uniform()]);
+            let (current, next) = ([uniform(), uniform()], [uniform(), uniform()]);
             halfspaces.push(HalfspaceConstraint { stage, current, next, bound: 0.3 * uniform() });
         }
     }
@@ -61,10 +61,10 @@ fn solve(program: &Program) -> Solution {
 }
 
 fn assert_agrees_with_clarabel(program: &Program, what: &str) {
-    let (ours, theirs) = (solve(program), solve_with_clarabel(program, 1e-8));
-    assert_eq!(ours.status, Status::Solved, "{what}: {ours:?}");
-    let difference = (ours.objective - theirs.objective).abs() / theirs.objective.abs().max(1.0);
-    assert!(difference < 1e-6, "{what}: {} against {}", ours.objective, theirs.objective);
+    let (block, clarabel) = (solve(program), solve_with_clarabel(program, 1e-8));
+    assert_eq!(block.status, Status::Solved, "{what}: {block:?}");
+    let difference = (block.objective - clarabel.objective).abs() / clarabel.objective.abs().max(1.0);
+    assert!(difference < 1e-6, "{what}: {} against {}", block.objective, clarabel.objective);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn contradicting_rows_are_absorbed_by_the_slacks() {
 }
 
 #[test]
-fn duplicate_rows_do_not_matter() {
+fn duplicate_rows_have_no_effect() {
     let mut program = program(&mut scenarios::stream(2, "duplicates"));
     program.fixed_variables.extend(program.fixed_variables.clone());
     program.halfspaces = program.halfspaces.iter().flat_map(|halfspace| [*halfspace; 3]).collect();
@@ -99,7 +99,7 @@ fn duplicate_rows_do_not_matter() {
 }
 
 #[test]
-fn tiny_trust_region_is_solved() {
+fn tiny_trust_region_is_respected() {
     let mut program = program(&mut scenarios::stream(3, "tiny"));
     program.box_lower.fill(-1e-7);
     program.box_upper.fill(1e-7);
@@ -111,22 +111,22 @@ fn tiny_trust_region_is_solved() {
 #[test]
 fn empty_box_and_nan_are_refused() {
     let good = program(&mut scenarios::stream(4, "refused"));
-    let spoil: [fn(&mut Program); 5] = [
+    let mutations: [fn(&mut Program); 5] = [
         |program| program.box_upper[3] = program.box_lower[3],
         |program| program.dynamics[2].left[(1, 1)] = f64::NAN,
         |program| program.dynamics[0].rhs[0] = f64::INFINITY,
         |program| program.halfspaces[0].bound = f64::NAN,
         |program| program.soft_lower[7] = f64::NEG_INFINITY,
     ];
-    for (i, spoil) in spoil.into_iter().enumerate() {
-        let mut bad = good.clone();
-        spoil(&mut bad);
-        assert_eq!(solve(&bad).status, Status::Refused, "case {i}");
+    for (i, mutate) in mutations.into_iter().enumerate() {
+        let mut mutated = good.clone();
+        mutate(&mut mutated);
+        assert_eq!(solve(&mutated).status, Status::Refused, "case {i}");
     }
 }
 
 #[test]
-fn scales_far_apart_end_with_an_honest_status() {
+fn scales_far_apart_end_with_a_correct_status() {
     for (exponent, seed) in [(-9, 5), (-5, 6), (5, 7), (9, 8)] {
         let mut program = program(&mut scenarios::stream(seed, "scales"));
         for constraint in &mut program.dynamics {

@@ -1,4 +1,4 @@
-//! Four subproblems in one pass: each gets the solution that it has alone, on every machine.
+//! Four subproblems in one batch: each solution is bit-identical to that of the subproblem alone, on every processor.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -20,14 +20,14 @@ fn bits(solution: &Solution) -> (Status, usize, Vec<u64>) {
 }
 
 #[test]
-fn neighbours_do_not_matter() {
+fn solutions_do_not_depend_on_the_batch() {
     let mut programs = subproblems();
     let alone: Vec<_> =
         programs.iter().map(|program| bits(&InteriorPoint::new(Settings::default()).solve(program))).collect();
     let solvers = BatchSolver::new(Settings::default());
     let together: Vec<_> = solvers.solve_all(&programs).iter().map(bits).collect();
     assert!(alone == together);
-    // other neighbours, and solvers with a past
+    // other batches, and solvers that have been used before
     programs.rotate_left(2);
     let mut rotated: Vec<_> = solvers.solve_all(&programs).iter().map(bits).collect();
     rotated.rotate_right(2);
@@ -37,18 +37,18 @@ fn neighbours_do_not_matter() {
 #[test]
 fn a_refused_programme_does_not_touch_its_neighbours() {
     let programs = subproblems();
-    let mut spoilt = programs.clone();
-    spoilt[1].halfspaces[0].bound = f64::NAN;
+    let mut mutated = programs.clone();
+    mutated[1].halfspaces[0].bound = f64::NAN;
     let solvers = BatchSolver::new(Settings::default());
-    let (whole, rest) = (solvers.solve_all(&programs), solvers.solve_all(&spoilt));
-    assert_eq!(rest[1].status, Status::Refused);
-    for (i, (whole, rest)) in whole.iter().zip(&rest).enumerate() {
-        assert!(i == 1 || bits(whole) == bits(rest), "{i}");
+    let (original, others) = (solvers.solve_all(&programs), solvers.solve_all(&mutated));
+    assert_eq!(others[1].status, Status::Refused);
+    for (i, (original, other)) in original.iter().zip(&others).enumerate() {
+        assert!(i == 1 || bits(original) == bits(other), "{i}");
     }
 }
 
 #[test]
-fn vector_instructions_change_no_digit() {
+fn vector_instructions_change_no_bit() {
     for program in &subproblems()[..4] {
         let fast = InteriorPoint::new(Settings::default()).solve(program);
         let portable = InteriorPoint::portable(Settings::default()).solve(program);

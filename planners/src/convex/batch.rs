@@ -4,8 +4,8 @@ use super::kernels::Matrix;
 use super::program::{DYNAMICS_ROWS, HalfspaceConstraint, Program, STAGE_LEN};
 use crate::simd::{Lanes, Mask, Simd4, WIDTH};
 
-/// The data of four programs, one per lane. The number of halfspaces may differ: a lane with fewer halfspaces in a stage
-/// than another has absent ones there, which have no effect.
+/// The data of four programs, one per lane. The number of halfspaces may differ: a lane with fewer halfspaces in a
+/// stage than another has absent ones there, which have no effect.
 #[derive(Clone, Debug)]
 pub struct Batch<S: Simd4> {
     /// Vector instructions of the processor.

@@ -73,8 +73,8 @@ impl BatchSolver {
         Self { settings, idle: Mutex::new(Vec::new()) }
     }
 
-    /// Solves independent programs; returns their solutions in order. Each solution is bit-identical to the one that the
-    /// program has on its own.
+    /// Solves independent programs; returns their solutions in order. Each solution is bit-identical to the one that
+    /// the program has on its own.
     pub fn solve_all(&self, programs: &[Program]) -> Vec<Solution> {
         let same_shape = programs.chunk_by(Program::has_shape_of);
         let batches: Vec<&[Program]> = same_shape.flat_map(|run| run.chunks(WIDTH)).collect();

@@ -15,12 +15,12 @@
 //! P_{k+1} = H_{k+1} + U_k^T U_k
 //! ```
 //!
-//! T_k couples w_k to the first two variables of w_{k+1} through halfspaces that span both stages: the rows of stage k are
-//! then [G_k, T_k], and the rows that the reflections leave below them are added to H_{k+1}.
+//! T_k couples w_k to the first two variables of w_{k+1} through halfspaces that span both stages: the rows of stage k
+//! are then [G_k, T_k], and the rows that the reflections leave below them are added to H_{k+1}.
 //!
-//! The triangles G and M are computed from the square roots of the terms by orthogonal transformations, not from the sums
-//! of the terms. Near the solution the weights spread over more than twenty orders of magnitude, and the curvature of a soft
-//! direction (a variable between its bounds) would be lost in the rounding of a stiff one (a dynamics row).
+//! The triangles G and M are computed from the square roots of the terms by orthogonal transformations, not from the
+//! sums of the terms. Near the solution the weights spread over more than twenty orders of magnitude, and the curvature
+//! of a soft direction (a variable between its bounds) would be lost in the rounding of a stiff one (a dynamics row).
 //!
 //! O(K 9^3) operations per factorisation, without index arrays and without allocation.
 
@@ -224,8 +224,8 @@ impl<S: Simd4> BlockSystem<S> {
 }
 
 impl<S: Simd4> StageFactor<S> {
-    /// Computes G and T from the diagonal, U of the previous stage (`u`) and the halfspaces. `carried` is set to the rows that
-    /// these leave to the next stage.
+    /// Computes G and T from the diagonal, U of the previous stage (`u`) and the halfspaces. `carried` is set to the
+    /// rows that these leave to the next stage.
     #[inline(always)]
     fn set_stage(
         &mut self,

@@ -9,8 +9,8 @@ use super::program::Program;
 use super::reference_methods::InequalityForm;
 use super::solution::{Solution, Status};
 
-/// With Clarabel's default of 1e-8, one in ten subproblems ends short of a tolerance of 1e-8; with this value all of them
-/// reach it.
+/// With Clarabel's default of 1e-8, one in ten subproblems ends short of a tolerance of 1e-8; with this value all of
+/// them reach it.
 const STATIC_REGULARISATION: f64 = 1e-7;
 
 /// Clarabel's settings for the relative gap and feasibility `tolerance`, without output.

@@ -6,12 +6,12 @@
 //!
 //! There are two kinds of bounded quantities:
 //! - a variable z_i in its trust region; c and d are the duals v_u, v_l, with v_l - v_u = (q e + E^T y + F^T λ)_i;
-//! - the multiplier of an elastic row, bounded by the penalty, y in [-μ, μ] or λ in [0, μ]; c and d are the elastic slacks
-//!   of the row, p and n or β and t, with p - n = (E z - d)_i and β - t = (F z - g)_i.
+//! - the multiplier of an elastic row, bounded by the penalty, y in [-μ, μ] or λ in [0, μ]; c and d are the elastic
+//!   slacks of the row, p and n or β and t, with p - n = (E z - d)_i and β - t = (F z - g)_i.
 //!
 //! In both, the sum a + b is constant, and the difference c - d is a linear function of the other unknowns. Both are
-//! restored to rounding after every step: the smaller of the two numbers is kept, the larger follows from it. Every iterate
-//! is therefore feasible, and the sum of the products a c + b d is its duality gap.
+//! restored to rounding after every step: the smaller of the two numbers is kept, the larger follows from it. Every
+//! iterate is therefore feasible, and the sum of the products a c + b d is its duality gap.
 
 use crate::simd::{Lanes, Mask, Simd4};
 
@@ -115,7 +115,8 @@ impl<S: Simd4> ComplementarityPair<S> {
         self.ρ()
     }
 
-    /// Sets the targets of the centred step, products of σμ, with Mehrotra's correction for the affine step `dx`; returns ρ.
+    /// Sets the targets of the centred step, products of σμ, with Mehrotra's correction for the affine step `dx`;
+    /// returns ρ.
     ///
     /// ```text
     /// r_c = σμ - a c - da_aff dc_aff,    da_aff = -dx,   dc_aff = -c + c dx/a
@@ -157,8 +158,8 @@ impl<S: Simd4> ComplementarityPair<S> {
         dc - dd
     }
 
-    /// Moves the slacks by `α_slack` times their step, the duals by `α_dual` times theirs, and restores a + b = `width`.
-    /// c - d is restored by [`ComplementarityPair::restore_dual_difference`], once its value is known.
+    /// Moves the slacks by `α_slack` times their step, the duals by `α_dual` times theirs, and restores a + b =
+    /// `width`. c - d is restored by [`ComplementarityPair::restore_dual_difference`], once its value is known.
     #[inline(always)]
     pub fn advance(&mut self, dx: Lanes<S>, α_slack: Lanes<S>, α_dual: Lanes<S>, width: Lanes<S>) {
         let [dc, dd] = self.dual_steps(dx);

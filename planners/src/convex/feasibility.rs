@@ -13,8 +13,8 @@ pub struct Measures<S: Simd4> {
     pub objective: Lanes<S>,
 }
 
-/// Restores the difference c - d of every pair at `at`: elastic slacks match z, trust-region duals match the multipliers.
-/// Returns the measures of the feasible iterate.
+/// Restores the difference c - d of every pair at `at`: elastic slacks match z, trust-region duals match the
+/// multipliers. Returns the measures of the feasible iterate.
 #[inline(always)]
 pub fn restore_feasibility<S: Simd4>(batch: &Batch<S>, at: &mut Iterate<S>) -> Measures<S> {
     let mut products = Lanes::splat(batch.simd, 0.0);

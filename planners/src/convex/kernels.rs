@@ -1,7 +1,7 @@
 //! Dense kernels on small row-major matrices of fixed size, without allocation.
 //!
-//! Code on lanes uses loops instead of closures: a closure is a function of its own and would be compiled without the vector
-//! instructions of the enclosing function.
+//! Code on lanes uses loops instead of closures: a closure is a function of its own and would be compiled without the
+//! vector instructions of the enclosing function.
 
 use crate::simd::{Lanes, Simd4};
 
@@ -53,8 +53,8 @@ impl<S: Simd4, const N: usize> SquareRoot<S, N> {
         self.append_with_tail::<M, 0>(rows, &mut [[]; N], &mut [[]; M]);
     }
 
-    /// The same for the wider matrix [R, T] with [`rows`, `tail`] below it. Afterwards `tail` holds rows in the variables of T
-    /// alone.
+    /// The same for the wider matrix [R, T] with [`rows`, `tail`] below it. Afterwards `tail` holds rows in the
+    /// variables of T alone.
     #[inline(always)]
     pub fn append_with_tail<const M: usize, const W: usize>(
         &mut self,

@@ -7,8 +7,8 @@
 //! E dz - Ω_E dy = r_y        r_y = ρ_E
 //! ```
 //!
-//! with W = c/a + d/b of the trust region and Ω = c/a + d/b of the multipliers; E now stands for the dynamics rows, F for
-//! all other elastic rows.
+//! with W = c/a + d/b of the trust region and Ω = c/a + d/b of the multipliers; E now stands for the dynamics rows, F
+//! for all other elastic rows.
 
 use super::batch::Batch;
 use super::block::{Columns, Weights};
@@ -17,8 +17,8 @@ use super::iterate::{Iterate, Variable};
 use super::program::{DYNAMICS_ROWS, STAGE_LEN};
 use crate::simd::{Lanes, Mask, Simd4};
 
-/// Added to every ω of the dynamics rows: it bounds their weights, so that a row that holds exactly does not dominate the
-/// rounding of the others.
+/// Added to every ω of the dynamics rows: it bounds their weights, so that a row that holds exactly does not dominate
+/// the rounding of the others.
 const REGULARISATION: f64 = 1e-12;
 
 /// The Newton system at one iterate, without its factors.
@@ -82,7 +82,8 @@ impl<S: Simd4> NewtonSystem<S> {
         self.multipliers.halfspaces.resize(batch.halfspaces.len(), zero);
     }
 
-    /// Computes the weights at `at` and the right-hand side of the affine direction, targets of zero (Mehrotra's predictor).
+    /// Computes the weights at `at` and the right-hand side of the affine direction, targets of zero (Mehrotra's
+    /// predictor).
     #[inline(always)]
     pub fn compute_weights(&mut self, batch: &Batch<S>, at: &mut Iterate<S>) {
         let ε = Lanes::splat(batch.simd, REGULARISATION);
@@ -114,8 +115,8 @@ impl<S: Simd4> NewtonSystem<S> {
         }
     }
 
-    /// Sets the targets and the right-hand side of the centred direction: products of σμ, with Mehrotra's correction for the
-    /// affine direction, which `step` must hold.
+    /// Sets the targets and the right-hand side of the centred direction: products of σμ, with Mehrotra's correction
+    /// for the affine direction, which `step` must hold.
     #[inline(always)]
     pub fn set_centred_rhs(&mut self, batch: &Batch<S>, at: &mut Iterate<S>, σμ: Lanes<S>) {
         let Self { weights, bound_weights, fixed_weights, step, multipliers } = self;
@@ -248,8 +249,8 @@ impl<S: Simd4> NewtonSystem<S> {
         [trust_region, rows]
     }
 
-    /// Moves `at` by `α_p` of the primal and `α_d` of the dual direction; the slacks a + b keep their sum. The differences
-    /// c - d are restored by [`restore_feasibility`](super::feasibility::restore_feasibility).
+    /// Moves `at` by `α_p` of the primal and `α_d` of the dual direction; the slacks a + b keep their sum. The
+    /// differences c - d are restored by [`restore_feasibility`](super::feasibility::restore_feasibility).
     #[inline(always)]
     pub fn advance(&self, batch: &Batch<S>, at: &mut Iterate<S>, α_p: Lanes<S>, α_d: Lanes<S>) {
         let (μ, two_μ) = (batch.penalty, batch.penalty + batch.penalty);

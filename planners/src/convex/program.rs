@@ -102,8 +102,8 @@ impl Program {
         false
     }
 
-    /// Do both programs have the same number of intervals and the same fixed variables, so that one batch can hold them?
-    /// Halfspaces may differ.
+    /// Do both programs have the same number of intervals and the same fixed variables, so that one batch can hold
+    /// them? Halfspaces may differ.
     pub fn has_shape_of(&self, other: &Self) -> bool {
         let fixed_indices =
             |program: &Self| program.fixed_variables.iter().map(|fixed| fixed.index).collect::<Vec<_>>();

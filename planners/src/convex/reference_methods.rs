@@ -72,7 +72,8 @@ impl ReferenceSystem {
         kkt.factor();
     }
 
-    /// Computes the refined direction for the targets in `at`. Every iterate is feasible, so the other residuals are zero.
+    /// Computes the refined direction for the targets in `at`. Every iterate is feasible, so the other residuals are
+    /// zero.
     pub fn solve<S: Simd4>(&mut self, at: &Iterate<S>, newton: &mut NewtonSystem<S>) {
         let kkt = self.kkt.as_mut().expect("`begin` comes first");
         kkt.residuals.dual.fill(0.0);

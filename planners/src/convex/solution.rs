@@ -11,7 +11,8 @@ pub struct Settings {
     pub max_iterations: usize,
     /// Fraction of the distance to the boundary that a step may use, in (0, 1).
     pub boundary_fraction: f64,
-    /// Central-path parameter τ of the start, relative to the penalty times the largest initial residual of an equality, -.
+    /// Central-path parameter τ of the start, relative to the penalty times the largest initial residual of an
+    /// equality, -.
     pub initial_barrier: f64,
 }
 

@@ -1,4 +1,5 @@
-//! Avoidance rows: obstacles (eq. 11) and other vehicles (eq. 12), linearised about the last trajectory.
+//! Avoidance constraints at the nodes: obstacles (eq. 11) and other vehicles (eq. 12), linearised about the last
+//! trajectory.
 //!
 //! ```text
 //! n · C (s_i[k] - sbar_i[k]) >= r - |C (sbar_i[k] - p)|,      n = C (sbar_i[k] - p) / |C (sbar_i[k] - p)|
@@ -10,23 +11,23 @@ use super::iterate::Iterate;
 use super::scaling::POSITION_M;
 use crate::convex::HalfspaceConstraint;
 
-/// A disc to stay out of, per node: an obstacle, or another vehicle where it last was.
+/// A keep-out disc at every node: an obstacle, or another vehicle on its last trajectory.
 pub struct KeepOut<'a> {
     /// Centre at node k, m.
     pub center_m: &'a dyn Fn(usize) -> [f64; 2],
-    /// Radius r with the planner's margin, m.
+    /// Radius r including the planner's margin, m.
     pub radius_m: f64,
-    /// Direction n where the centre is met exactly, and eq. 11, 12 have none.
+    /// Normal n at the centre itself, where eq. 11 and 12 define none.
     pub tie_break: [f64; 2],
 }
 
-/// Appends the rows of one keep-out disc. Left out are those that cannot bind: inside a trust region of half-width ρ in
-/// x and in y nobody moves farther than sqrt(2) ρ.
-pub fn append_planes(
+/// Appends the rows of one keep-out disc. Rows that cannot bind are omitted: within a trust region of half-width ρ in x
+/// and in y a vehicle moves by at most sqrt(2) ρ.
+pub fn append_halfspaces(
     trajectory: &Iterate,
     keep_out: &KeepOut,
     trust_region_m: f64,
-    planes: &mut Vec<HalfspaceConstraint>,
+    halfspaces: &mut Vec<HalfspaceConstraint>,
 ) {
     for stage in 0..=trajectory.intervals() {
         let (at, center) = (trajectory.position_m(stage), (keep_out.center_m)(stage));
@@ -37,6 +38,6 @@ pub fn append_planes(
         }
         let normal = if distance_m > 0.0 { away.map(|a| a / distance_m) } else { keep_out.tie_break };
         let bound = (distance_m - keep_out.radius_m) / POSITION_M;
-        planes.push(HalfspaceConstraint { stage, current: [-normal[0], -normal[1]], next: [0.0; 2], bound });
+        halfspaces.push(HalfspaceConstraint { stage, current: [-normal[0], -normal[1]], next: [0.0; 2], bound });
     }
 }

@@ -1,11 +1,11 @@
-//! The programs of all vehicles, with rows that touch two of them, as one sparse linear program.
+//! The programs of all vehicles, with rows between pairs of vehicles, as one sparse linear program.
 //!
 //! ```text
-//! min  Σ q θ + μ (Σ |E z - d| + Σ max(F z - g, 0) + Σ max(n · (w_j - w_i) - room, 0))     s.t.  lo <= z <= hi
+//! min  Σ q θ + μ (Σ |E z - d| + Σ max(F z - g, 0) + Σ max(n · (w_j - w_i) - slack, 0))     s.t.  lo <= z <= hi
 //! ```
 //!
 //! In Clarabel's form the elastic equalities are E z - p + n = d with p, n >= 0, the inequalities F z - β <= g with
-//! β >= 0. Bounds that lie outside the box never bind, and are left out.
+//! β >= 0. Elastic bounds outside the trust region never bind and are omitted.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
@@ -14,34 +14,34 @@ use crate::convex::{DYNAMICS_ROWS, Program, STAGE_LEN, clarabel_settings};
 
 /// One program over a fleet.
 pub struct CoupledProgram {
-    /// Everybody's own rows.
+    /// The programs of the single vehicles.
     pub vehicles: Vec<Program>,
     /// Rows between two vehicles.
-    pub pairs: Vec<Pair>,
-    /// Is the step length the same for all?
+    pub pairs: Vec<PairConstraint>,
+    /// Do all vehicles have the same step length?
     pub shared_time: bool,
 }
 
-/// The row `normal · (w_i - w_j) >= -room` in the first two variables of a stage of both.
+/// The row `normal · (w_i - w_j) >= -slack` in the first two variables of one stage of both vehicles.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct PairConstraint {
     /// i and j.
-    pub who: [usize; 2],
+    pub vehicles: [usize; 2],
     /// Stage.
     pub stage: usize,
     /// Coefficients.
     pub normal: [f64; 2],
-    /// What is left before the row is violated, scaled.
-    pub room: f64,
+    /// Scaled slack at the last trajectory; negative if the row is violated there.
+    pub slack: f64,
 }
 
-/// What came out.
+/// Result of a solve.
 pub struct CoupledSolution {
-    /// Everybody's variables, in the form of his own program.
+    /// Variables of every vehicle, in the form of its own program.
     pub z: Vec<Vec<f64>>,
-    /// Largest violation that the penalty left.
+    /// Largest remaining violation.
     pub slack: f64,
-    /// Iterations.
+    /// Number of iterations.
     pub iterations: usize,
     /// Did the solver reach its tolerance?
     pub is_solved: bool,
@@ -54,8 +54,8 @@ impl CoupledProgram {
         let matrix = CscMatrix::new_from_triplets(
             rows.rhs.len(),
             rows.cost.len(),
-            rows.places.iter().map(|place| place.0).collect(),
-            rows.places.iter().map(|place| place.1).collect(),
+            rows.indices.iter().map(|index| index.0).collect(),
+            rows.indices.iter().map(|index| index.1).collect(),
             rows.values.clone(),
         );
         let cones = [ZeroConeT(rows.equalities), NonnegativeConeT(rows.rhs.len() - rows.equalities)];
@@ -63,10 +63,10 @@ impl CoupledProgram {
         let quadratic = CscMatrix::zeros((rows.cost.len(), rows.cost.len()));
         let mut solver = match DefaultSolver::new(&quadratic, &rows.cost, &matrix, &rows.rhs, &cones, settings) {
             Ok(solver) => solver,
-            Err(error) => unreachable!("a well-posed program was refused: {error}"),
+            Err(error) => unreachable!("Clarabel rejected the data: {error}"),
         };
         solver.solve();
-        let z: Vec<Vec<f64>> = (0..self.vehicles.len()).map(|i| self.own(i, &solver.solution.x)).collect();
+        let z: Vec<Vec<f64>> = (0..self.vehicles.len()).map(|i| self.variables(i, &solver.solution.x)).collect();
         CoupledSolution {
             slack: self.max_violation(&z),
             z,
@@ -75,13 +75,13 @@ impl CoupledProgram {
         }
     }
 
-    /// First column of a vehicle's stages.
+    /// First column of the stages of a vehicle.
     fn offset(&self, i: usize) -> usize {
         let stages = |program: &Program| program.len() - 1;
         self.vehicles[..i].iter().map(stages).sum()
     }
 
-    /// Column of a vehicle's variable.
+    /// Column of a variable of a vehicle.
     fn column(&self, i: usize, index: usize) -> usize {
         if index + 1 < self.vehicles[i].len() {
             return self.offset(i) + index;
@@ -89,16 +89,16 @@ impl CoupledProgram {
         self.offset(self.vehicles.len()) + if self.shared_time { 0 } else { i }
     }
 
-    fn own(&self, i: usize, x: &[f64]) -> Vec<f64> {
+    fn variables(&self, i: usize, x: &[f64]) -> Vec<f64> {
         (0..self.vehicles[i].len()).map(|index| x[self.column(i, index)]).collect()
     }
 
     fn max_violation(&self, z: &[Vec<f64>]) -> f64 {
         let own = self.vehicles.iter().zip(z).map(|(program, z)| program.max_violation(z));
         let pairs = self.pairs.iter().map(|pair| {
-            let [i, j] = pair.who;
-            let moved = |axis: usize| z[i][STAGE_LEN * pair.stage + axis] - z[j][STAGE_LEN * pair.stage + axis];
-            -pair.room - pair.normal[0] * moved(0) - pair.normal[1] * moved(1)
+            let [i, j] = pair.vehicles;
+            let difference = |axis: usize| z[i][STAGE_LEN * pair.stage + axis] - z[j][STAGE_LEN * pair.stage + axis];
+            -pair.slack - pair.normal[0] * difference(0) - pair.normal[1] * difference(1)
         });
         own.chain(pairs).fold(0.0, f64::max)
     }
@@ -116,12 +116,12 @@ impl CoupledProgram {
         }
         for i in 0..self.vehicles.len() {
             self.append_bounds(i, &mut rows);
-            self.append_planes(i, &mut rows);
+            self.append_halfspaces(i, &mut rows);
         }
         for pair in &self.pairs {
-            let [i, j] = pair.who.map(|who| self.column(who, STAGE_LEN * pair.stage));
+            let [i, j] = pair.vehicles.map(|vehicle| self.column(vehicle, STAGE_LEN * pair.stage));
             let [x, y] = pair.normal;
-            rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.room, self.penalty());
+            rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.slack, self.penalty());
         }
         rows
     }
@@ -161,44 +161,48 @@ impl CoupledProgram {
         }
     }
 
-    fn append_planes(&self, i: usize, rows: &mut Rows) {
-        for plane in &self.vehicles[i].halfspaces {
-            let here = self.column(i, STAGE_LEN * plane.stage);
-            rows.append_elastic([(here, plane.current[0]), (here + 1, plane.current[1])], plane.bound, self.penalty());
+    fn append_halfspaces(&self, i: usize, rows: &mut Rows) {
+        for halfspace in &self.vehicles[i].halfspaces {
+            let here = self.column(i, STAGE_LEN * halfspace.stage);
+            rows.append_elastic(
+                [(here, halfspace.current[0]), (here + 1, halfspace.current[1])],
+                halfspace.bound,
+                self.penalty(),
+            );
         }
     }
 }
 
-/// Rows A x <= b under construction, equalities first.
+/// Rows A x <= b, equalities first.
 #[derive(Default)]
 struct Rows {
     cost: Vec<f64>,
     /// Row and column of every entry.
-    places: Vec<(usize, usize)>,
+    indices: Vec<(usize, usize)>,
     values: Vec<f64>,
     rhs: Vec<f64>,
     equalities: usize,
-    /// Slacks of the equalities, still without their bound.
+    /// Slacks of the equalities, whose bounds are not yet appended.
     slacks: Vec<usize>,
 }
 
 impl Rows {
     fn append(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64) {
         for (column, value) in terms.into_iter().filter(|(_, value)| *value != 0.0) {
-            self.places.push((self.rhs.len(), column));
+            self.indices.push((self.rhs.len(), column));
             self.values.push(value);
         }
         self.rhs.push(rhs);
     }
 
-    /// `terms <= rhs`, or pay for what is missing.
+    /// Appends `terms <= rhs`, with a penalty on the violation.
     fn append_elastic(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64, penalty: f64) {
         let slack = self.new_slack(penalty);
         self.append(terms.into_iter().chain([(slack, -1.0)]), rhs);
         self.append([(slack, -1.0)], 0.0);
     }
 
-    /// `terms = rhs`, or pay for the difference.
+    /// Appends `terms = rhs`, with a penalty on the difference.
     fn append_elastic_equality(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, rhs: f64, penalty: f64) {
         let [above, below] = [self.new_slack(penalty), self.new_slack(penalty)];
         self.append(terms.into_iter().chain([(above, -1.0), (below, 1.0)]), rhs);
@@ -215,17 +219,18 @@ impl Rows {
 mod tests {
     use super::*;
     use crate::convex::{InteriorPoint, Settings};
-    use crate::scp::decoupled::{Avoidance, Fleet};
+    use crate::scp::decoupled::{Avoidance, FleetProblem};
 
     /// The first subproblems of two vehicles.
     fn programs() -> Vec<Program> {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-2.toml");
         let scenario = scenarios::load(&path).expect("a shipped scenario");
-        let fleet = Fleet::new(&scenario, 0);
+        let fleet = FleetProblem::new(&scenario, 0);
         let lines = fleet.straight_lines();
         let trust_region = fleet.options.trust_region;
         let alone = Avoidance { avoids: &|_, _| false, obstacles: true };
-        let program = |i| fleet.program(i, &lines, fleet.planes(i, &lines, alone, trust_region[0]), trust_region, 0.0);
+        let program =
+            |i| fleet.program(i, &lines, fleet.halfspaces(i, &lines, alone, trust_region[0]), trust_region, 0.0);
         (0..2).map(program).collect()
     }
 
@@ -234,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn without_rows_between_them_everybody_does_as_alone() {
+    fn without_pair_rows_the_optimum_is_that_of_the_single_programs() {
         let vehicles = programs();
         let alone = vehicles.iter().map(|program| InteriorPoint::new(Settings::default()).solve(program).objective);
         let alone: f64 = alone.sum();
@@ -245,13 +250,13 @@ mod tests {
     }
 
     #[test]
-    fn rows_between_two_are_kept_and_cost_something() {
+    fn pair_rows_are_kept() {
         let vehicles = programs();
         let free = CoupledProgram { vehicles: vehicles.clone(), pairs: Vec::new(), shared_time: true }.solve(1e-8);
         let stage = 20;
         let apart = |z: &[Vec<f64>]| z[0][STAGE_LEN * stage + 1] - z[1][STAGE_LEN * stage + 1];
-        // 300 m farther apart in y than they would be
-        let pair = Pair { who: [0, 1], stage, normal: [0.0, 1.0], room: -apart(&free.z) - 0.3 };
+        // 300 m farther apart in y than without the row
+        let pair = PairConstraint { vehicles: [0, 1], stage, normal: [0.0, 1.0], slack: -apart(&free.z) - 0.3 };
         let coupled = CoupledProgram { vehicles, pairs: vec![pair], shared_time: true };
         let held = coupled.solve(1e-8);
         assert!(held.is_solved && apart(&held.z) > apart(&free.z) + 0.3 - 1e-6);

@@ -1,5 +1,5 @@
-//! What the papers' planners have in common: a fleet whose vehicles are planned one by one or all at once, each against
-//! the others' last trajectories, with rows at the nodes.
+//! The common part of the papers' planners: subproblems of single vehicles, with avoidance rows at the nodes against
+//! the last trajectories of the others.
 
 use std::time::Instant;
 
@@ -7,7 +7,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 use scenarios::{Iteration, Range, Scenario, Solver};
 
-use super::avoidance::{KeepOut, append_planes};
+use super::avoidance::{KeepOut, append_halfspaces};
 use super::dynamics::State;
 use super::initial_guess::{boundary_states, straight_lines};
 use super::iterate::Iterate;
@@ -20,48 +20,48 @@ use crate::convex::{self, HalfspaceConstraint, InteriorPoint, Program, STAGE_LEN
 pub const TOLERANCE: f64 = 1e-8;
 
 /// Largest relative change of a step length in one iteration.
-pub const TIME_CHANGE: f64 = 0.5;
+pub const MAX_TIME_CHANGE: f64 = 0.5;
 
-/// Who has to avoid what.
+/// Which vehicles and obstacles a vehicle avoids.
 #[derive(Clone, Copy)]
 pub struct Avoidance<'a> {
-    /// Must the first keep away from the second?
+    /// Does the first vehicle avoid the second?
     pub avoids: &'a (dyn Fn(usize, usize) -> bool + Sync),
-    /// Are there obstacles?
+    /// Are obstacles avoided?
     pub obstacles: bool,
 }
 
-/// What stays the same over the iterations.
-pub struct Fleet<'a> {
-    /// The question.
+/// The data of a fleet that are constant over the iterations.
+pub struct FleetProblem<'a> {
+    /// The scenario.
     pub scenario: &'a Scenario,
     /// Planner options.
     pub options: Options,
     /// Bounds per vehicle and node.
     pub bounds: Vec<Vec<[Range; STAGE_LEN]>>,
-    /// States at both ends of every vehicle's way.
+    /// Initial and final state of every vehicle.
     pub boundary: Vec<[State; 2]>,
-    /// Unit normal of every pair (i < j) for nodes at which the two coincide; i takes it, j its opposite.
+    /// Unit normal of every pair (i < j) for nodes at which the two coincide: for i; that of j is its opposite.
     tie_breaks: Vec<[f64; 2]>,
 }
 
-/// One vehicle's answer in one iteration.
+/// The result of one subproblem.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct SubproblemResult {
     /// The new trajectory.
     pub trajectory: Iterate,
-    /// Interior-point iterations.
+    /// Number of interior-point iterations.
     pub solver_iterations: usize,
     /// Did the solver reach its tolerance?
     pub is_solved: bool,
-    /// Largest violation that the penalty left, in scaled units.
+    /// Largest remaining violation, in scaled units.
     pub slack: f64,
-    /// Time that it took, s.
+    /// Wall time, s.
     pub wall_s: f64,
 }
 
-impl<'a> Fleet<'a> {
-    /// The fleet of a scenario. `seed`: of the normals between vehicles that coincide.
+impl<'a> FleetProblem<'a> {
+    /// The fleet of a scenario. `seed` determines the normals between vehicles that coincide.
     pub fn new(scenario: &'a Scenario, seed: u64) -> Self {
         let n = scenario.vehicles.len();
         let mut rng = scenarios::stream(seed, "scp/tie-break");
@@ -82,26 +82,26 @@ impl<'a> Fleet<'a> {
         }
     }
 
-    /// Where every sequence starts.
+    /// The initial trajectories.
     pub fn straight_lines(&self) -> Vec<Iterate> {
         straight_lines(self.scenario, self.options.intervals)
     }
 
-    /// Everybody's answer to the last trajectories, in parallel. `inspect` sees every subproblem with its solution.
-    pub fn answers(
+    /// Solves the subproblems of all vehicles in parallel. `inspect` receives every subproblem with its solution.
+    pub fn solve_all(
         &self,
         last: &[Iterate],
         avoidance: Avoidance,
         trust_region: State,
         dt_bound_s: f64,
         inspect: &(dyn Fn(&Program, &Solution) + Sync),
-    ) -> Vec<Answer> {
-        let answer = |i| self.answer(i, last, avoidance, trust_region, dt_bound_s, inspect);
-        (0..last.len()).into_par_iter().map(answer).collect()
+    ) -> Vec<SubproblemResult> {
+        let result = |i| self.solve(i, last, avoidance, trust_region, dt_bound_s, inspect);
+        (0..last.len()).into_par_iter().map(result).collect()
     }
 
-    /// One vehicle's answer.
-    pub fn answer(
+    /// Solves the subproblem of one vehicle.
+    pub fn solve(
         &self,
         i: usize,
         last: &[Iterate],
@@ -109,13 +109,13 @@ impl<'a> Fleet<'a> {
         trust_region: State,
         dt_bound_s: f64,
         inspect: &(dyn Fn(&Program, &Solution) + Sync),
-    ) -> Answer {
+    ) -> SubproblemResult {
         let started = Instant::now();
-        let planes = self.planes(i, last, avoidance, trust_region[0]);
-        let program = self.program(i, last, planes, trust_region, dt_bound_s);
-        let solution = self.solve(&program);
+        let halfspaces = self.halfspaces(i, last, avoidance, trust_region[0]);
+        let program = self.program(i, last, halfspaces, trust_region, dt_bound_s);
+        let solution = self.solve_program(&program);
         inspect(&program, &solution);
-        Answer {
+        SubproblemResult {
             trajectory: subproblem::updated(&last[i], &solution.z),
             solver_iterations: solution.iterations,
             is_solved: solution.status == Status::Solved,
@@ -129,7 +129,7 @@ impl<'a> Fleet<'a> {
         &self,
         i: usize,
         last: &[Iterate],
-        planes: Vec<HalfspaceConstraint>,
+        halfspaces: Vec<HalfspaceConstraint>,
         trust_region: State,
         dt_bound_s: f64,
     ) -> Program {
@@ -139,12 +139,12 @@ impl<'a> Fleet<'a> {
             bounds: &self.bounds[i],
             trust_region,
             dt_bound_s,
-            dt_change: TIME_CHANGE,
+            dt_change: MAX_TIME_CHANGE,
         };
-        subproblem::assemble(&context, &last[i], planes)
+        subproblem::assemble(&context, &last[i], halfspaces)
     }
 
-    fn solve(&self, program: &Program) -> Solution {
+    fn solve_program(&self, program: &Program) -> Solution {
         match self.options.solver {
             Solver::Block => {
                 let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
@@ -155,14 +155,14 @@ impl<'a> Fleet<'a> {
     }
 
     /// Avoidance rows of vehicle i.
-    pub fn planes(
+    pub fn halfspaces(
         &self,
         i: usize,
         last: &[Iterate],
         avoidance: Avoidance,
         trust_region_m: f64,
     ) -> Vec<HalfspaceConstraint> {
-        let mut planes = Vec::new();
+        let mut halfspaces = Vec::new();
         let margin_m = self.options.margin_m;
         let obstacles = self.scenario.world.cylinders.iter().filter(|_| avoidance.obstacles);
         for cylinder in obstacles {
@@ -171,18 +171,18 @@ impl<'a> Fleet<'a> {
                 radius_m: cylinder.radius_m + margin_m,
                 tie_break: [0.0, 1.0],
             };
-            append_planes(&last[i], &keep_out, trust_region_m, &mut planes);
+            append_halfspaces(&last[i], &keep_out, trust_region_m, &mut halfspaces);
         }
-        let Some(separation_m) = self.scenario.fleet.separation_m else { return planes };
+        let Some(separation_m) = self.scenario.fleet.separation_m else { return halfspaces };
         for (j, other) in last.iter().enumerate().filter(|(j, _)| *j != i && (avoidance.avoids)(i, *j)) {
             let keep_out = KeepOut {
                 center_m: &|k| other.position_m(k),
                 radius_m: separation_m + margin_m,
                 tie_break: self.tie_break(i, j),
             };
-            append_planes(&last[i], &keep_out, trust_region_m, &mut planes);
+            append_halfspaces(&last[i], &keep_out, trust_region_m, &mut halfspaces);
         }
-        planes
+        halfspaces
     }
 
     /// Normal from j to i where the two coincide.
@@ -191,37 +191,43 @@ impl<'a> Fleet<'a> {
         if i < j { normal } else { normal.map(|n| -n) }
     }
 
-    /// Has nobody moved by more than the convergence thresholds?
-    pub fn is_at_rest<'b>(&self, last: &[Iterate], now: impl Iterator<Item = &'b Iterate>) -> bool {
+    /// Are all changes since `last` within the convergence thresholds?
+    pub fn has_converged<'b>(&self, last: &[Iterate], now: impl Iterator<Item = &'b Iterate>) -> bool {
         last.iter().zip(now).all(|(last, now)| {
             let change = now.change(last);
             change.iter().zip(self.options.convergence.iter()).all(|(change, eps)| change <= eps)
         })
     }
 
-    /// An iteration as the plan's history tells it.
-    pub fn summarise(&self, last: &[Iterate], answers: &[Answer], trust_region: State, started: Instant) -> Iteration {
-        let largest = |value: &dyn Fn(&Answer) -> f64| answers.iter().map(value).fold(0.0, f64::max);
-        let now: Vec<&Iterate> = answers.iter().map(|answer| &answer.trajectory).collect();
+    /// The record of an iteration for the plan history.
+    pub fn summarise(
+        &self,
+        last: &[Iterate],
+        results: &[SubproblemResult],
+        trust_region: State,
+        started: Instant,
+    ) -> Iteration {
+        let max = |value: &dyn Fn(&SubproblemResult) -> f64| results.iter().map(value).fold(0.0, f64::max);
+        let now: Vec<&Iterate> = results.iter().map(|result| &result.trajectory).collect();
         let change = last.iter().zip(&now).map(|(last, now)| now.change(last)).fold(State::zeros(), |a, b| a.sup(&b));
         Iteration {
-            objective: largest(&|answer| answer.trajectory.flight_time_s()),
-            dt_s: largest(&|answer| answer.trajectory.dt_s),
-            defect_m: largest(&|answer| answer.trajectory.defect_m(self.options.transcription)),
-            slack: largest(&|answer| answer.slack),
+            objective: max(&|result| result.trajectory.flight_time_s()),
+            dt_s: max(&|result| result.trajectory.dt_s),
+            defect_m: max(&|result| result.trajectory.defect_m(self.options.transcription)),
+            slack: max(&|result| result.slack),
             separation_m: plan::node_separation_m(&now),
             clearance_m: plan::node_clearance_m(&now, &self.scenario.world.cylinders),
             change_m: change[0].max(change[1]),
             trust_region_m: trust_region[0],
-            solver_iterations: answers.iter().map(|answer| answer.solver_iterations).sum(),
-            unsolved: answers.iter().filter(|answer| !answer.is_solved).count(),
+            solver_iterations: results.iter().map(|result| result.solver_iterations).sum(),
+            unsolved: results.iter().filter(|result| !result.is_solved).count(),
             wall_s: started.elapsed().as_secs_f64(),
-            distributed_s: largest(&|answer| answer.wall_s),
+            distributed_s: max(&|result| result.wall_s),
         }
     }
 }
 
-/// The trajectories of a round of answers.
-pub fn trajectories(answers: Vec<Answer>) -> Vec<Iterate> {
-    answers.into_iter().map(|answer| answer.trajectory).collect()
+/// The trajectories of the results.
+pub fn trajectories(results: Vec<SubproblemResult>) -> Vec<Iterate> {
+    results.into_iter().map(|result| result.trajectory).collect()
 }

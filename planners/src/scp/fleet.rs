@@ -1,31 +1,31 @@
 //! Planner `fleet-scp`: sequential convex programming whose plans hold between the nodes.
 //!
-//! As in the papers everybody's subproblem is linearised about his last trajectory, and all are solved in parallel. What
-//! is different:
+//! As in the papers, the subproblem of each vehicle is linearised about its last trajectory, and all are solved in
+//! parallel. The differences:
 //!
-//! - the dynamics are the flow itself (multiple shooting), not the trapezoid rule;
-//! - rows are placed where two vehicles, or a vehicle and an obstacle, come nearest to each other, not at the nodes, and
-//!   the two share what is missing;
-//! - the first guess is a way that could nearly be flown, around obstacles, and around each other where many meet;
-//! - the common time bound gives way while the ways are being looked for;
-//! - a plan is accepted when its own flow keeps every limit at all times, and not before.
+//! - the dynamics are multiple-shooting constraints, not the trapezoid rule;
+//! - avoidance rows are placed at the closest approach of two vehicles, or of a vehicle and an obstacle, not at the
+//!   nodes, and two vehicles share the missing distance;
+//! - the initial guess is nearly flyable: Dubins paths around obstacles, with a roundabout where many vehicles meet;
+//! - the common time bound is released in the search phase;
+//! - a plan is accepted only when its own flow keeps every limit at all times.
 
 mod acceptance;
-mod closest;
+mod avoidance_rows;
+mod closest_approach;
+mod conflict_detection;
 mod detour;
 mod dubins;
-mod first_guess;
 mod grid;
-mod guess;
-mod inside;
+mod initial_guess;
+mod initial_route;
+mod intersample_bounds;
+mod motion;
 mod roundabout;
 mod route;
-mod rows;
 mod schedule;
-mod sequence;
+mod scp_solver;
 mod speed;
-mod track;
-mod traffic;
 
 use std::time::Instant;
 
@@ -35,7 +35,7 @@ use super::options::Options;
 use super::plan;
 use crate::convex::{Program, Solution};
 use crate::planner::{Planner, PlanningMode, Progress};
-use sequence::Sequence;
+use scp_solver::ScpSolver;
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -48,7 +48,7 @@ pub const PLANNER: Planner = Planner {
 
 const NAME: &str = "fleet-scp";
 
-/// Plans for the whole fleet. `progress` sees every iteration as it ends.
+/// Plans for the whole fleet. `progress` receives every iteration.
 pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     plan_and_inspect(scenario, seed, progress, &|_, _| {})
 }
@@ -62,27 +62,29 @@ pub fn plan_and_inspect(
 ) -> Plan {
     let begin = Instant::now();
     let options = Options::fleet(&scenario.planner);
-    let most = options.max_iterations;
-    let mut sequence = Sequence::new(scenario, options);
+    let max_iterations = options.max_iterations;
+    let mut solver = ScpSolver::new(scenario, options);
     let mut history = Vec::new();
     let mut accepted = false;
-    while !accepted && history.len() < most {
-        let iteration = sequence.advance(inspect);
-        accepted = sequence.is_accepted();
+    while !accepted && history.len() < max_iterations {
+        let iteration = solver.advance(inspect);
+        accepted = solver.is_accepted();
         progress(&iteration);
         history.push(iteration);
     }
     let (status, trajectories) = if accepted {
-        ((PlanStatus::Solved, None), sequence.together())
+        ((PlanStatus::Solved, None), solver.synchronised())
     } else {
-        ((PlanStatus::NoPlan, Some(complaint(&sequence, history.len()))), Vec::new())
+        ((PlanStatus::NoPlan, Some(failure_reason(&solver, history.len()))), Vec::new())
     };
     plan::assemble(scenario, NAME, seed, &trajectories, history, status, begin.elapsed())
 }
 
-fn complaint(sequence: &Sequence, iterations: usize) -> String {
-    let what = sequence.fault().map_or("the flight time has not settled".to_string(), |fault| fault.to_string());
-    format!("after {iterations} iterations {what}")
+fn failure_reason(solver: &ScpSolver, iterations: usize) -> String {
+    let reason = solver
+        .first_violation()
+        .map_or("the flight time has not settled".to_string(), |violation| violation.to_string());
+    format!("after {iterations} iterations {reason}")
 }
 
 fn unsupported_reason(scenario: &Scenario) -> Option<String> {

@@ -1,4 +1,4 @@
-//! Where the sequence starts: straight lines, all vehicles arriving together.
+//! The initial trajectories of the papers' planners: straight lines with a common flight time.
 
 use nalgebra::Vector3;
 use scenarios::{Scenario, Vehicle};
@@ -6,13 +6,13 @@ use scenarios::{Scenario, Vehicle};
 use super::dynamics::{Control, State};
 use super::iterate::Iterate;
 
-/// Linear interpolation of the state from start to goal, in the time that the vehicle with the longest way needs at the
-/// mean of its speeds at both ends.
+/// Linear interpolation of the state from start to goal, over the longest straight flight time of the fleet.
 pub fn straight_lines(scenario: &Scenario, intervals: usize) -> Vec<Iterate> {
-    let longest_s = scenario.vehicles.iter().map(straight_flight_time_s).fold(0.0, f64::max);
-    scenario.vehicles.iter().map(|vehicle| straight_line(vehicle, intervals, longest_s / intervals as f64)).collect()
+    let max_s = scenario.vehicles.iter().map(straight_flight_time_s).fold(0.0, f64::max);
+    scenario.vehicles.iter().map(|vehicle| straight_line(vehicle, intervals, max_s / intervals as f64)).collect()
 }
 
+/// Flight time along the straight line at the mean of the initial and final speed, s.
 fn straight_flight_time_s(vehicle: &Vehicle) -> f64 {
     let (start, goal) = (Vector3::from(vehicle.start.position_m()), Vector3::from(vehicle.goal.position_m()));
     2.0 * (goal - start).norm() / (vehicle.start.speed_mps + vehicle.goal.speed_mps)
@@ -20,16 +20,16 @@ fn straight_flight_time_s(vehicle: &Vehicle) -> f64 {
 
 fn straight_line(vehicle: &Vehicle, intervals: usize, dt_s: f64) -> Iterate {
     let [start, goal] = boundary_states(vehicle);
-    let share = |k: usize| k as f64 / intervals as f64;
+    let fraction = |k: usize| k as f64 / intervals as f64;
     Iterate {
-        states: (0..=intervals).map(|k| start.lerp(&goal, share(k))).collect(),
+        states: (0..=intervals).map(|k| start.lerp(&goal, fraction(k))).collect(),
         controls: vec![Control::new(0.0, 0.0, 1.0); intervals + 1],
         dt_s,
         ramp: 1.0,
     }
 }
 
-/// States at both ends; the goal's heading is taken within half a turn of the start's.
+/// Initial and final state; the final heading is within half a turn of the initial one.
 pub fn boundary_states(vehicle: &Vehicle) -> [State; 2] {
     let [start, mut goal] =
         [&vehicle.start, &vehicle.goal].map(|waypoint| State::from(waypoint.fixed_wing_state().to_array()));

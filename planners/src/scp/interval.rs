@@ -1,10 +1,10 @@
-//! One interval between two nodes, and by how much it misses the equations of motion.
+//! One interval between two nodes, and its defect.
 
 use nalgebra::SMatrix;
 
 use super::dynamics::{Control, ControlJacobian, State, StateJacobian};
 
-/// One interval of a trajectory: its end nodes and its length.
+/// One interval of a trajectory: its two nodes and its length.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval {
     /// States at the beginning and at the end.
@@ -13,30 +13,30 @@ pub struct Interval {
     pub controls: [Control; 2],
     /// Length dt, s.
     pub dt_s: f64,
-    /// Share of the interval, from its beginning, during which the control runs linearly from one to the other; then it
-    /// stays. 1: first-order hold.
+    /// Fraction of the interval, from its beginning, during which the control changes linearly from the first to the
+    /// second value; it is constant afterwards. 1: first-order hold.
     pub ramp: f64,
 }
 
 impl Interval {
-    /// Control after a share of the interval.
-    pub fn control_at(&self, share: f64) -> Control {
-        let progress = (share / self.ramp).min(1.0);
+    /// Control at a fraction of the interval.
+    pub fn control_at(&self, fraction: f64) -> Control {
+        let progress = (fraction / self.ramp).min(1.0);
         self.controls[0] * (1.0 - progress) + self.controls[1] * progress
     }
 }
 
-/// Defect of an interval and its derivatives. The defect is what is missing at the end: zero when the trajectory obeys
-/// the transcribed equations of motion.
+/// Defect of an interval and its derivatives. The defect is zero when the trajectory satisfies the transcribed
+/// equations of motion.
 #[derive(Clone, Debug)]
 pub struct Defect {
     /// The defect, in the units of the state.
     pub value: State,
-    /// With respect to the two states.
+    /// Derivatives with respect to both states.
     pub by_states: [StateJacobian; 2],
-    /// With respect to the two controls.
+    /// Derivatives with respect to both controls.
     pub by_controls: [ControlJacobian; 2],
-    /// With respect to dt, per second.
+    /// Derivative with respect to dt, per second.
     pub by_dt: State,
 }
 

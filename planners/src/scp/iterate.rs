@@ -1,4 +1,4 @@
-//! One vehicle's trajectory between two iterations.
+//! The trajectory of one vehicle between two iterations.
 
 use scenarios::Transcription;
 
@@ -15,7 +15,7 @@ pub struct Iterate {
     pub controls: Vec<Control>,
     /// Step length dt, s.
     pub dt_s: f64,
-    /// How controls run between the nodes, see [`Interval::ramp`].
+    /// Interpolation of the controls between the nodes, see [`Interval::ramp`].
     pub ramp: f64,
 }
 
@@ -45,16 +45,26 @@ impl Iterate {
         [self.states[k][0], self.states[k][1]]
     }
 
-    /// Largest defect of any interval by the planner's own equations, position part, m.
+    /// Largest position defect of any interval by the planner's own transcription, m.
     pub fn defect_m(&self, transcription: Transcription) -> f64 {
         (0..self.intervals())
             .map(|k| transcription::defect(transcription, &self.interval(k)).fixed_rows::<3>(0).norm())
             .fold(0.0, f64::max)
     }
 
-    /// Largest change of each component of the state against `last`.
+    /// Largest change of each state component since `last`.
     pub fn change(&self, last: &Iterate) -> State {
         let pairs = self.states.iter().zip(&last.states);
         pairs.fold(State::zeros(), |largest, (now, before)| largest.sup(&(now - before).abs()))
     }
+}
+
+/// Largest step length of a fleet, s; 0 for an empty fleet.
+pub fn max_dt_s(trajectories: &[Iterate]) -> f64 {
+    trajectories.iter().map(|trajectory| trajectory.dt_s).fold(0.0, f64::max)
+}
+
+/// Flight time of the slowest vehicle, s; 0 for an empty fleet.
+pub fn max_flight_time_s(trajectories: &[Iterate]) -> f64 {
+    trajectories.iter().map(Iterate::flight_time_s).fold(0.0, f64::max)
 }

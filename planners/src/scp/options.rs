@@ -1,37 +1,37 @@
-//! Options of the planners of this family: the paper's values where the scenario is silent.
+//! Options of the fixed-wing planners: those of the scenario, with the paper's values as defaults.
 
 use scenarios::{PlannerSettings, Solver, Transcription, TrustRegion};
 
 use super::dynamics::State;
 
-/// Options with every default filled in.
+/// Planner options with all defaults applied.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// How the equations of motion become rows.
+    /// Transcription of the equations of motion.
     pub transcription: Transcription,
-    /// Who solves the subproblems.
+    /// Solver of the subproblems.
     pub solver: Solver,
     /// Number of intervals K.
     pub intervals: usize,
-    /// Distance kept beyond separation and obstacles, m.
+    /// Margin on separation and clearance, m.
     pub margin_m: f64,
-    /// Weight of violated rows.
+    /// Penalty per scaled unit of violation.
     pub penalty: f64,
-    /// Share by which the common time bound falls when the whole fleet sits on it.
+    /// Fraction by which the common time bound falls when all step lengths are at the bound.
     pub time_bound_release: f64,
-    /// Most iterations.
+    /// Maximum number of iterations.
     pub max_iterations: usize,
-    /// Half-widths ρ of the trust region at the start, in the units of the state.
+    /// Initial half-widths ρ of the trust region, in the units of the state.
     pub trust_region: State,
     /// Factor on ρ after each iteration.
     pub shrink: f64,
-    /// Largest change of a converged state, in its units.
+    /// Convergence thresholds of the change of a state, in its units.
     pub convergence: State,
 }
 
 impl Options {
-    /// Fills in the values of Wang, Xu, Long (2020), section 5. The shrinking of the trust region and the iteration
-    /// limit are ours.
+    /// The options of the papers' planners. Defaults are those of Wang, Xu, Long (2020), section 5, except for the
+    /// shrink factor of the trust region and the iteration limit, which the paper does not give.
     pub fn new(settings: &PlannerSettings) -> Self {
         let half_widths = |region: &TrustRegion| {
             let (χ, γ) = (region.heading_deg.to_radians(), region.flight_path_deg.to_radians());
@@ -56,22 +56,22 @@ impl Options {
         }
     }
 
-    /// The same for `fleet-scp`, where all but the number of intervals is ours.
+    /// The options of `fleet-scp`, with defaults of its own except for the number of intervals.
     ///
-    /// The penalty is far below the papers': there it makes an early, badly linearised subproblem buy its way out of
-    /// every violation with flight time. It only has to exceed the price of a violated row, which is a few seconds of
-    /// step length per scaled unit.
+    /// The penalty is far below that of the papers, which makes early, badly linearised subproblems avoid every
+    /// violation at any cost in flight time. It only needs to exceed the multipliers of the rows, a few seconds of step
+    /// length per scaled unit.
     pub fn fleet(settings: &PlannerSettings) -> Self {
-        let of_the_papers = Self::new(settings);
+        let paper = Self::new(settings);
         let trust_region = State::new(100.0, 100.0, 25.0, 5.0, 0.2, 0.05);
         Self {
             transcription: Transcription::Shooting,
             margin_m: settings.margin_m.unwrap_or(0.5),
             penalty: settings.penalty.unwrap_or(20.0),
             time_bound_release: settings.time_bound_release.unwrap_or(0.03),
-            trust_region: settings.trust_region.as_ref().map_or(trust_region, |_| of_the_papers.trust_region),
+            trust_region: settings.trust_region.as_ref().map_or(trust_region, |_| paper.trust_region),
             shrink: settings.trust_region.as_ref().map_or(0.5, |region| region.shrink),
-            ..of_the_papers
+            ..paper
         }
     }
 }

@@ -1,4 +1,4 @@
-//! From the last iterates to a plan, and what the planner says of it.
+//! Converts the last iterates to a plan and determines its status.
 
 use std::time::Duration;
 
@@ -6,20 +6,20 @@ use scenarios::fixed_wing::{Control, State, Trajectory};
 use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
 
 use super::interval::Interval;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, max_dt_s, max_flight_time_s};
 use super::{dynamics, shooting};
 
-/// Violation of a linearised row, in scaled units, above which a plan is not called solved: a millimetre of position.
+/// Largest violation of a linearised row of a solved plan, in scaled units: a millimetre of position.
 const SLACK_TOLERANCE: f64 = 1e-6;
 
-/// Defect of the planner's own equations above which a plan is not called solved, m.
+/// Largest position defect of a solved plan by the planner's own transcription, m.
 const DEFECT_TOLERANCE_M: f64 = 0.1;
 
-/// Relative difference of two step lengths below which they are one: vehicles that arrive together then share their
-/// nodes, which the solver's tolerance would otherwise set apart by microseconds.
-const SAME_STEP: f64 = 1e-7;
+/// Relative difference below which step lengths are made equal: vehicles that arrive together then share their nodes,
+/// which the solver tolerance would otherwise set apart by microseconds.
+const EQUAL_DT_TOLERANCE: f64 = 1e-7;
 
-/// The plan that the last iterates make.
+/// The plan of the last iterates.
 pub fn assemble(
     scenario: &Scenario,
     planner: &str,
@@ -30,15 +30,14 @@ pub fn assemble(
     elapsed: Duration,
 ) -> Plan {
     let named = scenario.vehicles.iter().zip(trajectories);
-    let objective = trajectories.iter().map(Iterate::flight_time_s).fold(0.0, f64::max);
-    let longest_dt_s = trajectories.iter().map(|iterate| iterate.dt_s).fold(0.0, f64::max);
-    let is_longest = |iterate: &Iterate| longest_dt_s - iterate.dt_s <= SAME_STEP * longest_dt_s;
-    let dt_s = |iterate: &Iterate| if is_longest(iterate) { longest_dt_s } else { iterate.dt_s };
+    let max_dt_s = max_dt_s(trajectories);
+    let is_max = |iterate: &Iterate| max_dt_s - iterate.dt_s <= EQUAL_DT_TOLERANCE * max_dt_s;
+    let dt_s = |iterate: &Iterate| if is_max(iterate) { max_dt_s } else { iterate.dt_s };
     let distributed_s = history.iter().map(|iteration| iteration.distributed_s).sum();
     Plan {
         status,
         reason,
-        objective: Some(objective),
+        objective: Some(max_flight_time_s(trajectories)),
         history,
         timings: PlanTimings { wall_s: elapsed.as_secs_f64(), distributed_s },
         ..Plan::new(
@@ -50,8 +49,8 @@ pub fn assemble(
     }
 }
 
-/// The iterate in the form of a plan. Controls that stop running within an interval get a node of their own there, so
-/// that they run linearly from node to node.
+/// The iterate as a trajectory of a plan. The end of a control ramp within an interval becomes a node, so that controls
+/// are linear between nodes.
 fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
     let mut trajectory = Trajectory {
         vehicle: vehicle.to_string(),
@@ -75,8 +74,8 @@ fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
     trajectory
 }
 
-/// What the planner can say honestly: solved only if it has come to rest, the rows and its own equations hold, and its
-/// own constraints hold at the nodes.
+/// The status of a plan: solved only if the sequence has converged, all subproblems of the last iteration are solved,
+/// and the rows, the transcribed equations of motion and the constraints at the nodes hold.
 pub fn status(
     scenario: &Scenario,
     history: &[Iteration],
@@ -88,8 +87,8 @@ pub fn status(
     };
     let separation_m = scenario.fleet.separation_m.unwrap_or(0.0);
     let too_close = last.separation_m.is_some_and(|distance| distance < separation_m);
-    let complaint = if last.unsolved > 0 {
-        // a trajectory whose subproblem was not solved may stand still without having converged
+    let failure_reason = if last.unsolved > 0 {
+        // a trajectory whose subproblem was not solved may be unchanged without having converged
         Some(format!("{} subproblems of the last iteration were not solved", last.unsolved))
     } else if !converged {
         Some(format!("the trajectories still moved by {:.3} m after {limit} iterations", last.change_m))
@@ -102,25 +101,24 @@ pub fn status(
     } else {
         None
     };
-    (if complaint.is_none() { PlanStatus::Solved } else { PlanStatus::NotConverged }, complaint)
+    (if failure_reason.is_none() { PlanStatus::Solved } else { PlanStatus::NotConverged }, failure_reason)
 }
 
-/// Smallest horizontal distance between two vehicles at the nodes, m: node by node a sweep from west to east, so that
-/// nobody farther east than the best so far is looked at.
+/// Smallest horizontal distance between two vehicles at the nodes, m, by sweep and prune along x.
 pub fn node_separation_m(trajectories: &[&Iterate]) -> Option<f64> {
     let nodes = trajectories.iter().map(|trajectory| trajectory.states.len()).max()?;
-    let mut nearest_m = f64::INFINITY;
+    let mut min_m = f64::INFINITY;
     for node in 0..nodes {
         let present = trajectories.iter().filter(|trajectory| node < trajectory.states.len());
-        let mut eastward: Vec<[f64; 2]> = present.map(|trajectory| trajectory.position_m(node)).collect();
-        eastward.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        for (place, a) in eastward.iter().enumerate() {
-            let near = eastward[place + 1..].iter().take_while(|b| b[0] - a[0] < nearest_m);
+        let mut by_x: Vec<[f64; 2]> = present.map(|trajectory| trajectory.position_m(node)).collect();
+        by_x.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        for (index, a) in by_x.iter().enumerate() {
+            let near = by_x[index + 1..].iter().take_while(|b| b[0] - a[0] < min_m);
             let closest_m = near.map(|b| distance_m(*a, *b)).fold(f64::INFINITY, f64::min);
-            nearest_m = nearest_m.min(closest_m);
+            min_m = min_m.min(closest_m);
         }
     }
-    nearest_m.is_finite().then_some(nearest_m)
+    min_m.is_finite().then_some(min_m)
 }
 
 /// Smallest distance from a node to the surface of a cylinder, m.
@@ -157,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_rests_on_an_unsolved_subproblem_is_not_called_solved() {
+    fn a_plan_with_an_unsolved_subproblem_is_not_solved() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-1.toml");
         let scenario = scenarios::load(&path).expect("a shipped scenario");
         assert_eq!(status(&scenario, &[iteration(0)], true, 60), (PlanStatus::Solved, None));

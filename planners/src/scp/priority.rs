@@ -1,10 +1,10 @@
-//! Who gives way to whom (Xu, Wang, Cao, Sun, Long 2022, eq. 14-17).
+//! Priorities of the vehicles (Xu, Wang, Cao, Sun, Long 2022, eq. 14-17).
 //!
-//! A vehicle with a short flight has more room to dodge: it stands lower, and avoids those above it. The paper keeps a
-//! relation between pairs and swaps two of them when their flight times have changed sides by more than a threshold.
-//! Pair by pair that could close a circle (three vehicles, neighbours within the threshold of each other, the outer two
-//! not). Here the relation is one ranking of all vehicles, and only neighbours in it change places, until no two
-//! neighbours are left that should: a strict total order at all times, so that the relation can never close a circle.
+//! A vehicle with a short flight has more freedom to deviate: it ranks lower and avoids the vehicles above it. The
+//! paper keeps a relation between pairs, and swaps a pair when the order of its flight times has changed by more than a
+//! threshold. Pairwise swaps can create a cycle (three vehicles, where only the first and the last differ by more than
+//! the threshold). Here the relation is a ranking of all vehicles in which only neighbours are swapped, until no pair
+//! of neighbours is left to swap. It is a strict total order at all times, so a cycle is impossible.
 
 use rand::RngExt;
 
@@ -13,23 +13,25 @@ use rand::RngExt;
 pub struct Priority {
     /// Vehicles, the highest first.
     order: Vec<usize>,
-    /// Place of every vehicle in it.
+    /// Rank of every vehicle, 0 for the highest.
     rank: Vec<usize>,
 }
 
 impl Priority {
-    /// Longer flights stand higher; equal ones are ordered at random by `seed`.
+    /// Ranks longer flights higher; ties are broken at random by `seed`.
     pub fn new(flight_times_s: &[f64], seed: u64) -> Self {
         let mut order: Vec<usize> = (0..flight_times_s.len()).collect();
         let mut rng = scenarios::stream(seed, "scp/priority");
-        let lots: Vec<f64> = order.iter().map(|_| rng.random()).collect();
-        order.sort_by(|&a, &b| flight_times_s[b].total_cmp(&flight_times_s[a]).then(lots[a].total_cmp(&lots[b])));
+        let tie_breaks: Vec<f64> = order.iter().map(|_| rng.random()).collect();
+        order.sort_by(|&a, &b| {
+            flight_times_s[b].total_cmp(&flight_times_s[a]).then(tie_breaks[a].total_cmp(&tie_breaks[b]))
+        });
         let mut priority = Self { rank: vec![0; order.len()], order };
-        priority.count_places();
+        priority.update_ranks();
         priority
     }
 
-    /// Does i avoid j, that is, does j stand above i?
+    /// Does i avoid j, that is, does j rank higher?
     pub fn avoids(&self, i: usize, j: usize) -> bool {
         self.rank[j] < self.rank[i]
     }
@@ -39,26 +41,26 @@ impl Priority {
         &self.order
     }
 
-    /// Takes note of new flight times: two neighbours change places where the upper one's flight is now shorter by more
-    /// than `threshold_s`.
+    /// Updates the ranking: neighbours are swapped where the flight of the higher one is shorter by more than
+    /// `threshold_s`.
     pub fn update(&mut self, flight_times_s: &[f64], threshold_s: f64) {
-        // every change moves a longer flight up: there are finitely many
+        // every swap moves a longer flight up, so their number is finite
         for end in 1..self.order.len() {
-            for place in (1..=end).rev() {
-                let [upper, lower] = [self.order[place - 1], self.order[place]];
+            for rank in (1..=end).rev() {
+                let [upper, lower] = [self.order[rank - 1], self.order[rank]];
                 if flight_times_s[lower] - flight_times_s[upper] > threshold_s {
-                    self.order.swap(place - 1, place);
+                    self.order.swap(rank - 1, rank);
                 } else {
                     break;
                 }
             }
         }
-        self.count_places();
+        self.update_ranks();
     }
 
-    fn count_places(&mut self) {
-        for (place, &vehicle) in self.order.iter().enumerate() {
-            self.rank[vehicle] = place;
+    fn update_ranks(&mut self) {
+        for (rank, &vehicle) in self.order.iter().enumerate() {
+            self.rank[vehicle] = rank;
         }
     }
 }
@@ -68,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn longer_flights_stand_higher() {
+    fn longer_flights_rank_higher() {
         let priority = Priority::new(&[150.0, 200.0, 180.0], 0);
         assert_eq!(priority.order(), [1, 2, 0]);
         assert!(priority.avoids(0, 1) && priority.avoids(0, 2) && priority.avoids(2, 1));
@@ -95,8 +97,8 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_within_the_threshold_does_not_close_a_circle() {
-        // pair by pair the first and the last would swap, and nobody else: a circle
+    fn a_chain_within_the_threshold_does_not_create_a_cycle() {
+        // pairwise, only the first and the last would swap: a cycle
         let mut priority = Priority::new(&[12.0, 11.0, 10.0], 0);
         priority.update(&[10.0, 10.9, 11.8], 1.0);
         assert_eq!(priority.order(), [0, 1, 2]);

@@ -1,30 +1,31 @@
-//! Multiple shooting: the flow Φ of the equations of motion under controls that run linearly from node to node.
+//! Multiple shooting: the flow Φ of the equations of motion under piecewise linear controls.
 //!
 //! ```text
 //! s_{k+1} - Φ(s_k, u_k, u_{k+1}, dt) = 0
 //! ```
 //!
-//! Φ by the classical Runge-Kutta method of order 4 in [`SUBSTEPS`] equal steps, its derivatives by differentiating the
-//! method itself, so that they are exact for the Φ that is used.
+//! Φ is computed by the classical Runge-Kutta method of order 4 in [`SUBSTEPS`] equal steps. Its derivatives are those
+//! of the method itself, so that they are exact for this Φ.
 
 use nalgebra::SMatrix;
 
 use super::dynamics::{self, State, StateJacobian};
 use super::interval::{Defect, Interval};
 
-/// Runge-Kutta steps per interval. Four would do for the position after one interval of 5 s (a millimetre), but the
-/// flight-path angle's error adds up: flown open loop, such a plan ends metres away after 40 of them.
+/// Runge-Kutta steps per interval. Four are enough for the position after one interval of 5 s (a millimetre), but the
+/// error of the flight-path angle accumulates: integrated open loop over 40 intervals, such a plan ends metres from its
+/// goal.
 pub const SUBSTEPS: usize = 8;
 
-/// Parameters of Φ in the order V_k, χ_k, γ_k, u_k (3), u_{k+1} (3), dt: everything but the position, to which Φ adds.
+/// Number of parameters of Φ: V_k, χ_k, γ_k, u_k (3), u_{k+1} (3), dt. The position is left out: Φ is affine in it.
 const PARAMETERS: usize = 10;
 
 /// Column of dt.
-const DT: usize = 9;
+const DT_COLUMN: usize = 9;
 
 type Sensitivity = SMatrix<f64, 6, PARAMETERS>;
 
-/// States at the ends of the Runge-Kutta steps, the interval's beginning first.
+/// States at the beginning of the interval and at the end of each Runge-Kutta step.
 pub type Knots = [State; SUBSTEPS + 1];
 
 /// The defect of one interval, in the units of the state.
@@ -41,11 +42,11 @@ pub fn linearise(interval: &Interval) -> Defect {
         value: interval.states[1] - end,
         by_states: [by_start, StateJacobian::identity()],
         by_controls: [-sensitivity.fixed_columns::<3>(3), -sensitivity.fixed_columns::<3>(6)],
-        by_dt: -sensitivity.column(DT),
+        by_dt: -sensitivity.column(DT_COLUMN),
     }
 }
 
-/// Φ, with the states on the way to it.
+/// Φ with all intermediate states.
 pub fn flow(interval: &Interval) -> Knots {
     let h = interval.dt_s / SUBSTEPS as f64;
     let mut knots = [interval.states[0]; SUBSTEPS + 1];
@@ -62,12 +63,12 @@ pub fn flow(interval: &Interval) -> Knots {
     knots
 }
 
-/// The state where the control of an interval stops running; a whole number of steps from its beginning.
+/// The state at the end of the control ramp, a whole number of steps from the beginning of the interval.
 pub fn ramp_end(interval: &Interval) -> State {
     flow(interval)[(interval.ramp * SUBSTEPS as f64).round() as usize]
 }
 
-/// Φ and its derivatives by the parameters.
+/// Φ and its derivatives with respect to the parameters.
 fn flow_with_sensitivity(interval: &Interval) -> (State, Sensitivity) {
     let h = interval.dt_s / SUBSTEPS as f64;
     let mut s = interval.states[0];
@@ -75,7 +76,7 @@ fn flow_with_sensitivity(interval: &Interval) -> (State, Sensitivity) {
     ds.fixed_view_mut::<3, 3>(3, 0).fill_with_identity();
     for step in 0..SUBSTEPS {
         let at = |within: f64| (step as f64 + within) / SUBSTEPS as f64;
-        let slope = |s: &State, ds: &Sensitivity, share: f64| slope(interval, s, ds, share);
+        let slope = |s: &State, ds: &Sensitivity, fraction: f64| slope(interval, s, ds, fraction);
         let (k_1, dk_1) = slope(&s, &ds, at(0.0));
         let (k_2, dk_2) = slope(&(s + k_1 * (0.5 * h)), &advance(&ds, &k_1, &dk_1, 0.5 * h, interval), at(0.5));
         let (k_3, dk_3) = slope(&(s + k_2 * (0.5 * h)), &advance(&ds, &k_2, &dk_2, 0.5 * h, interval), at(0.5));
@@ -87,20 +88,20 @@ fn flow_with_sensitivity(interval: &Interval) -> (State, Sensitivity) {
     (s, ds)
 }
 
-/// Derivative of `s + h k`, h being a fixed share of dt.
+/// Derivative of `s + h k`, where h is a fixed fraction of dt.
 fn advance(ds: &Sensitivity, k: &State, dk: &Sensitivity, h: f64, interval: &Interval) -> Sensitivity {
     let mut sum = ds + dk * h;
-    let mut by_dt = sum.column_mut(DT);
+    let mut by_dt = sum.column_mut(DT_COLUMN);
     by_dt += k * (h / interval.dt_s);
     sum
 }
 
-/// k = f(s, u(share)) and its derivative, given that of s. Nothing depends on the position: its three columns of ∂f/∂s
-/// are zero.
-fn slope(interval: &Interval, s: &State, ds: &Sensitivity, share: f64) -> (State, Sensitivity) {
-    let (k, df_ds, df_du) = dynamics::linearise(s, &interval.control_at(share));
+/// k = f(s, u(fraction)) and its derivative, given that of s. Nothing depends on the position: its three columns of
+/// ∂f/∂s are zero.
+fn slope(interval: &Interval, s: &State, ds: &Sensitivity, fraction: f64) -> (State, Sensitivity) {
+    let (k, df_ds, df_du) = dynamics::linearise(s, &interval.control_at(fraction));
     let mut dk = df_ds.fixed_columns::<3>(3) * ds.fixed_rows::<3>(3);
-    let progress = (share / interval.ramp).min(1.0);
+    let progress = (fraction / interval.ramp).min(1.0);
     for i in 0..3 {
         // ∂f/∂u is diagonal: each load factor drives one of V, χ, γ
         let by_u = df_du[(3 + i, i)];

@@ -1,4 +1,4 @@
-//! One vehicle's subproblem P2 as an elastic program, in scaled deviations from the last trajectory:
+//! The subproblem P2 of one vehicle as an elastic program, in scaled deviations from the last trajectory:
 //! w_k = ((s_k, u_k) - (sbar_k, ubar_k)) / units, θ = dt - dtbar.
 
 use scenarios::Range;
@@ -7,19 +7,19 @@ use scenarios::fixed_wing::Limits;
 use super::dynamics::{Control, State};
 use super::iterate::Iterate;
 use super::options::Options;
-use super::scaling::{NODE, node_units, scaled_rows, scaled_state};
+use super::scaling::{NODE_UNITS, scaled_rows, scaled_state};
 use super::transcription;
 use crate::convex::{DynamicsConstraint, FixedVariable, HalfspaceConstraint, Program, STAGE_LEN};
 
-/// What one vehicle has to know in one iteration, besides its last trajectory.
+/// The data of one subproblem besides the last trajectory.
 pub struct Context<'a> {
     /// Planner options.
     pub options: &'a Options,
-    /// The vehicle's boundary states.
+    /// Initial and final state.
     pub boundary: [State; 2],
     /// Bounds of (s, u), one per node, SI.
     pub bounds: &'a [[Range; STAGE_LEN]],
-    /// Half-widths of the trust region now, in the units of the state.
+    /// Half-widths of the trust region, in the units of the state.
     pub trust_region: State,
     /// Lower bound of dt, s (eq. 10).
     pub dt_bound_s: f64,
@@ -36,16 +36,16 @@ pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE_LEN] 
     [map.x_m, map.y_m, altitude, limits.speed_mps, free, γ, limits.n_x, limits.n_y, limits.n_z]
 }
 
-/// Assembles the subproblem about `last` with the given avoidance rows (in any order).
-pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<HalfspaceConstraint>) -> Program {
-    planes.sort_by_key(|plane| plane.stage);
+/// Assembles the subproblem about `last` with the given avoidance rows, in any order.
+pub fn assemble(context: &Context, last: &Iterate, mut halfspaces: Vec<HalfspaceConstraint>) -> Program {
+    halfspaces.sort_by_key(|halfspace| halfspace.stage);
     let mut program = Program {
         theta_cost: 1.0,
         offset: last.dt_s,
         penalty: context.options.penalty,
-        dynamics: dynamics(context, last),
-        fixed_variables: fixed_variables(context, last),
-        halfspaces: planes,
+        dynamics: dynamics_constraints(context, last),
+        fixed_variables: boundary_conditions(context, last),
+        halfspaces,
         box_lower: Vec::new(),
         box_upper: Vec::new(),
         soft_lower: Vec::new(),
@@ -58,11 +58,12 @@ pub fn assemble(context: &Context, last: &Iterate, mut planes: Vec<HalfspaceCons
     program
 }
 
-/// The trajectory that a solution of the subproblem stands for.
+/// The trajectory of a solution of the subproblem.
 pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
     let (nodes, _) = z.as_chunks::<STAGE_LEN>();
-    let states = last.states.iter().zip(nodes).map(|(s, w)| State::from_fn(|i, _| s[i] + w[i] * NODE[i]));
-    let controls = last.controls.iter().zip(nodes).map(|(u, w)| Control::from_fn(|i, _| u[i] + w[6 + i] * NODE[6 + i]));
+    let states = last.states.iter().zip(nodes).map(|(s, w)| State::from_fn(|i, _| s[i] + w[i] * NODE_UNITS[i]));
+    let controls =
+        last.controls.iter().zip(nodes).map(|(u, w)| Control::from_fn(|i, _| u[i] + w[6 + i] * NODE_UNITS[6 + i]));
     Iterate {
         states: states.collect(),
         controls: controls.collect(),
@@ -71,8 +72,8 @@ pub fn updated(last: &Iterate, z: &[f64]) -> Iterate {
     }
 }
 
-/// Dynamics rows, eq. 5 or the shooting conditions.
-fn dynamics(context: &Context, last: &Iterate) -> Vec<DynamicsConstraint> {
+/// Dynamics constraints: eq. 5, or multiple shooting.
+fn dynamics_constraints(context: &Context, last: &Iterate) -> Vec<DynamicsConstraint> {
     let linearised =
         (0..last.intervals()).map(|k| transcription::linearise(context.options.transcription, &last.interval(k)));
     linearised
@@ -86,16 +87,16 @@ fn dynamics(context: &Context, last: &Iterate) -> Vec<DynamicsConstraint> {
 }
 
 /// `s[0] = s_0` and `s[K] = s_f`, eq. 6 and 7.
-fn fixed_variables(context: &Context, last: &Iterate) -> Vec<FixedVariable> {
+fn boundary_conditions(context: &Context, last: &Iterate) -> Vec<FixedVariable> {
     let ends = [(0, context.boundary[0]), (last.intervals(), context.boundary[1])];
-    let fixed_variables = ends.into_iter().flat_map(|(k, state)| {
+    let conditions = ends.into_iter().flat_map(|(k, state)| {
         let value = scaled_state(&(state - last.states[k]));
         (0..6).map(move |i| FixedVariable { index: STAGE_LEN * k + i, value: value[i] })
     });
-    fixed_variables.collect()
+    conditions.collect()
 }
 
-/// Trust region of the state; a box that cannot bind for the control; bounds eq. 8 and 9.
+/// Trust region of the state, hard bounds of the control that cannot bind, and the bounds of eq. 8 and 9.
 fn append_node_bounds(
     trust_region: State,
     bounds: &[Range; STAGE_LEN],
@@ -103,19 +104,20 @@ fn append_node_bounds(
     control: &Control,
     program: &mut Program,
 ) {
-    let units = node_units();
     for i in 0..STAGE_LEN {
         let (value, bounds) = (if i < 6 { state[i] } else { control[i - 6] }, bounds[i]);
         let half = if i < 6 { trust_region[i] } else { 4.0 * bounds.width() };
-        program.box_lower.push(-half / units[i]);
-        program.box_upper.push(half / units[i]);
-        // an elastic bound beyond the box never binds: bring it near, to keep all numbers of one size
-        program.soft_lower.push((bounds.min - value).max(-2.0 * half) / units[i]);
-        program.soft_upper.push((bounds.max - value).min(2.0 * half) / units[i]);
+        program.box_lower.push(-half / NODE_UNITS[i]);
+        program.box_upper.push(half / NODE_UNITS[i]);
+        // an elastic bound outside the trust region never binds: it is moved closer, to keep all numbers of similar
+        // size
+        program.soft_lower.push((bounds.min - value).max(-2.0 * half) / NODE_UNITS[i]);
+        program.soft_upper.push((bounds.max - value).min(2.0 * half) / NODE_UNITS[i]);
     }
 }
 
-/// dt near what it was, and eq. 10 from below. The elastic upper bound lies outside the box: it never binds.
+/// Trust region of dt, and eq. 10 as its elastic lower bound. The elastic upper bound lies outside the trust region and
+/// never binds.
 fn append_dt_bounds(context: &Context, last: &Iterate, program: &mut Program) {
     let half = context.dt_change * last.dt_s;
     program.box_lower.push(-half);

@@ -1,15 +1,15 @@
-//! The common lower bound of all step lengths, by which a fleet arrives together (Wang, Xu, Long 2020, eq. 10).
+//! The common lower bound of all step lengths, which makes a fleet arrive together (Wang, Xu, Long 2020, eq. 10).
 
-use super::iterate::Iterate;
+use super::iterate::{Iterate, max_dt_s, max_flight_time_s};
 
-/// Relative distance at which a step length counts as sitting on the bound.
-const TOUCHING: f64 = 1e-6;
+/// Relative distance within which a step length is at the bound.
+const AT_BOUND_TOLERANCE: f64 = 1e-6;
 
 /// dt_lb of the next iteration.
 ///
-/// As printed, dt_i >= max_j dtbar_j can never fall again, so one wild early iterate holds up the fleet for good. With
-/// a release share r > 0 (ours) the bound falls by r whenever the whole fleet sits on it. If somebody then stays above
-/// the fallen bound, that vehicle cannot fly faster, and r is halved.
+/// As printed, the bound dt_i >= max_j dtbar_j can never fall, so one bad early iterate slows down the fleet for good.
+/// With a release fraction r > 0, which is not in the paper, the bound falls by r whenever all step lengths are at the
+/// bound. If a step length then stays above the lowered bound, that vehicle cannot fly faster, and r is halved.
 #[derive(Clone, Debug)]
 pub struct TimeBound {
     release: f64,
@@ -18,7 +18,7 @@ pub struct TimeBound {
 }
 
 impl TimeBound {
-    /// No bound before the first iteration. `release` is r, in [0, 1).
+    /// The bound before the first iteration, 0. `release` is r, in [0, 1).
     pub fn new(release: f64) -> Self {
         Self { release, bound_s: 0.0, released: false }
     }
@@ -28,46 +28,48 @@ impl TimeBound {
         self.bound_s
     }
 
-    /// No more releases: from now on the rule as printed, so that the sequence can come to rest.
+    /// Ends the releases: the rule as printed applies from now on, so that the sequence can converge.
     pub fn freeze(&mut self) {
         self.release = 0.0;
     }
 
-    /// Takes note of an iteration's step lengths.
+    /// Updates the bound with the step lengths of an iteration.
     pub fn update(&mut self, trajectories: &[Iterate]) {
-        let longest_s = trajectories.iter().map(|trajectory| trajectory.dt_s).fold(0.0, f64::max);
-        let touching = longest_s <= self.bound_s * (1.0 + TOUCHING);
-        if self.released && !touching {
+        let max_s = max_dt_s(trajectories);
+        let at_bound = max_s <= self.bound_s * (1.0 + AT_BOUND_TOLERANCE);
+        if self.released && !at_bound {
             self.release *= 0.5;
         }
-        self.released = touching && self.release > 0.0;
-        self.bound_s = if self.released { self.bound_s * (1.0 - self.release) } else { longest_s };
+        self.released = at_bound && self.release > 0.0;
+        self.bound_s = if self.released { self.bound_s * (1.0 - self.release) } else { max_s };
     }
 }
 
-/// Change of a step length between two iterations below which it counts as calm, s: ours, the paper's is lost.
-const CALM_S: f64 = 0.05;
+/// Largest change of a damped step length between two iterations, s. The value of the paper is not given; this one is
+/// ours.
+const MAX_DAMPED_CHANGE_S: f64 = 0.05;
 
-/// Spread of the flight times below which a fleet arrives together (Xu et al. 2022, eq. 19), s: ours, the paper's is
-/// lost.
+/// Largest spread of the flight times of a fleet that arrives together (Xu et al. 2022, eq. 19), s. The value of the
+/// paper is not given; this one is ours.
 pub const FLIGHT_TIME_SPREAD_S: f64 = 0.1;
 
 /// Difference between the longest and the shortest flight time, s.
 pub fn flight_time_spread_s(trajectories: &[Iterate]) -> f64 {
-    let times_s = || trajectories.iter().map(Iterate::flight_time_s);
-    times_s().fold(0.0, f64::max) - times_s().fold(f64::INFINITY, f64::min)
+    let times_s = trajectories.iter().map(Iterate::flight_time_s);
+    max_flight_time_s(trajectories) - times_s.fold(f64::INFINITY, f64::min)
 }
 
-/// dt_lb by the rule of Xu et al. 2022, eq. 18: the longest step length among those that have hardly changed since the
-/// last iteration, so that no wild early iterate holds up the fleet. Where all have changed, the last bound stays.
+/// dt_lb by the rule of Xu et al. 2022, eq. 18: the longest of the damped step lengths, those that have hardly changed
+/// since the last iteration, so that no bad early iterate slows down the fleet. Without a damped step length the bound
+/// is unchanged.
 #[derive(Clone, Debug)]
-pub struct CalmTimeBound {
+pub struct DampedTimeBound {
     last_s: Vec<f64>,
     bound_s: f64,
 }
 
-impl CalmTimeBound {
-    /// No bound yet. `trajectories`: those that the first iteration starts from.
+impl DampedTimeBound {
+    /// The bound before the first iteration, 0. `trajectories` are the initial ones.
     pub fn new(trajectories: &[Iterate]) -> Self {
         Self { last_s: trajectories.iter().map(|trajectory| trajectory.dt_s).collect(), bound_s: 0.0 }
     }
@@ -77,12 +79,12 @@ impl CalmTimeBound {
         self.bound_s
     }
 
-    /// Takes note of an iteration's step lengths.
+    /// Updates the bound with the step lengths of an iteration.
     pub fn update(&mut self, trajectories: &[Iterate]) {
         let now_s: Vec<f64> = trajectories.iter().map(|trajectory| trajectory.dt_s).collect();
-        let calm = now_s.iter().zip(&self.last_s).filter(|(now, last)| (*now - *last).abs() <= CALM_S);
-        if let Some(longest_s) = calm.map(|(now, _)| *now).reduce(f64::max) {
-            self.bound_s = longest_s;
+        let damped = now_s.iter().zip(&self.last_s).filter(|(now, last)| (*now - *last).abs() <= MAX_DAMPED_CHANGE_S);
+        if let Some(max_s) = damped.map(|(now, _)| *now).reduce(f64::max) {
+            self.bound_s = max_s;
         }
         self.last_s = now_s;
     }
@@ -97,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn as_printed_the_bound_never_falls() {
+    fn bound_as_printed_never_falls() {
         let mut bound = TimeBound::new(0.0);
         for (dt_s, expected) in [([5.0, 6.0], 6.0), ([6.0, 6.0], 6.0), ([6.0, 6.5], 6.5), ([6.5, 6.5], 6.5)] {
             bound.update(&fleet(&dt_s));
@@ -106,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn released_bound_falls_until_somebody_stays_above_it() {
+    fn released_bound_falls_until_a_step_length_stays_above_it() {
         let mut bound = TimeBound::new(0.1);
         bound.update(&fleet(&[5.0, 6.0]));
         assert_eq!(bound.bound_s(), 6.0);
@@ -119,8 +121,8 @@ mod tests {
     }
 
     #[test]
-    fn wild_step_lengths_do_not_count() {
-        let mut bound = CalmTimeBound::new(&fleet(&[5.0, 5.0]));
+    fn undamped_step_lengths_are_ignored() {
+        let mut bound = DampedTimeBound::new(&fleet(&[5.0, 5.0]));
         bound.update(&fleet(&[5.01, 8.0]));
         assert_eq!(bound.bound_s(), 5.01);
         bound.update(&fleet(&[5.5, 6.0]));

@@ -216,8 +216,8 @@ fn agreement(programs: &[Program], backend: Backend) -> f64 {
     f64::from(agreeing as u32) / f64::from(all as u32)
 }
 
-/// Forming A^T (S^-1 Λ) A costs the reduced systems half of the digits: a few directions differ in load factors with almost
-/// no effect on the objective, where those of the block factorisation stay accurate (see above).
+/// Forming A^T (S^-1 Λ) A costs the reduced systems half of the digits: a few directions differ in load factors with
+/// almost no effect on the objective, where those of the block factorisation stay accurate (see above).
 #[test]
 fn directions_of_the_reference_methods_agree_with_the_block_factorisation() {
     for (scenario, intervals) in [("scenarios/fixed-wing/rendezvous-7.toml", 4), ("tests/scenarios/pair.toml", 8)] {

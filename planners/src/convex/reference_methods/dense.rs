@@ -1,7 +1,7 @@
 //! Methods II and III of the paper: the reduced matrix and the KKT matrix as dense matrices.
 //!
-//! The paper inverts them (2.67 n^3). Here they are factored (n^3/3 and 2 n^3/3): the explicit inverse of the reduced matrix
-//! loses so much accuracy near the solution that most subproblems end short of a tolerance of 1e-8.
+//! The paper inverts them (2.67 n^3). Here they are factored (n^3/3 and 2 n^3/3): the explicit inverse of the reduced
+//! matrix loses so much accuracy near the solution that most subproblems end short of a tolerance of 1e-8.
 
 use faer::linalg::solvers::{Ldlt, PartialPivLu, Solve};
 use faer::{ColMut, Mat, Side};

@@ -1,5 +1,5 @@
-//! The paper's P4 in inequality form: `min g^T X  s.t.  A X <= b` with X = (z, α, β), eq. 21 and 22 (with the penalty μ that
-//! eq. 21 as printed omits).
+//! The paper's P4 in inequality form: `min g^T X  s.t.  A X <= b` with X = (z, α, β), eq. 21 and 22 (with the penalty μ
+//! that eq. 21 as printed omits).
 //!
 //! ```text
 //!         [  I    0   0 ]        [  hi ]     trust region, upper bounds
@@ -27,8 +27,8 @@ pub struct InequalityForm {
     values: Vec<f64>,
 }
 
-/// Coefficients of a dynamics constraint that may be nonzero, by row: left, right, θ. All intervals share the pattern, so that
-/// an accidental zero does not change the pattern of A.
+/// Coefficients of a dynamics constraint that may be nonzero, by row: left, right, θ. All intervals share the pattern,
+/// so that an accidental zero does not change the pattern of A.
 type DynamicsPattern = [[bool; 2 * STAGE_LEN + 1]; DYNAMICS_ROWS];
 
 impl InequalityForm {

@@ -19,8 +19,9 @@ use super::inequality_form::InequalityForm;
 use super::kkt_vectors::{Direction, Residuals, RowIterate};
 use super::sparse_ldl::SparseLdl;
 
-/// Divided by the mean product and added to every s/λ of the reduced systems, it bounds the weights: rows that hold exactly
-/// then do not dominate the soft directions, whose curvature falls with the products. Refinement removes its effect.
+/// Divided by the mean product and added to every s/λ of the reduced systems, it bounds the weights: rows that hold
+/// exactly then do not dominate the soft directions, whose curvature falls with the products. Refinement removes its
+/// effect.
 const REGULARISATION: f64 = 1e-13;
 
 /// Bounds of the regularisation that is added.

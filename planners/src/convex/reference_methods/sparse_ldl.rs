@@ -34,8 +34,8 @@ struct Analysis {
     form: InequalityForm,
     /// Lower triangle of the matrix.
     lower: SymbolicSparseColMat<usize>,
-    /// Index in the lower triangle of every product of two entries of a row of A, row by row, the second entry at or before
-    /// the first.
+    /// Index in the lower triangle of every product of two entries of a row of A, row by row, the second entry at or
+    /// before the first.
     targets: Vec<u32>,
     cholesky: SymbolicCholesky<usize>,
 }

@@ -1,10 +1,10 @@
-//! Shortest path of bounded curvature from one pose to another by two turns and a straight line between them (Dubins,
-//! American Journal of Mathematics 79, 1957; the words that end in a third turn are not needed at our distances).
+//! Shortest path of bounded curvature from one pose to another by a turn, a straight line and a turn (Dubins, American
+//! Journal of Mathematics 79, 1957). The words of three turns are shortest only between close poses and are left out.
 
 use std::f64::consts::TAU;
 
-/// Turns shorter than this before a full circle are none at all: rounding, rad.
-const NO_TURN: f64 = 1e-6;
+/// Turns closer than this to a full circle are rounding errors of no turn, rad.
+const FULL_TURN_TOLERANCE_RAD: f64 = 1e-6;
 
 /// Position, m, and heading, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Pose {
 
 /// Turn, straight line, turn.
 #[derive(Clone, Copy, Debug)]
-pub struct Path {
+pub struct DubinsPath {
     start: Pose,
     radius_m: f64,
     /// First and last turn, positive to the left, rad.
@@ -25,7 +25,7 @@ pub struct Path {
     straight_m: f64,
 }
 
-impl Path {
+impl DubinsPath {
     /// The shortest of the four words LSL, LSR, RSL, RSR from `start` to `goal` with turns of `radius_m`.
     pub fn shortest(start: Pose, goal: Pose, radius_m: f64) -> Self {
         let sides = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
@@ -34,19 +34,19 @@ impl Path {
         shortest.expect("two turns to the same side always reach the goal")
     }
 
-    /// The path that turns first to `sides[0]`, last to `sides[1]`: 1 left, -1 right. `None` if the circles are too
-    /// near each other to change sides between them.
+    /// The path with turns to `sides`, 1 for left and -1 for right. `None` if the circles are too close to each other
+    /// for a change of side.
     fn by_sides(start: Pose, goal: Pose, radius_m: f64, sides: [f64; 2]) -> Option<Self> {
         let [from, to] = [center(&start, sides[0] * radius_m), center(&goal, sides[1] * radius_m)];
         let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
         let distance_m = dx.hypot(dy);
-        // the line keeps its distance from both centres: by how much it leans against the line between them
-        let leaning = (sides[1] - sides[0]) * radius_m;
-        if leaning.abs() > distance_m {
+        // the straight line is tangent to both circles: its offset across the line between the centres
+        let offset_m = (sides[1] - sides[0]) * radius_m;
+        if offset_m.abs() > distance_m {
             return None;
         }
-        let straight_m = (distance_m * distance_m - leaning * leaning).sqrt();
-        let line_rad = if distance_m > 0.0 { dy.atan2(dx) - leaning.atan2(straight_m) } else { start.heading_rad };
+        let straight_m = (distance_m * distance_m - offset_m * offset_m).sqrt();
+        let line_rad = if distance_m > 0.0 { dy.atan2(dx) - offset_m.atan2(straight_m) } else { start.heading_rad };
         let turns_rad = [turn(start.heading_rad, line_rad, sides[0]), turn(line_rad, goal.heading_rad, sides[1])];
         Some(Self { start, radius_m, turns_rad, straight_m })
     }
@@ -56,7 +56,7 @@ impl Path {
         self.straight_m + self.radius_m * (self.turns_rad[0].abs() + self.turns_rad[1].abs())
     }
 
-    /// The pose after `along_m`, at most the length.
+    /// The pose at distance `along_m`, at most the length.
     pub fn at(&self, along_m: f64) -> Pose {
         let [first, last] = self.turns_rad;
         let first_m = self.radius_m * first.abs();
@@ -64,8 +64,8 @@ impl Path {
         let straight_m = (along_m - first_m).clamp(0.0, self.straight_m);
         let (sin, cos) = turned.heading_rad.sin_cos();
         let [x, y] = turned.position_m;
-        let flown = Pose { position_m: [x + straight_m * cos, y + straight_m * sin], ..turned };
-        turned_last(flown, self.radius_m * last.signum(), along_m - first_m - self.straight_m)
+        let straight = Pose { position_m: [x + straight_m * cos, y + straight_m * sin], ..turned };
+        turned_last(straight, self.radius_m * last.signum(), along_m - first_m - self.straight_m)
     }
 }
 
@@ -86,10 +86,10 @@ fn turned(pose: Pose, signed_radius_m: f64, along_m: f64) -> Pose {
     Pose { position_m: [x + signed_radius_m * sin, y - signed_radius_m * cos], heading_rad }
 }
 
-/// Turn from one heading to another to the given side, in (-2 π, 2 π).
+/// Turn from one heading to another to the given side, rad, in (-2π, 2π).
 fn turn(from_rad: f64, to_rad: f64, side: f64) -> f64 {
     let angle = (side * (to_rad - from_rad)).rem_euclid(TAU);
-    if angle > TAU - NO_TURN { 0.0 } else { side * angle }
+    if angle > TAU - FULL_TURN_TOLERANCE_RAD { 0.0 } else { side * angle }
 }
 
 #[cfg(test)]
@@ -101,10 +101,10 @@ mod tests {
     }
 
     #[test]
-    fn paths_end_at_their_goals_and_never_turn_sharper() {
+    fn paths_end_at_their_goals() {
         let start = pose(100.0, -50.0, 30.0);
         for goal in [pose(4000.0, 3000.0, 90.0), pose(4000.0, -3000.0, -100.0), pose(-3000.0, 10.0, 200.0)] {
-            let path = Path::shortest(start, goal, 700.0);
+            let path = DubinsPath::shortest(start, goal, 700.0);
             let end = path.at(path.length_m());
             let off_m = (end.position_m[0] - goal.position_m[0]).hypot(end.position_m[1] - goal.position_m[1]);
             assert!(off_m < 1e-6, "{goal:?} missed by {off_m} m");
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn straight_ahead_is_straight() {
-        let path = Path::shortest(pose(0.0, 0.0, 45.0), pose(3000.0, 3000.0, 45.0), 700.0);
+        let path = DubinsPath::shortest(pose(0.0, 0.0, 45.0), pose(3000.0, 3000.0, 45.0), 700.0);
         assert!((path.length_m() - 3000.0 * 2_f64.sqrt()).abs() < 1e-3);
     }
 }

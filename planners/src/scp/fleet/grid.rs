@@ -1,33 +1,35 @@
-//! Who is near whom, without looking at all pairs.
+//! Broad phase of the conflict detection: pairs of nearby discs by a uniform grid.
 
 use std::collections::HashMap;
 
-/// A disc that a vehicle does not leave during a slab of time.
+use nalgebra::Vector2;
+
+/// A disc that contains the motion of a vehicle during a time slice.
 #[derive(Clone, Copy, Debug)]
 pub struct Disc {
     /// Centre, m.
-    pub center_m: [f64; 2],
+    pub center_m: Vector2<f64>,
     /// Radius, m.
     pub radius_m: f64,
 }
 
 impl Disc {
-    /// Distance between two discs, m; negative where they overlap.
+    /// Distance between two discs, m; negative if they overlap.
     pub fn gap_m(&self, other: &Self) -> f64 {
-        let [dx, dy] = [0, 1].map(|axis| self.center_m[axis] - other.center_m[axis]);
-        dx.hypot(dy) - self.radius_m - other.radius_m
+        let offset_m = self.center_m - other.center_m;
+        offset_m.x.hypot(offset_m.y) - self.radius_m - other.radius_m
     }
 }
 
-/// All pairs (i < j) whose discs are less than `reach_m` apart, in ascending order of i, then of j. A vehicle without a
-/// disc is not there.
+/// All pairs (i < j) of discs less than `reach_m` apart, in ascending order of i, then of j. Vehicles that have arrived
+/// have no disc.
 ///
-/// The cells of the grid are as large as the farthest distance at which two discs can be near, so that the neighbours of
-/// a vehicle stand in nine cells: the cost grows with the number of near pairs, not with that of all pairs.
+/// A cell is as wide as the largest distance between the centres of two discs that are near each other, so all
+/// neighbours of a disc lie in nine cells: the cost grows with the number of near pairs, not with that of all pairs.
 pub fn near_pairs(discs: &[Option<Disc>], reach_m: f64) -> Vec<[usize; 2]> {
-    let largest_m = discs.iter().flatten().map(|disc| disc.radius_m).fold(0.0, f64::max);
-    let cell_m = reach_m + 2.0 * largest_m;
-    let cell = |disc: &Disc| disc.center_m.map(|center| (center / cell_m).floor() as i64);
+    let max_radius_m = discs.iter().flatten().map(|disc| disc.radius_m).fold(0.0, f64::max);
+    let cell_m = reach_m + 2.0 * max_radius_m;
+    let cell = |disc: &Disc| <[f64; 2]>::from(disc.center_m).map(|center| (center / cell_m).floor() as i64);
     let mut cells: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for (i, disc) in discs.iter().enumerate() {
         if let Some(disc) = disc {
@@ -56,13 +58,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn finds_what_looking_at_all_pairs_finds() {
+    fn agrees_with_the_test_of_all_pairs() {
         let mut rng = scenarios::stream(1, "test/grid");
         for reach_m in [0.5, 30.0, 400.0] {
             let mut coordinate = || 2000.0 * (rng.random::<f64>() - 0.5);
             let discs: Vec<Option<Disc>> = (0..150)
                 .map(|i| {
-                    let disc = Disc { center_m: [coordinate(), coordinate()], radius_m: coordinate().abs() / 20.0 };
+                    let disc = Disc {
+                        center_m: Vector2::new(coordinate(), coordinate()),
+                        radius_m: coordinate().abs() / 20.0,
+                    };
                     (i % 7 != 0).then_some(disc)
                 })
                 .collect();

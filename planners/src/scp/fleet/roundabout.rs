@@ -1,72 +1,72 @@
-//! Breaks a symmetry that no row can: many who meet at one point at one time.
+//! Breaks the symmetry of many vehicles that meet at one point at one time.
 //!
-//! Everybody is then everybody's neighbour on all sides, and the normals of the rows say nothing. Moved to the right, all
-//! of them circle the point in one sense. n vehicles that keep R from each other on a circle need a radius of
-//! R / (2 sin(π/n)).
+//! Such vehicles are neighbours of each other on all sides, so the normals of the avoidance rows cancel. Displaced to
+//! their right, all vehicles circle the point in the same sense. n vehicles with separation R on a circle need a radius
+//! of R / (2 sin(π/n)).
 
 use std::f64::consts::PI;
 
-use super::guess::Start;
-use super::traffic::{Encounter, Traffic};
+use super::conflict_detection::{Conflict, FleetMotion};
+use super::initial_route::InitialRoute;
 
-/// Vehicles from which on a crowd is more than a few pairs.
-const CROWD: usize = 4;
+/// Smallest number of vehicles of a crowd.
+const MIN_CROWD: usize = 4;
 
-/// Share of all pairs of a crowd that must be in conflict.
-const DENSE: f64 = 0.5;
+/// Smallest fraction of the pairs of a crowd that are in conflict.
+const MIN_CONFLICT_FRACTION: f64 = 0.5;
 
-/// Radius over the smallest possible one.
-const ROOMY: f64 = 1.25;
+/// Radius of the roundabout relative to the smallest possible one.
+const RADIUS_FACTOR: f64 = 1.25;
 
-/// A place where many meet.
+/// Vehicles that meet at one point.
 #[derive(Clone, Debug)]
 pub struct Crowd {
-    /// Who.
+    /// The vehicles.
     pub vehicles: Vec<usize>,
-    /// When, s.
+    /// Mean time of their conflicts, s.
     pub at_s: f64,
 }
 
-/// Moves everybody in a crowd to his right.
-pub fn bow(starts: &mut [Start], crowds: &[Crowd], wanted_m: f64) {
+/// Displaces the routes of all vehicles of each crowd to their right.
+pub fn displace(routes: &mut [InitialRoute], crowds: &[Crowd], required_m: f64) {
     for crowd in crowds {
-        let radius_m = ROOMY * wanted_m / (2.0 * (PI / crowd.vehicles.len() as f64).sin());
-        for &who in &crowd.vehicles {
-            let length_m = starts[who].route.length_m();
-            let peak_m = length_m * (crowd.at_s / starts[who].flight_time_s).clamp(0.2, 0.8);
-            starts[who].route = starts[who].route.bowed(-radius_m, peak_m, length_m);
+        let radius_m = RADIUS_FACTOR * required_m / (2.0 * (PI / crowd.vehicles.len() as f64).sin());
+        for &vehicle in &crowd.vehicles {
+            let length_m = routes[vehicle].route.length_m();
+            let peak_m = length_m * (crowd.at_s / routes[vehicle].flight_time_s).clamp(0.2, 0.8);
+            routes[vehicle].route = routes[vehicle].route.displaced(-radius_m, peak_m, length_m);
         }
     }
 }
 
-/// Groups of vehicles most of whose pairs come nearer to each other than half of `wanted_m` at about the same time.
-pub fn crowds(traffic: &Traffic, wanted_m: f64) -> Vec<Crowd> {
-    let encounters = traffic.encounters(0.5 * wanted_m);
-    let mut left: Vec<&Encounter> = encounters.iter().collect();
+/// Groups of vehicles in which most pairs come closer to each other than half of `required_m`.
+pub fn crowds(motion: &FleetMotion, required_m: f64) -> Vec<Crowd> {
+    let conflicts = motion.conflicts(0.5 * required_m);
+    let mut remaining: Vec<&Conflict> = conflicts.iter().collect();
     let mut crowds = Vec::new();
-    while let Some(first) = left.first() {
-        let group = connected(first, &left);
-        let pairs = left.iter().filter(|encounter| encounter.who.iter().all(|who| group.contains(who)));
-        let (count, sum_s) = pairs.fold((0, 0.0), |(count, sum_s), encounter| (count + 1, sum_s + encounter.at_s));
-        let all = group.len() * (group.len() - 1) / 2;
-        if group.len() >= CROWD && count as f64 >= DENSE * all as f64 {
+    while let Some(first) = remaining.first() {
+        let group = connected(first, &remaining);
+        let pairs = remaining.iter().filter(|conflict| conflict.vehicles.iter().all(|vehicle| group.contains(vehicle)));
+        let (count, sum_s) = pairs.fold((0, 0.0), |(count, sum_s), conflict| (count + 1, sum_s + conflict.at_s));
+        let all_pairs = group.len() * (group.len() - 1) / 2;
+        if group.len() >= MIN_CROWD && count as f64 >= MIN_CONFLICT_FRACTION * all_pairs as f64 {
             crowds.push(Crowd { at_s: sum_s / f64::from(count), vehicles: group.clone() });
         }
-        left.retain(|encounter| !encounter.who.iter().any(|who| group.contains(who)));
+        remaining.retain(|conflict| !conflict.vehicles.iter().any(|vehicle| group.contains(vehicle)));
     }
     crowds
 }
 
-/// Everybody whom a chain of encounters connects with `first`, ascending.
-fn connected(first: &Encounter, encounters: &[&Encounter]) -> Vec<usize> {
-    let mut group = first.who.to_vec();
+/// All vehicles that a chain of conflicts connects with `first`, ascending.
+fn connected(first: &Conflict, conflicts: &[&Conflict]) -> Vec<usize> {
+    let mut group = first.vehicles.to_vec();
     loop {
         let before = group.len();
-        for encounter in encounters {
-            let [a, b] = encounter.who.map(|who| group.contains(&who));
+        for conflict in conflicts {
+            let [a, b] = conflict.vehicles.map(|vehicle| group.contains(&vehicle));
             match (a, b) {
-                (true, false) => group.push(encounter.who[1]),
-                (false, true) => group.push(encounter.who[0]),
+                (true, false) => group.push(conflict.vehicles[1]),
+                (false, true) => group.push(conflict.vehicles[0]),
                 _ => {}
             }
         }

@@ -1,32 +1,32 @@
-//! A way over the ground, before anybody has said how fast it is flown.
+//! A route over the ground, without timing.
 
 use scenarios::Vehicle;
 
-use super::dubins::{Path, Pose};
+use super::dubins::{DubinsPath, Pose};
 
-/// Points of a route.
-const POINTS: usize = 200;
+/// Number of segments of a route.
+const SEGMENTS: usize = 200;
 
-/// A polyline, fine enough to be taken for a smooth curve.
+/// A polyline, fine enough to approximate a smooth curve.
 #[derive(Clone, Debug)]
 pub struct Route {
     points_m: Vec<[f64; 2]>,
-    /// Length up to each point, m.
+    /// Distance along the route to each point, m.
     along_m: Vec<f64>,
     start_heading_rad: f64,
 }
 
 impl Route {
-    /// The shortest way with turns of `radius_m`.
+    /// The shortest Dubins path of a vehicle with turns of `radius_m`.
     pub fn shortest(vehicle: &Vehicle, radius_m: f64) -> Self {
         let [start, goal] = [&vehicle.start, &vehicle.goal].map(|waypoint| Pose {
             position_m: [waypoint.x_m, waypoint.y_m],
             heading_rad: waypoint.heading_deg.to_radians(),
         });
-        let path = Path::shortest(start, goal, radius_m);
+        let path = DubinsPath::shortest(start, goal, radius_m);
         let length_m = path.length_m();
-        let point = |index: usize| path.at(length_m * index as f64 / POINTS as f64).position_m;
-        Self::through((0..=POINTS).map(point).collect(), start.heading_rad)
+        let point = |index: usize| path.at(length_m * index as f64 / SEGMENTS as f64).position_m;
+        Self::through((0..=SEGMENTS).map(point).collect(), start.heading_rad)
     }
 
     /// The polyline through `points_m`.
@@ -44,55 +44,56 @@ impl Route {
         self.along_m[self.along_m.len() - 1]
     }
 
-    /// Position, m, and heading, rad, after `along_m`; the heading continues that of the start.
+    /// Position, m, and heading, rad, in (-π, π], at distance `along_m`.
     pub fn at(&self, along_m: f64) -> Pose {
         let last = self.points_m.len() - 2;
         let index = self.along_m.partition_point(|point_m| *point_m <= along_m).saturating_sub(1).min(last);
         let (a, b) = (self.points_m[index], self.points_m[index + 1]);
-        let share = (along_m - self.along_m[index]) / (self.along_m[index + 1] - self.along_m[index]);
-        let position_m = [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+        let fraction = (along_m - self.along_m[index]) / (self.along_m[index + 1] - self.along_m[index]);
+        let position_m = [0, 1].map(|axis| a[axis] + fraction * (b[axis] - a[axis]));
         Pose { position_m, heading_rad: (b[1] - a[1]).atan2(b[0] - a[0]) }
     }
 
-    /// The same route moved sideways by a smooth bump, to its left by `offset_m` after `peak_m` of the way, less and less
-    /// over `reach_m` before and behind (or up to the ends, where they are nearer).
-    pub fn bowed(&self, offset_m: f64, peak_m: f64, reach_m: f64) -> Self {
+    /// The route displaced by a raised-cosine bump: to its left by `offset_m` at distance `peak_m`, and to zero within
+    /// `reach_m` before and behind (or at the ends of the route, where these are nearer).
+    pub fn displaced(&self, offset_m: f64, peak_m: f64, reach_m: f64) -> Self {
         let before_m = reach_m.min(peak_m);
         let behind_m = reach_m.min(self.length_m() - peak_m);
         let moved = |(point_m, &along_m): (&[f64; 2], &f64)| {
             let from_peak_m = along_m - peak_m;
-            let share = if from_peak_m < 0.0 { -from_peak_m / before_m } else { from_peak_m / behind_m };
-            if share.is_nan() || share >= 1.0 {
+            let fraction = if from_peak_m < 0.0 { -from_peak_m / before_m } else { from_peak_m / behind_m };
+            if fraction.is_nan() || fraction >= 1.0 {
                 return *point_m;
             }
-            let sideways_m = 0.5 * offset_m * (1.0 + (std::f64::consts::PI * share).cos());
+            let sideways_m = 0.5 * offset_m * (1.0 + (std::f64::consts::PI * fraction).cos());
             let (sin, cos) = self.at(along_m).heading_rad.sin_cos();
             [point_m[0] - sideways_m * sin, point_m[1] + sideways_m * cos]
         };
         Self::through(self.points_m.iter().zip(&self.along_m).map(moved).collect(), self.start_heading_rad)
     }
 
-    /// The same route with bumps side by side that make it `length_m` long, if it is shorter: one bump for every sign in
-    /// `sides`, 1 to the left, -1 to the right.
+    /// The route lengthened to `length_m` by successive bumps, if it is shorter: one bump per entry of `sides`, 1 for
+    /// left and -1 for right.
     pub fn lengthened(&self, length_m: f64, sides: &[f64]) -> Self {
         let own_m = self.length_m();
         let half_m = 0.5 * own_m / sides.len() as f64;
-        let bowed = |offset_m: f64| {
+        let displaced = |offset_m: f64| {
             sides.iter().enumerate().fold(self.clone(), |route, (bump, side)| {
                 let scale = route.length_m() / own_m;
-                route.bowed(side * offset_m, scale * half_m * (2 * bump + 1) as f64, scale * half_m)
+                route.displaced(side * offset_m, scale * half_m * (2 * bump + 1) as f64, scale * half_m)
             })
         };
         let (mut low_m, mut high_m) = (0.0, length_m);
         while high_m - low_m > 1.0 {
             let middle_m = 0.5 * (low_m + high_m);
             (low_m, high_m) =
-                if bowed(middle_m).length_m() > length_m { (low_m, middle_m) } else { (middle_m, high_m) };
+                if displaced(middle_m).length_m() > length_m { (low_m, middle_m) } else { (middle_m, high_m) };
         }
-        bowed(low_m)
+        displaced(low_m)
     }
 
-    /// Distance from `point_m` to the nearest point of the route, m; that point relative to it, m; and the way to it, m.
+    /// The point of the route nearest to `point_m`: its distance, m; its position relative to `point_m`, m; and its
+    /// distance along the route, m.
     pub fn nearest(&self, point_m: [f64; 2]) -> (f64, [f64; 2], f64) {
         let mut nearest = (f64::INFINITY, [0.0; 2], 0.0);
         for (at, &along_m) in self.points_m.iter().zip(&self.along_m) {
@@ -105,8 +106,8 @@ impl Route {
         (nearest.0.sqrt(), nearest.1, nearest.2)
     }
 
-    /// Largest change of heading from one piece to the next, rad, in [0, π].
-    pub fn sharpest_turn_rad(&self) -> f64 {
+    /// Largest change of heading between neighbouring segments, rad, in [0, π].
+    pub fn max_turn_rad(&self) -> f64 {
         let turn_rad = |three: &[[f64; 2]]| {
             let [a, b] = [0, 1].map(|i| [three[i + 1][0] - three[i][0], three[i + 1][1] - three[i][1]]);
             (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
@@ -119,7 +120,7 @@ impl Route {
         self.points_m.iter().copied()
     }
 
-    /// Heading at the start, as the scenario gives it, rad.
+    /// Heading at the start, as in the scenario, rad.
     pub fn start_heading_rad(&self) -> f64 {
         self.start_heading_rad
     }

@@ -1,35 +1,39 @@
-//! How fast a route is flown: speed up to a cruising speed, cruise, change to the speed at the goal.
+//! Speed profile along a route: change to a cruising speed, cruise, change to the speed at the goal.
 
-/// Share of the largest acceleration that the profile uses: the planner's nodes cannot follow its corners.
-const EASE: f64 = 0.8;
+/// Fraction of the acceleration limit that the profile uses: the planner's nodes cannot follow its corners.
+const ACCELERATION_FRACTION: f64 = 0.8;
 
 /// A speed profile over a route of a certain length.
 #[derive(Clone, Copy, Debug)]
-pub struct Profile {
-    /// Speed at the start, cruising, at the goal, m/s.
+pub struct SpeedProfile {
+    /// Speeds at the start, while cruising and at the goal, m/s.
     speeds_mps: [f64; 3],
     /// Magnitude of the changes, m/s².
     acceleration_mps2: f64,
     cruise_s: f64,
 }
 
-impl Profile {
-    /// The profile over `length_m` that cruises at `cruise_mps`. The route is long enough for both changes of speed.
+impl SpeedProfile {
+    /// The profile over `length_m` with the cruising speed `cruise_mps`. The route must be long enough for both changes
+    /// of speed.
     pub fn cruising(length_m: f64, [start_mps, goal_mps]: [f64; 2], cruise_mps: f64, limit_mps2: f64) -> Self {
-        let mut profile =
-            Self { speeds_mps: [start_mps, cruise_mps, goal_mps], acceleration_mps2: EASE * limit_mps2, cruise_s: 0.0 };
+        let mut profile = Self {
+            speeds_mps: [start_mps, cruise_mps, goal_mps],
+            acceleration_mps2: ACCELERATION_FRACTION * limit_mps2,
+            cruise_s: 0.0,
+        };
         let changes_m = profile.distance_m(profile.duration_s());
         profile.cruise_s = ((length_m - changes_m) / cruise_mps).max(0.0);
         profile
     }
 
-    /// Whole duration, s.
+    /// Duration, s.
     pub fn duration_s(&self) -> f64 {
         let [first_s, last_s] = self.changes_s();
         first_s + self.cruise_s + last_s
     }
 
-    /// Way after `t_s`, m.
+    /// Distance along the route after `t_s`, m.
     pub fn distance_m(&self, t_s: f64) -> f64 {
         let [start_mps, cruise_mps, goal_mps] = self.speeds_mps;
         let [first_s, last_s] = self.changes_s();
@@ -46,9 +50,9 @@ impl Profile {
     pub fn speed_mps(&self, t_s: f64) -> f64 {
         let [start_mps, cruise_mps, goal_mps] = self.speeds_mps;
         let [first_s, last_s] = self.changes_s();
-        let share = |t_s: f64, change_s: f64| if change_s > 0.0 { (t_s / change_s).clamp(0.0, 1.0) } else { 1.0 };
-        let last = if last_s > 0.0 { share(t_s - first_s - self.cruise_s, last_s) } else { 0.0 };
-        start_mps + (cruise_mps - start_mps) * share(t_s, first_s) + (goal_mps - cruise_mps) * last
+        let fraction = |t_s: f64, change_s: f64| if change_s > 0.0 { (t_s / change_s).clamp(0.0, 1.0) } else { 1.0 };
+        let last = if last_s > 0.0 { fraction(t_s - first_s - self.cruise_s, last_s) } else { 0.0 };
+        start_mps + (cruise_mps - start_mps) * fraction(t_s, first_s) + (goal_mps - cruise_mps) * last
     }
 
     fn changes_s(&self) -> [f64; 2] {
@@ -62,9 +66,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn profile_ends_at_the_goal_with_the_goal_s_speed() {
+    fn profile_ends_at_the_goal_at_its_speed() {
         for cruise_mps in [30.0, 35.0, 40.0] {
-            let profile = Profile::cruising(6000.0, [35.0, 33.0], cruise_mps, 2.0);
+            let profile = SpeedProfile::cruising(6000.0, [35.0, 33.0], cruise_mps, 2.0);
             let end_s = profile.duration_s();
             assert!((profile.distance_m(end_s) - 6000.0).abs() < 1e-9);
             assert!((profile.speed_mps(0.0) - 35.0).abs() < 1e-12 && (profile.speed_mps(end_s) - 33.0).abs() < 1e-12);

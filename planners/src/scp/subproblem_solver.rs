@@ -1,20 +1,20 @@
-//! All subproblems of one iteration.
+//! Solves all subproblems of one iteration.
 
 use rayon::prelude::*;
 use scenarios::Solver;
 
 use crate::convex::{self, BatchSolver, Program, Settings, Solution};
 
-/// What solves every subproblem of an iteration, in parallel.
-pub enum AllSolver {
-    /// By the customised interior-point method, whose work vectors are kept from iteration to iteration.
+/// The solver of all subproblems of an iteration, in parallel.
+pub enum SubproblemSolver {
+    /// The customised interior-point method, whose workspace is kept from iteration to iteration.
     Block(BatchSolver),
-    /// By Clarabel, to the relative gap and residuals that are given.
+    /// Clarabel, with this relative gap and feasibility.
     Clarabel(f64),
 }
 
-impl AllSolver {
-    /// To the relative gap and residuals `tolerance`.
+impl SubproblemSolver {
+    /// The solver, for the relative gap and feasibility `tolerance`.
     pub fn new(solver: Solver, tolerance: f64) -> Self {
         match solver {
             Solver::Block => Self::Block(BatchSolver::new(Settings { tolerance, ..Settings::default() })),

@@ -1,0 +1,162 @@
+//! The sequence of convex programs: linearise about the last trajectories, add avoidance rows, solve, update.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+use scenarios::{Iteration, Range, Scenario};
+
+use super::super::dynamics::State;
+use super::super::iterate::{Iterate, max_dt_s, max_flight_time_s};
+use super::super::options::Options;
+use super::super::plan::{node_clearance_m, node_separation_m};
+use super::super::subproblem::{self, Context};
+use super::super::subproblem_solver::SubproblemSolver;
+use super::acceptance::{self, ConstraintViolation};
+use super::avoidance_rows::{AvoidanceConstraints, avoidance_rows};
+use super::conflict_detection::FleetMotion;
+use super::initial_guess::InitialGuess;
+use super::intersample_bounds;
+use super::schedule::TrustRegionSchedule;
+use crate::convex::{HalfspaceConstraint, Program, STAGE_LEN, Solution, Status};
+
+/// Relative gap of the subproblems in the search phase and in the settling phase.
+const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
+
+/// Relative difference below which step lengths are made equal: vehicles that arrive together share their nodes.
+const EQUAL_DT_TOLERANCE: f64 = 1e-6;
+
+/// The fleet between two iterations.
+pub struct ScpSolver<'a> {
+    scenario: &'a Scenario,
+    options: Options,
+    constraints: AvoidanceConstraints<'a>,
+    /// Planning limits of every vehicle.
+    bounds: Vec<[Range; STAGE_LEN]>,
+    /// Initial and final state of every vehicle.
+    boundary: Vec<[State; 2]>,
+    trajectories: Vec<Iterate>,
+    schedule: TrustRegionSchedule,
+    /// One per tolerance of [`TOLERANCES`].
+    solvers: [SubproblemSolver; 2],
+}
+
+impl<'a> ScpSolver<'a> {
+    /// The solver at the initial guess.
+    pub fn new(scenario: &'a Scenario, options: Options) -> Self {
+        let constraints = AvoidanceConstraints::new(scenario, options.margin_m);
+        let limits = |vehicle| &scenario.fixed_wing_model(vehicle).planning_limits;
+        let bounds = |vehicle| subproblem::node_bounds(limits(vehicle), &scenario.world.map);
+        let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &options, &constraints);
+        let simultaneous_dt_s = scenario.fleet.simultaneous_arrival.then(|| max_dt_s(&trajectories));
+        let release = options.time_bound_release;
+        Self {
+            scenario,
+            constraints,
+            bounds: scenario.vehicles.iter().map(bounds).collect(),
+            boundary,
+            schedule: TrustRegionSchedule::new(options.trust_region, options.shrink, release, simultaneous_dt_s),
+            solvers: TOLERANCES.map(|tolerance| SubproblemSolver::new(options.solver, tolerance)),
+            options,
+            trajectories,
+        }
+    }
+
+    /// One iteration. `inspect` receives the subproblems and their solutions.
+    pub fn advance(&mut self, inspect: &dyn Fn(&[Program], &[Solution])) -> Iteration {
+        let started = Instant::now();
+        let motion = self.motion();
+        let trust_region_m = self.schedule.trust_region()[0];
+        let rows = avoidance_rows(&motion, &self.constraints, trust_region_m);
+        let programs = self.programs(&motion, rows);
+        let solutions = self.solvers[usize::from(!self.schedule.is_searching())].solve(&programs);
+        inspect(&programs, &solutions);
+        let violations =
+            programs.par_iter().zip(&solutions).map(|(program, solution)| program.max_violation(&solution.z));
+        let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
+        let updated =
+            self.trajectories.par_iter().zip(&solutions).map(|(last, solution)| subproblem::updated(last, &solution.z));
+        let updated = updated.collect();
+        let last = std::mem::replace(&mut self.trajectories, updated);
+        let iteration = self.summary(&last, &solutions, violation, started);
+        self.schedule.observe(self.objective_s(), iteration.dt_s, violation);
+        iteration
+    }
+
+    /// Are the trajectories a solution? Not in the search phase, and not while they violate a constraint.
+    pub fn is_accepted(&self) -> bool {
+        !self.schedule.is_searching() && self.first_violation().is_none()
+    }
+
+    /// The first constraint that the trajectories violate; `None` if they can be flown.
+    pub fn first_violation(&self) -> Option<ConstraintViolation> {
+        acceptance::first_violation(
+            self.scenario,
+            &self.constraints,
+            &self.synchronised(),
+            &self.bounds,
+            &self.boundary,
+        )
+    }
+
+    /// The trajectories, with equal step lengths where these differ only by the solver's tolerance.
+    pub fn synchronised(&self) -> Vec<Iterate> {
+        let max_s = max_dt_s(&self.trajectories);
+        let joined = |trajectory: &Iterate| {
+            let is_max = max_s - trajectory.dt_s < EQUAL_DT_TOLERANCE * max_s;
+            Iterate { dt_s: if is_max { max_s } else { trajectory.dt_s }, ..trajectory.clone() }
+        };
+        self.trajectories.iter().map(joined).collect()
+    }
+
+    fn motion(&self) -> FleetMotion {
+        let simultaneous = self.scenario.fleet.simultaneous_arrival;
+        if simultaneous { FleetMotion::synchronised(&self.trajectories) } else { FleetMotion::new(&self.trajectories) }
+    }
+
+    fn programs(&self, motion: &FleetMotion, rows: Vec<Vec<HalfspaceConstraint>>) -> Vec<Program> {
+        let program = |(i, rows)| {
+            let bounds = intersample_bounds::tightened(&self.bounds[i], &motion.vehicles[i]);
+            let context = Context {
+                options: &self.options,
+                boundary: self.boundary[i],
+                bounds: &bounds,
+                trust_region: self.schedule.trust_region(),
+                dt_bound_s: self.schedule.bound_s(),
+                dt_change: self.schedule.time_change(),
+            };
+            subproblem::assemble(&context, &self.trajectories[i], rows)
+        };
+        rows.into_par_iter().enumerate().map(program).collect()
+    }
+
+    /// The objective, s: the longest flight time if all arrive together, else the mean.
+    fn objective_s(&self) -> f64 {
+        let mean_s = self.trajectories.iter().map(Iterate::flight_time_s).sum::<f64>() / self.trajectories.len() as f64;
+        if self.scenario.fleet.simultaneous_arrival { max_flight_time_s(&self.trajectories) } else { mean_s }
+    }
+
+    fn summary(&self, last: &[Iterate], solutions: &[Solution], violation: f64, started: Instant) -> Iteration {
+        let now: Vec<&Iterate> = self.trajectories.iter().collect();
+        let pairs = last.iter().zip(&now);
+        let change = pairs.map(|(last, now)| now.change(last)).fold(State::zeros(), |a, b| a.sup(&b));
+        let defects_m = self.trajectories.par_iter().map(|now| now.defect_m(self.options.transcription));
+        let wall_s = started.elapsed().as_secs_f64();
+        let iterations: Vec<usize> = solutions.iter().map(|solution| solution.iterations).collect();
+        let (sum, max) = (iterations.iter().sum::<usize>(), iterations.iter().max().copied().unwrap_or(0));
+        Iteration {
+            objective: max_flight_time_s(&self.trajectories),
+            dt_s: max_dt_s(&self.trajectories),
+            defect_m: defects_m.collect::<Vec<_>>().into_iter().fold(0.0, f64::max),
+            slack: violation,
+            separation_m: node_separation_m(&now),
+            clearance_m: node_clearance_m(&now, self.constraints.cylinders),
+            change_m: change[0].max(change[1]),
+            trust_region_m: self.schedule.trust_region()[0],
+            solver_iterations: sum,
+            unsolved: solutions.iter().filter(|solution| solution.status != Status::Solved).count(),
+            wall_s,
+            // subproblems are solved in batches: the wall time is apportioned by iterations
+            distributed_s: wall_s * rayon::current_num_threads() as f64 * max as f64 / sum.max(1) as f64,
+        }
+    }
+}
