@@ -89,7 +89,7 @@ pub struct FlightMetrics {
 /// Smallest distances of a fleet; absent with fewer than two vehicles, or without obstacles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SmallestDistances {
-    /// Horizontal distance between two vehicles, m.
+    /// Distance between two vehicles, m: horizontal, of multirotors in space.
     pub separation_m: Option<f64>,
     /// Signed horizontal distance from a vehicle to an obstacle's surface, m; of multirotors in space, from the surface of
     /// their bodies, to the map's frame too.

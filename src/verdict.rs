@@ -48,7 +48,7 @@ pub use judge::{judge, judge_imported, judge_with};
 pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, Motion};
 pub use provenance::{Provenance, Reconstruction};
-pub use separation::at_nodes as separation_at_nodes;
+pub use separation::{SeparationShape, at_nodes as separation_at_nodes};
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
 };

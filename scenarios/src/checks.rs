@@ -165,7 +165,16 @@ pub fn check_names(family: Family) -> impl Iterator<Item = &'static str> {
     checks_of(family).map(|check| check.name)
 }
 
+/// Checks of whether there is a plan, a flight and a log that can be believed at all.
+const ALWAYS_DECISIVE: [&str; 5] = ["finite", "complete", "crash", "conditions", "dynamics"];
+
 impl CheckSpec {
+    /// Whether a scenario may list it as advisory. A crash, a log that is incomplete or not finite, and motion that violates
+    /// the equations of motion always decide.
+    pub fn may_be_advisory(&self) -> bool {
+        !ALWAYS_DECISIVE.contains(&self.quantity())
+    }
+
     /// The name without the group: `separation` of `flight.separation`.
     pub fn quantity(&self) -> &'static str {
         self.name.split_once('.').map_or(self.name, |(_, quantity)| quantity)

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FleetRules {
-    /// Minimum horizontal distance R between any two vehicles at any time, m. Absent: not required.
+    /// Minimum distance R between any two vehicles at any time, m: horizontal between fixed wings, in space between
+    /// multirotors. Absent: not required.
     pub separation_m: Option<f64>,
     /// Whether all vehicles must arrive at the same time.
     #[serde(default)]

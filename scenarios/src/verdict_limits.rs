@@ -45,7 +45,8 @@ pub struct VerdictLimits {
     /// a counterpart always exceeds it. Default: 0.02 s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub switch_s: Option<f64>,
-    /// Checks that are reported but do not affect the verdict, by full name (`flight.tracking_rms`).
+    /// Checks that are reported but do not affect the verdict, by full name (`flight.tracking_rms`). Those of crashes,
+    /// completeness, finiteness, conditions and dynamics cannot be advisory.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub advisory: Vec<String>,
     /// Checks that fail if they are skipped, by full name.

@@ -270,6 +270,15 @@ fn verdict_limits_are_positive_and_checks_are_known() {
         "flight.tracking",
         "the full name of a check",
     );
+    for decisive in ["flight.crash", "plan.finite", "flight.complete", "flight.conditions", "flight.dynamics"] {
+        assert_issue(
+            "\"flight.tracking_rms\"",
+            &format!("\"{decisive}\""),
+            ("verdict.advisory[0]", 73, 13),
+            decisive,
+            "a check that may be advisory",
+        );
+    }
     assert_issue(
         "\"flight.separation\"",
         "\"separation\"",

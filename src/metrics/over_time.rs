@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use scenarios::{Cylinder, Scenario};
 
-use crate::verdict::Motion;
 use crate::verdict::multirotor::Clearances;
+use crate::verdict::{Motion, SeparationShape};
 
 /// The smallest distance at one instant, and between whom.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,10 +17,10 @@ pub struct DistanceSample {
     pub who: [usize; 2],
 }
 
-/// Smallest horizontal distance between any two of `motions`, every `step_s` from 0 s on, while at least two last.
+/// Smallest distance between any two of `motions`, every `step_s` from 0 s on, while at least two last.
 ///
 /// For a plot: the smallest of all, over continuous time, is in the verdict.
-pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<DistanceSample> {
+pub fn separation_over_time(motions: &[Motion], shape: SeparationShape, step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
         // a sweep from west to east: nobody farther east than the best so far can be nearer
         present.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
@@ -29,7 +29,12 @@ pub fn separation_over_time(motions: &[Motion], step_s: f64) -> Vec<DistanceSamp
                 if second[0] - first[0] > nearest.distance_m {
                     break;
                 }
-                nearest.consider((first[0] - second[0]).hypot(first[1] - second[1]), [*i.min(j), *i.max(j)]);
+                let horizontal_m = (first[0] - second[0]).hypot(first[1] - second[1]);
+                let distance_m = match shape {
+                    SeparationShape::Horizontal => horizontal_m,
+                    SeparationShape::Spatial => horizontal_m.hypot(first[2] - second[2]),
+                };
+                nearest.consider(distance_m, [*i.min(j), *i.max(j)]);
             }
         }
     })

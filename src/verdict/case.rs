@@ -66,6 +66,11 @@ impl<'a> Case<'a> {
         self.flown.as_ref()
     }
 
+    /// The end of the mission, s; infinite if it cannot be told.
+    pub fn mission_end_s(&self) -> f64 {
+        self.flown().map_or(f64::INFINITY, FlownMotions::mission_end_s)
+    }
+
     /// The motion of every vehicle while it is judged.
     pub fn flown_motions(&self) -> Evidence<'_, [Motion]> {
         self.flown().map(|flown| flown.motions.as_slice())

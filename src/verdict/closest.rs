@@ -12,6 +12,7 @@ use scenarios::Cylinder;
 use crate::verdict::bernstein;
 use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::separation::SeparationShape;
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
@@ -33,11 +34,15 @@ pub struct ClosestApproach {
     pub who: [usize; 2],
 }
 
-/// Smallest horizontal distance between any two of `motions` while both last. `None` with fewer than two.
-pub fn between_vehicles(motions: &[Motion]) -> Option<ClosestApproach> {
+/// Smallest distance between any two of `motions` while both last. `None` with fewer than two.
+pub fn between_vehicles(motions: &[Motion], shape: SeparationShape) -> Option<ClosestApproach> {
     let reaches: Vec<Reach> =
         motions.iter().map(|motion| Reach { radius_m: 0.0, deviation_m: motion.deviation_m() }).collect();
-    sweep(motions, &reaches, Search::new(), horizontal)
+    let relative = match shape {
+        SeparationShape::Horizontal => horizontal,
+        SeparationShape::Spatial => |relative_m| relative_m,
+    };
+    sweep(motions, &reaches, Search::new(), relative)
 }
 
 /// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
@@ -232,7 +237,7 @@ impl Search {
 mod tests {
     use scenarios::Cylinder;
 
-    use super::{ClosestApproach, between_vehicles, to_cylinders, to_point};
+    use super::{ClosestApproach, SeparationShape, between_vehicles, to_cylinders, to_point};
     use crate::verdict::motion::{Knot, Motion};
     use crate::verdict::random::Uniform;
 
@@ -262,16 +267,20 @@ mod tests {
                 line([-700.0, 0.0, 300.0], [35.0, 0.0, 0.0], one_s, 40.0),
                 line([0.0, -710.0, 500.0], [0.0, 35.0, 1.0], other_s, 40.0),
             ];
-            assert_is(&between_vehicles(&crossing).unwrap(), 50.0_f64.sqrt(), 705.0 / 35.0);
+            assert_is(
+                &between_vehicles(&crossing, SeparationShape::Horizontal).unwrap(),
+                50.0_f64.sqrt(),
+                705.0 / 35.0,
+            );
         }
     }
 
     #[test]
     fn three_vehicles_have_their_nearest_pair_named() {
         let north = |y_m| line([0.0, y_m, 0.0], [30.0, 0.0, 0.0], 0.05, 10.0);
-        let nearest = between_vehicles(&[north(0.0), north(170.0), north(300.0)]).unwrap();
+        let nearest = between_vehicles(&[north(0.0), north(170.0), north(300.0)], SeparationShape::Horizontal).unwrap();
         assert_eq!(nearest.who, [1, 2]);
-        assert!(between_vehicles(&[north(0.0)]).is_none());
+        assert!(between_vehicles(&[north(0.0)], SeparationShape::Horizontal).is_none());
     }
 
     #[test]
@@ -279,7 +288,7 @@ mod tests {
         // At 10 s they would meet; the second motion ends at 8 s, 40 m earlier.
         let first = line([-100.0, 0.0, 0.0], [10.0, 0.0, 0.0], 0.1, 20.0);
         let second = line([100.0, 0.0, 0.0], [-10.0, 0.0, 0.0], 0.1, 8.0);
-        assert_is(&between_vehicles(&[first, second]).unwrap(), 40.0, 8.0);
+        assert_is(&between_vehicles(&[first, second], SeparationShape::Horizontal).unwrap(), 40.0, 8.0);
     }
 
     #[test]
@@ -321,7 +330,7 @@ mod tests {
         let mut uniform = Uniform::seeded(3);
         for round in 0..40 {
             let motions: Vec<Motion> = (0..3).map(|_| wild(&mut uniform)).collect();
-            let nearest = between_vehicles(&motions).unwrap();
+            let nearest = between_vehicles(&motions, SeparationShape::Horizontal).unwrap();
             let distance_at = |i: usize, j: usize, t_s: f64| {
                 let (a, b) = (motions[i].position_m(t_s)?, motions[j].position_m(t_s)?);
                 Some((a[0] - b[0]).hypot(a[1] - b[1]))

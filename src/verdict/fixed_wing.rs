@@ -18,7 +18,8 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
-use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
+use crate::verdict::separation::{self, SeparationShape};
+use crate::verdict::{Check, arrival, collision, flight_integrity};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
@@ -33,12 +34,16 @@ struct FleetCase<'a> {
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.separation", |spec, it| {
+        separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Horizontal)
+    }),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?)),
     ("nodes.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
-    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned_motions())),
+    ("plan.separation", |spec, it| {
+        separation::check(spec, it.scenario, it.planned_motions(), SeparationShape::Horizontal)
+    }),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?)),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
@@ -50,9 +55,11 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.crash", |spec, it| {
         let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_cylinder);
-        Ok(flight_integrity::check_crash(spec, it.flight()?, contact))
+        Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
-    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown_motions())),
+    ("flight.separation", |spec, it| {
+        separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Horizontal)
+    }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
     ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),

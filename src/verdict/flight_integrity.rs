@@ -62,20 +62,38 @@ pub fn check_complete(
     none_of(spec, defects.len(), &[], defects.first())
 }
 
-/// Number of crashes. A contact that the log has no event of counts as one.
+/// Number of crashes until the mission's end. A contact that the log has no event of counts as one. Crashes while all
+/// vehicles coast are told, and do not decide.
 ///
+/// - `mission_end_s`: end of the mission, s
 /// - `contact`: the deepest contact in the logged motion; called if the log has no crash
-pub fn check_crash(spec: &CheckSpec, flight: &Flight, contact: impl FnOnce() -> Option<Measurement>) -> Check {
-    let mut crashes = flight.events.iter().filter_map(crash);
+pub fn check_crash(
+    spec: &CheckSpec,
+    flight: &Flight,
+    mission_end_s: f64,
+    contact: impl FnOnce() -> Option<Measurement>,
+) -> Check {
+    let decides = |t_s: f64| !exceeds(t_s, mission_end_s + flight.step_s);
+    let mut crashes = flight.events.iter().filter_map(crash).filter(|(t_s, _)| decides(*t_s));
     let Some((t_s, concerned)) = crashes.next() else {
         return match contact() {
-            None => spec.at_most(Measurement::value(0.0), 0.0),
+            None => spec.at_most(later_crash(flight), 0.0),
             Some(contact) => spec.at_most(contact.with_reason("a contact that the log has no crash for"), 0.0),
         };
     };
     let count = 1 + crashes.count();
     let measured = concerned.fold(Measurement::value(count as f64).at(t_s), |measured, name| measured.with(name));
     spec.at_most(measured, 0.0)
+}
+
+/// No crash, with a word on the first one after the mission's end, if there is one.
+fn later_crash(flight: &Flight) -> Measurement {
+    let Some((t_s, concerned)) = flight.events.iter().find_map(crash) else { return Measurement::value(0.0) };
+    let names: Vec<&str> = concerned.map(String::as_str).collect();
+    Measurement::value(0.0).with_reason(format!(
+        "after the mission's end, while coasting: {} at {t_s:.2} s, which does not decide",
+        names.join(" and ")
+    ))
 }
 
 /// The number that an event carries, if any.

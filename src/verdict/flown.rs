@@ -15,8 +15,9 @@ const LOG_END_S: f64 = 1e-6;
 
 /// A flight whose logs can be matched with the vehicles.
 ///
-/// A vehicle is judged until its planned end, or until it arrives if that is later; a vehicle that does not arrive is judged
-/// until the end of its log. The coasting after that is not part of the mission.
+/// A fixed wing is judged until its planned end, or until it arrives if that is later; one that does not arrive is judged
+/// until the end of its log. A vehicle that hovers is judged until the planned end of the last one. The coasting after that is
+/// not part of the mission.
 #[derive(Clone, Debug)]
 pub struct FlownMotions<'a> {
     /// The motion of every vehicle while it is judged.
@@ -34,6 +35,8 @@ pub struct FlownVehicle<'a> {
     pub judged: &'a [Sample],
     /// The steps during which it follows the plan.
     pub tracked: &'a [Sample],
+    /// End of the judged steps, s.
+    pub judged_end_s: f64,
     /// End of the log, s.
     pub log_end_s: f64,
     /// Closest approach to the goal, from 10 s before the planned arrival on; `None` if the log ends before.
@@ -52,7 +55,9 @@ impl<'a> FlownMotions<'a> {
             return Err(MissingEvidence::LogCount { logs, vehicles });
         }
         let matched = scenario.vehicles.par_iter().zip(&plan.trajectories).zip(&flight.vehicles);
-        let parts = matched.map(|((vehicle, trajectory), log)| judged_part(vehicle, trajectory, log));
+        let parts = matched.map(|((vehicle, trajectory), log)| {
+            judged_part(vehicle, trajectory, log, plan.flight_time_s().unwrap_or(0.0))
+        });
         let mut flown = Self { motions: Vec::new(), vehicles: Vec::new() };
         for part in parts.collect::<Vec<_>>() {
             let (motion, vehicle) = part?;
@@ -60,6 +65,13 @@ impl<'a> FlownMotions<'a> {
             flown.vehicles.push(vehicle);
         }
         Ok(flown)
+    }
+}
+
+impl FlownMotions<'_> {
+    /// The end of the mission, s: until then some vehicle is judged.
+    pub fn mission_end_s(&self) -> f64 {
+        self.vehicles.iter().map(|vehicle| vehicle.judged_end_s).fold(0.0, f64::max)
     }
 }
 
@@ -74,6 +86,7 @@ fn judged_part<'a>(
     vehicle: &'a Vehicle,
     trajectory: &Trajectory,
     log: &'a VehicleLog,
+    plan_end_s: f64,
 ) -> Result<(Motion, FlownVehicle<'a>), MissingEvidence> {
     if log.vehicle != vehicle.name {
         return Err(MissingEvidence::LogOrder { found: log.vehicle.clone(), expected: vehicle.name.clone() });
@@ -85,6 +98,7 @@ fn judged_part<'a>(
         name: &vehicle.name,
         judged: &log.samples,
         tracked: until(&log.samples, planned_end_s),
+        judged_end_s: motion.end_s(),
         log_end_s: motion.end_s(),
         approach: if matches!(trajectory, Trajectory::FixedWing(_)) {
             closest::to_point(&motion, window_s, vehicle.goal.position_m())
@@ -92,9 +106,11 @@ fn judged_part<'a>(
             hovering(&motion, planned_end_s, vehicle.goal.position_m())
         },
     };
-    let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(planned_end_s);
+    let mission_end_s = if matches!(trajectory, Trajectory::FixedWing(_)) { planned_end_s } else { plan_end_s };
+    let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(mission_end_s);
     motion.end_at(judged_end_s);
     flown.judged = until(&log.samples, judged_end_s);
+    flown.judged_end_s = judged_end_s;
     Ok((motion, flown))
 }
 

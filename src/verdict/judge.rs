@@ -1,4 +1,4 @@
-use scenarios::{Group, Plan, PlanStatus, Scenario};
+use scenarios::{CheckSpec, Group, Plan, PlanStatus, Scenario, check_spec};
 use sim::Flight;
 
 use crate::families;
@@ -62,7 +62,8 @@ fn apply_check_policy(scenario: &Scenario, checks: &mut Vec<Check>) {
         }
     }
     for check in checks {
-        check.advisory = scenario.verdict.advisory.contains(&check.name);
+        let may_be_advisory = check_spec(&check.name).is_some_and(CheckSpec::may_be_advisory);
+        check.advisory = may_be_advisory && scenario.verdict.advisory.contains(&check.name);
     }
 }
 

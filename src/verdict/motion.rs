@@ -5,6 +5,8 @@ use crate::verdict::missing_evidence::MissingEvidence;
 
 /// Largest magnitude of a coordinate that is judged, m and m/s: up to here squares and products are accurate.
 const MAX_MAGNITUDE: f64 = 1e9;
+/// An interval shorter than this, relative to the median one, has no differences but rounding.
+const SHORT_INTERVAL: f64 = 1e-3;
 
 /// Position and velocity at one instant, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +60,9 @@ impl Motion {
     /// with twice the p'''' that the third derivatives of adjacent segments give.
     pub fn sampled(mut self) -> Self {
         let jerks: Vec<(f64, [f64; 3])> = self
-            .segments()
+            .without_short_intervals()
+            .windows(2)
+            .map(|pair| Segment::between(&pair[0], &pair[1]))
             .filter(Segment::lasts)
             .map(|segment| (segment.t_s[1] - segment.t_s[0], segment.jerk_mps3()))
             .collect();
@@ -69,6 +73,23 @@ impl Motion {
         };
         self.deviation_m = jerks.windows(2).map(deviation_m).fold(0.0, f64::max);
         self
+    }
+
+    /// The knots without those that follow another one within a thousandth of the median interval: differences over such
+    /// intervals are rounding. Knots that share a time stay.
+    fn without_short_intervals(&self) -> Vec<Knot> {
+        let mut intervals_s: Vec<f64> = self.knots.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).collect();
+        intervals_s.retain(|interval_s| *interval_s > 0.0);
+        intervals_s.sort_by(f64::total_cmp);
+        let short_s = SHORT_INTERVAL * intervals_s.get(intervals_s.len() / 2).copied().unwrap_or(0.0);
+        let mut kept: Vec<Knot> = Vec::with_capacity(self.knots.len());
+        for knot in &self.knots {
+            let interval_s = kept.last().map_or(f64::INFINITY, |last| knot.t_s - last.t_s);
+            if interval_s == 0.0 || interval_s > short_s {
+                kept.push(*knot);
+            }
+        }
+        kept
     }
 
     /// Largest distance of the true motion from the curve between two knots, m.
@@ -99,6 +120,16 @@ impl Motion {
         let after = self.knots.partition_point(|knot| knot.t_s < t_s).max(1);
         let segment = self.segment(after - 1);
         Some(segment.during(segment.t_s[0], t_s).points_m[3])
+    }
+
+    /// The motion, followed by rest in its last position until `end_s`.
+    pub fn hovering_until(mut self, end_s: f64) -> Self {
+        let last = self.knots[self.knots.len() - 1];
+        if last.t_s < end_s {
+            let at_rest = Knot { velocity_mps: [0.0; 3], ..last };
+            self.knots.extend([at_rest, Knot { t_s: end_s, ..at_rest }]);
+        }
+        self
     }
 
     /// Drops the knots after the first one at or beyond `t_s`.

@@ -18,7 +18,8 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
-use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
+use crate::verdict::separation::{self, SeparationShape};
+use crate::verdict::{Check, arrival, collision, flight_integrity};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
@@ -35,16 +36,18 @@ pub fn checks(case: &Case<'_>) -> Vec<Check> {
 struct FleetCase<'a> {
     shared: &'a Case<'a>,
     planned: Result<Vec<Motion>, MissingEvidence>,
+    /// The planned motions, each hovering at its end until the last vehicle has arrived.
+    hovering: Result<Vec<Motion>, MissingEvidence>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?)),
     ("nodes.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
     ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
-    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned())),
-    ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned()?)),
+    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering(), SeparationShape::Spatial)),
+    ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.hovering()?)),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?)),
     ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
@@ -56,9 +59,11 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.crash", |spec, it| {
         let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_obstacle);
-        Ok(flight_integrity::check_crash(spec, it.flight()?, contact))
+        Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
-    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown_motions())),
+    ("flight.separation", |spec, it| {
+        separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Spatial)
+    }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions()?)),
     ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
@@ -70,7 +75,13 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
 impl<'a> FleetCase<'a> {
     fn new(shared: &'a Case<'a>) -> Self {
         let plan = shared.flyable().map_err(MissingEvidence::from);
-        Self { shared, planned: plan.and_then(planned_motions) }
+        let planned = plan.and_then(planned_motions);
+        let hovering = planned.clone().map(until_all_have_arrived);
+        Self { shared, planned, hovering }
+    }
+
+    fn hovering(&self) -> Evidence<'_, [Motion]> {
+        self.hovering.as_deref()
     }
 
     fn planned(&self) -> Evidence<'_, [Motion]> {
@@ -92,6 +103,12 @@ fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, MissingEvidence> {
     let motion =
         |trajectory: &Trajectory| Motion::new(&trajectory.vehicle, trajectory.nodes().into_iter().map(knot).collect());
     plan.trajectories.iter().map(|trajectory| motion(trajectory.multirotor())).collect()
+}
+
+/// A vehicle that has arrived hovers there until the last one has.
+fn until_all_have_arrived(motions: Vec<Motion>) -> Vec<Motion> {
+    let end_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
+    motions.into_iter().map(|motion| motion.hovering_until(end_s)).collect()
 }
 
 #[cfg(test)]

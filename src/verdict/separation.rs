@@ -1,6 +1,7 @@
-//! Separation: the smallest horizontal distance between any two vehicles, over continuous time.
+//! Separation: the smallest distance between any two vehicles, over continuous time.
 //!
-//! A vehicle counts until it has arrived: beyond the end of its trajectory it no longer exists for the others.
+//! Of fixed wings it is horizontal, as in their papers, and an aircraft counts until it has arrived. Of multirotors it is in
+//! space, and one that has arrived hovers at its goal and counts until the mission ends for all.
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
@@ -13,16 +14,35 @@ use crate::verdict::motion::Motion;
 /// Nodes of two vehicles are compared if their times differ by no more than this, s.
 const SAME_TIME_S: f64 = 1e-6;
 
+/// How the distance between two vehicles is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeparationShape {
+    /// In the horizontal plane.
+    Horizontal,
+    /// In space.
+    Spatial,
+}
+
 /// Over continuous time.
-pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> CheckResult {
-    against_rule(spec, scenario, motions, closest::between_vehicles)
+pub fn check(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: Evidence<'_, [Motion]>,
+    shape: SeparationShape,
+) -> CheckResult {
+    against_rule(spec, scenario, motions, |motions| closest::between_vehicles(motions, shape))
 }
 
 /// At the planner's nodes. Skipped if the vehicles do not share their node times.
-pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
+pub fn check_nodes(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: Evidence<'_, Plan>,
+    shape: SeparationShape,
+) -> CheckResult {
     match plan.ok().and_then(unequal_node_time) {
         Some(reason) if scenario.fleet.separation_m.is_some() => Ok(spec.skip(reason)),
-        _ => against_rule(spec, scenario, plan, at_nodes),
+        _ => against_rule(spec, scenario, plan, |plan| at_nodes(plan, shape)),
     }
 }
 
@@ -43,14 +63,18 @@ fn against_rule<T: ?Sized>(
     Ok(spec.at_least(Measurement::approach(&closest).with(i).with(j), limit_m))
 }
 
-/// Smallest horizontal distance between two vehicles at nodes that they share. `None` if they share none.
-pub fn at_nodes(plan: &Plan) -> Option<ClosestApproach> {
+/// Smallest distance between two vehicles at nodes that they share. `None` if they share none.
+pub fn at_nodes(plan: &Plan, shape: SeparationShape) -> Option<ClosestApproach> {
     let mut closest: Option<ClosestApproach> = None;
     for (i, first) in plan.trajectories.iter().enumerate() {
         for (j, second) in plan.trajectories.iter().enumerate().skip(i + 1) {
             for (node, (&at_s, _)) in first.times_s().iter().zip(second.times_s()).enumerate() {
                 let [a, b] = [first, second].map(|trajectory| trajectory.nodes().position_m(node));
-                let distance_m = (a[0] - b[0]).hypot(a[1] - b[1]);
+                let horizontal_m = (a[0] - b[0]).hypot(a[1] - b[1]);
+                let distance_m = match shape {
+                    SeparationShape::Horizontal => horizontal_m,
+                    SeparationShape::Spatial => horizontal_m.hypot(a[2] - b[2]),
+                };
                 if closest.is_none_or(|closest| is_smaller(distance_m, closest.upper_m)) {
                     closest = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, j] });
                 }

@@ -33,7 +33,8 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::{Check, flight_integrity, separation};
+use crate::verdict::separation::{self, SeparationShape};
+use crate::verdict::{Check, flight_integrity};
 
 /// Required clearance of the envelope in flight, m. The plan keeps a larger one, which the tracker may use up.
 const FLOWN_ENVELOPE_M: f64 = 0.0;
@@ -58,14 +59,16 @@ struct VehicleCase<'a> {
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
     ("nodes.clearance", |spec, it| it.shape_pairs.check_nodes(spec, it.trajectory())),
     ("nodes.envelope", |spec, it| it.shape_pairs.check_envelope_nodes(spec, it.trajectory(), it.envelope_m())),
     ("nodes.state_limits", |spec, it| it.limits.check_node_states(spec, it.trajectory()?)),
     ("nodes.control_limits", |spec, it| it.limits.check_node_thrusts(spec, it.trajectory()?)),
     ("nodes.goal", |spec, it| it.end.check_node_goal(spec, it.trajectory()?)),
     ("nodes.gates", |spec, it| it.gates.check_nodes(spec, it.trajectory())),
-    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]))),
+    ("plan.separation", |spec, it| {
+        separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]), SeparationShape::Spatial)
+    }),
     ("plan.clearance", |spec, it| it.shape_pairs.check(spec, it.planned_motion())),
     ("plan.envelope", |spec, it| it.shape_pairs.check_envelope(spec, it.planned_motion(), it.envelope_m())),
     ("plan.state_limits", |spec, it| it.limits.check_planned_states(spec, it.planned()?)),
@@ -85,8 +88,10 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     // The clearance of body, cable and load is that of their true shapes: in a contact it is not positive.
-    ("flight.crash", |spec, it| Ok(flight_integrity::check_crash(spec, it.flight()?, || None))),
-    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]))),
+    ("flight.crash", |spec, it| Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), || None))),
+    ("flight.separation", |spec, it| {
+        separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]), SeparationShape::Spatial)
+    }),
     ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion())),
     ("flight.envelope", |spec, it| {
         it.shape_pairs.check_envelope(spec, it.flown_motion(), it.envelope_m().map(|_| FLOWN_ENVELOPE_M))

@@ -132,7 +132,7 @@ fn load_start_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
 /// Times begin at 0 and increase; where the family allows a discontinuity, two nodes may share one time.
 fn time_defect(trajectory: &Trajectory) -> Option<TrajectoryDefect> {
     let times_s = trajectory.times_s();
-    if exceeds(times_s[0].abs(), TIME_TOLERANCE_S) {
+    if times_s[0] != 0.0 {
         return Some(TrajectoryDefect::FirstTime { t_s: times_s[0] });
     }
     let is_in_order = |pair: &&[f64]| match pair[0].partial_cmp(&pair[1]) {

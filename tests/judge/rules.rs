@@ -2,8 +2,8 @@
 
 use harness::metrics::over_time::{clearance_over_time, separation_over_time};
 use harness::metrics::{Metrics, measure};
-use harness::verdict::{FlownMotions, Outcome, Status, Verdict};
-use scenarios::PlanStatus;
+use harness::verdict::{FlownMotions, Outcome, SeparationShape, Status, Verdict};
+use scenarios::{CHECKS, PlanStatus};
 
 use crate::fleet::{Case, check, factors};
 
@@ -42,15 +42,26 @@ fn a_required_check_that_does_not_exist_fails() {
 #[test]
 fn an_advisory_check_is_shown_and_does_not_decide() {
     let mut case = Case::good();
-    case.trajectory(2).states[6].x_m += 1.5;
-    case.flight = Some(sim::fly(&case.scenario, &case.plan, 0, &mut |_| {}));
+    case.scenario.vehicles[2].goal.z_m += 1.5 * case.scenario.limits().goal_m;
     assert_eq!(case.judge().outcome, Outcome::Fail);
-    case.scenario.verdict.advisory = vec!["plan.dynamics".to_owned()];
+    case.scenario.verdict.advisory = ["nodes.goal", "plan.goal", "flight.goal"].map(str::to_owned).to_vec();
     let verdict = case.judge();
-    let dynamics = check(&verdict, "plan.dynamics");
-    assert_eq!((dynamics.status, dynamics.advisory), (Status::Fail, true));
+    let goal = check(&verdict, "plan.goal");
+    assert_eq!((goal.status, goal.advisory), (Status::Fail, true));
     assert_eq!(verdict.outcome, Outcome::Pass);
     assert!(verdict.overclaimed, "advisory or not, the planner said more than is true");
+}
+
+#[test]
+fn a_crash_and_what_makes_a_log_believable_decide_even_if_advisory() {
+    let mut case = Case::good();
+    case.trajectory(2).states[6].x_m += 1.5;
+    let always_decisive = CHECKS.iter().filter(|check| !check.may_be_advisory());
+    case.scenario.verdict.advisory = always_decisive.map(|check| check.name.to_owned()).collect();
+    assert_eq!(case.scenario.verdict.advisory.len(), 8, "{:?}", case.scenario.verdict.advisory);
+    let verdict = case.judge();
+    assert_eq!(check(&verdict, "plan.dynamics").status, Status::Fail);
+    assert_eq!(verdict.outcome, Outcome::Fail);
 }
 
 #[test]
@@ -166,7 +177,12 @@ fn a_verdict_survives_json() {
     case.samples(0)[3].wind_mps[0] = f64::NAN;
     let verdict = case.judge();
     let text = serde_json::to_string(&verdict).unwrap();
-    assert_eq!(serde_json::from_str::<Verdict>(&text).unwrap(), verdict);
+    let read: Verdict = serde_json::from_str(&text).unwrap();
+    assert_eq!(serde_json::to_string(&read).unwrap(), text);
+    // Everything but the key of the limit, which the JSON does not hold.
+    let mut verdict = verdict;
+    verdict.checks.iter_mut().for_each(|check| check.limit_key = None);
+    assert_eq!(read, verdict);
 }
 
 #[test]
@@ -221,7 +237,7 @@ fn distances_over_time_agree_with_the_verdict() {
         sample.velocity_mps[1] = -2.0;
     }
     let flown = FlownMotions::new(&case.scenario, &case.plan, case.flight.as_ref().unwrap()).unwrap();
-    let separation = separation_over_time(&flown.motions, 0.5);
+    let separation = separation_over_time(&flown.motions, SeparationShape::Horizontal, 0.5);
     assert_eq!(separation.len(), 41);
     for nearest in &separation {
         let apart_m = 200.0 - 2.0 * nearest.t_s;

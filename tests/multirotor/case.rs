@@ -93,6 +93,11 @@ impl Case {
         Self { scenario, plan, flight }
     }
 
+    /// Flies the plan again.
+    pub fn fly(&mut self) {
+        self.flight = Some(fly(&self.scenario, &self.plan, 0, &mut |_| {}));
+    }
+
     pub fn judge(&self) -> Verdict {
         judge(&self.scenario, &self.plan, self.flight.as_ref())
     }

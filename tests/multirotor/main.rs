@@ -3,3 +3,4 @@
 mod case;
 mod edges;
 mod in_loop;
+mod together;

@@ -73,6 +73,7 @@ fn trajectory(
     vehicle: &Vehicle,
     scenario: &Scenario,
 ) -> Result<ImportedTrajectory, Vec<PlanIssue>> {
+    let table = &from_time_zero(table);
     let spec = scenario.family().spec();
     let mut issues = column_issues(table, spec.columns);
     issues.extend(too_short(table));
@@ -90,6 +91,15 @@ fn trajectory(
     let suspicions = units::suspicions(&trajectory, vehicle);
     let located = |(row, issue)| PlanIssue::new(table.locations.of(row), issue);
     if suspicions.is_empty() { Ok(trajectory) } else { Err(suspicions.into_iter().map(located).collect()) }
+}
+
+/// The table with a first time that is 0 but for rounding set to 0.
+fn from_time_zero(table: &ColumnTable) -> ColumnTable {
+    let mut table = table.clone();
+    if let Some(first_s) = table.times_s.first_mut().filter(|first_s| first_s.abs() <= TIME_TOLERANCE_S) {
+        *first_s = 0.0;
+    }
+    table
 }
 
 fn column_issues(table: &ColumnTable, columns: &Columns) -> Vec<PlanIssue> {

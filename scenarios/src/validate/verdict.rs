@@ -21,7 +21,25 @@ pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
         limits.saturation.and_then(|value| fraction("verdict.saturation", value)),
     ];
     let names = unknown_checks("verdict.advisory", &limits.advisory);
-    rules.chain(others).flatten().chain(names).chain(unknown_checks("verdict.required", &limits.required)).collect()
+    rules
+        .chain(others)
+        .flatten()
+        .chain(names)
+        .chain(decisive_checks(&limits.advisory))
+        .chain(unknown_checks("verdict.required", &limits.required))
+        .collect()
+}
+
+/// Advisory checks that always decide.
+fn decisive_checks(advisory: &[String]) -> Vec<Issue> {
+    let is_decisive = |(_, name): &(usize, &String)| check_spec(name).is_some_and(|check| !check.may_be_advisory());
+    let issue = |(index, name): (usize, &String)| {
+        let expected =
+            "a check that may be advisory: those of crashes, completeness, finiteness, conditions and dynamics decide";
+        Issue::new(format!("verdict.advisory[{index}]"), format!("\"{name}\""), expected)
+            .remedy("remove it from the list")
+    };
+    advisory.iter().enumerate().filter(is_decisive).map(issue).collect()
 }
 
 fn fraction(field: &str, value: f64) -> Option<Issue> {

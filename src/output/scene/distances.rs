@@ -5,7 +5,7 @@ use scenarios::Scenario;
 use super::{Curve, Scene, Series, colours};
 use crate::metrics::over_time::{DistanceSample, separation_over_time};
 use crate::output::run::JudgedRun;
-use crate::verdict::{FlownMotions, Motion, is_flyable};
+use crate::verdict::{FlownMotions, Motion, SeparationShape, is_flyable};
 
 /// Time between two points, s.
 const STEP_S: f64 = 0.02;
@@ -14,13 +14,15 @@ const MAX_POINTS: usize = 4000;
 
 /// Adds separation and clearance of the fleet with their limits, and returns them.
 ///
+/// - `shape`: how the separation is measured
 /// - `clearance_over_time`: smallest clearance of any of the motions, at steps of the given length, s
 pub(super) fn add(
     scene: &mut Scene<'_>,
     run: &JudgedRun<'_>,
+    shape: SeparationShape,
     clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
 ) -> Distances {
-    let distances = Distances::new(run, clearance_over_time);
+    let distances = Distances::new(run, shape, clearance_over_time);
     let end_s = scene.end_s;
     let fleet = |group, title: &str, curve: &Curve| Series {
         title: title.to_owned(),
@@ -41,20 +43,24 @@ pub(super) fn add(
 /// Smallest separation and clearance of the fleet over time, m. `None`: not limited, or not defined for this flight.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Distances {
-    /// Horizontal distance between the two vehicles that are closest.
+    /// Distance between the two vehicles that are closest, as the separation measures it.
     pub separation: Option<Curve>,
     /// Distance from an obstacle's surface to the vehicle that is closest; negative inside.
     pub clearance: Option<Curve>,
 }
 
 impl Distances {
-    fn new(run: &JudgedRun<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
+    fn new(
+        run: &JudgedRun<'_>,
+        shape: SeparationShape,
+        clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
+    ) -> Self {
         let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
         let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
             return Self::default();
         };
         let separation = match run.scenario.fleet.separation_m {
-            Some(_) => separation_over_time(&flown.motions, STEP_S),
+            Some(_) => separation_over_time(&flown.motions, shape, STEP_S),
             None => Vec::new(),
         };
         let clearance = clearance_over_time(run.scenario, &flown.motions, STEP_S);

@@ -15,6 +15,7 @@ use super::{
 use crate::metrics::over_time::clearance_over_time;
 use crate::number_format::given;
 use crate::output::run::JudgedRun;
+use crate::verdict::SeparationShape;
 
 /// Shortest time between two poses, s.
 const POSE_INTERVAL_S: f64 = 0.1;
@@ -38,7 +39,7 @@ pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan
 
 fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     add_bodies(scene, run.scenario, flight);
-    let distances = distances::add(scene, run, |scenario, motions, step_s| {
+    let distances = distances::add(scene, run, SeparationShape::Horizontal, |scenario, motions, step_s| {
         clearance_over_time(motions, &scenario.world.cylinders, step_s)
     });
     for quantity in Quantity::ALL {

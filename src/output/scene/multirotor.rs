@@ -10,6 +10,7 @@ use sim::{Actuation, Flight, Sample, VehicleLog};
 use super::{Channel, Channels, FamilyScene, Plot, PlotView, Scene, Series, Tab, colours, distance_m, distances, norm};
 use crate::metrics::over_time::clearance_in_space_over_time;
 use crate::output::run::JudgedRun;
+use crate::verdict::SeparationShape;
 
 /// Largest number of points of one series.
 const MAX_POINTS: usize = 2000;
@@ -26,7 +27,7 @@ fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     if let Some(log) = &flight.planning {
         planning::add(scene, run.scenario, log);
     }
-    let distances = distances::add(scene, run, clearance_in_space_over_time);
+    let distances = distances::add(scene, run, SeparationShape::Spatial, clearance_in_space_over_time);
     let end_s = scene.end_s;
     let tracking_max_m = run.scenario.limits().tracking_max_m;
     scene.series.push(Series::limit("tracking", "limit", tracking_max_m, "m", end_s));

@@ -43,7 +43,7 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Mo
     })
 }
 
-/// FlownMotions states against the physical limits.
+/// Flown states against the physical limits.
 pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
     check_limits(spec, |worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);

@@ -13,12 +13,14 @@ use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::map_bounds::MapBounds;
-use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
 use crate::verdict::{FlownMotions, LimitKey};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
 const ROTATION_TOLERANCE: f64 = 1e-6;
+/// Nodes at one time that differ by less than this, m and m/s, are the same: rounding.
+const SAME_NODE: f64 = 1e-9;
 /// Distance between the bounds of an extreme squared speed that counts as close enough, m²/s².
 const RESOLUTION_M2PS2: f64 = 1e-9;
 
@@ -47,7 +49,7 @@ pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Mo
     })
 }
 
-/// FlownMotions states against the physical limits.
+/// Flown states against the physical limits.
 pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
     check_limits(spec, |worst| {
         let logs = flown.motions.iter().zip(&flown.vehicles);
@@ -61,16 +63,21 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMo
     })
 }
 
-/// PlannedMotions accelerations, those of the cubics between the nodes: they run linearly, and are largest at an end. The planning
-/// limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
+/// Accelerations of the cubics between the nodes, against the planning limits for [`Group::Nodes`] and the physical ones for
+/// [`Group::Plan`]. An acceleration is linear in time and largest at an end. Two nodes that share a time and differ in
+/// position or velocity need an infinite one.
 pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
     check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
             for segment in motion.segments().filter(Segment::lasts) {
                 for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
-                    limited.acceleration(worst, norm(value), limits.acceleration_mps2, t_s);
+                    let value_mps2 = without_rounding(norm(value), limits.acceleration_mps2, &segment);
+                    limited.acceleration(worst, value_mps2, limits.acceleration_mps2, t_s);
                 }
+            }
+            for jump in motion.knots().windows(2).filter(|pair| is_jump(pair)) {
+                limited.acceleration(worst, f64::INFINITY, limits.acceleration_mps2, jump[0].t_s);
             }
         }
     })
@@ -203,10 +210,34 @@ fn accelerations_mps2(segment: &Segment) -> [[f64; 3]; 2] {
     [second(0), second(1)]
 }
 
+/// Whether two knots share a time, but not position and velocity.
+fn is_jump(pair: &[Knot]) -> bool {
+    let differ = |a: [f64; 3], b: [f64; 3]| exceeds(norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]), SAME_NODE);
+    pair[0].t_s == pair[1].t_s
+        && (differ(pair[0].position_m, pair[1].position_m) || differ(pair[0].velocity_mps, pair[1].velocity_mps))
+}
+
+/// An acceleration, m/s², less what rounding of positions and times may contribute, where that decides.
+///
+/// ```text
+/// δa = 6/h² (4 ε |p| + |v| ε t)                          ε of double precision, over an interval of length h
+/// ```
+///
+/// Rows some nanoseconds apart have second differences that are all rounding.
+fn without_rounding(value_mps2: f64, limit_mps2: f64, segment: &Segment) -> f64 {
+    let [from_s, to_s] = segment.t_s;
+    let duration_s = to_s - from_s;
+    let position_m = segment.points_m.iter().map(|point| norm(*point)).fold(0.0, f64::max);
+    let travelled_m = norm(std::array::from_fn(|axis| segment.points_m[3][axis] - segment.points_m[0][axis]));
+    let time_error_m = travelled_m / duration_s * to_s.abs() * f64::EPSILON;
+    let rounding_mps2 = 6.0 * (4.0 * f64::EPSILON * position_m + time_error_m) / (duration_s * duration_s);
+    let decides = exceeds(value_mps2, limit_mps2) && !exceeds(value_mps2 - rounding_mps2, limit_mps2);
+    if decides { (value_mps2 - rounding_mps2).max(0.0) } else { value_mps2 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verdict::motion::Knot;
 
     #[test]
     fn speed_and_acceleration_of_a_cubic_are_found_between_its_ends() {
@@ -221,5 +252,24 @@ mod tests {
         assert!((speed_mps - 3.0).abs() < 1e-6 && (at_s - 0.5).abs() < 1e-3, "{speed_mps} at {at_s}");
         let [first, last] = accelerations_mps2(&segment);
         assert!((first[0] - 12.0).abs() < 1e-12 && (last[0] + 12.0).abs() < 1e-12, "{first:?} {last:?}");
+    }
+
+    #[test]
+    fn a_jump_needs_an_infinite_acceleration_and_rounding_none() {
+        let knot =
+            |t_s: f64, x_m: f64, v_mps: f64| Knot { t_s, position_m: [x_m, 0.0, 0.0], velocity_mps: [v_mps, 0.0, 0.0] };
+        assert!(is_jump(&[knot(1.0, 2.0, 1.0), knot(1.0, 2.5, 1.0)]));
+        assert!(is_jump(&[knot(1.0, 2.0, 1.0), knot(1.0, 2.0, -1.0)]));
+        assert!(!is_jump(&[knot(1.0, 2.0, 1.0), knot(1.0, 2.0, 1.0)]));
+        assert!(!is_jump(&[knot(1.0, 2.0, 1.0), knot(1.1, 2.5, 1.0)]));
+        // 3 ns on a motion at constant velocity: the second difference is rounding.
+        let [a, b] = [4.0, 4.0 + 3e-9].map(|t_s| knot(t_s, 0.7 * t_s, 0.7));
+        let segment = Segment::between(&a, &b);
+        for value in accelerations_mps2(&segment) {
+            assert!(without_rounding(norm(value), 3.0, &segment) <= 3.0, "{value:?}");
+        }
+        // A hop of a micrometre within the same interval is no rounding.
+        let hop = Segment::between(&a, &knot(b.t_s, b.position_m[0] + 1e-6, 0.7));
+        assert!(accelerations_mps2(&hop).iter().all(|value| without_rounding(norm(*value), 3.0, &hop) > 1e6));
     }
 }
