@@ -2,7 +2,7 @@
 //!
 //! The squared distance of two cubics is a polynomial of degree 6 in time, and [`bernstein::minimise`] bounds its
 //! smallest value. One search runs over all segments with the best distance so far, so that a segment, or a whole
-//! [block](super::blocks) of them, that is farther away costs one look at a box.
+//! [block](super::broad_phase) of them, that is farther away costs one look at a box.
 
 use std::ops::Range;
 
@@ -12,7 +12,6 @@ use scenarios::Cylinder;
 use crate::verdict::bernstein;
 use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
-use crate::verdict::separation::SeparationShape;
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
@@ -32,6 +31,15 @@ pub struct ClosestApproach {
     pub at_s: f64,
     /// Who: two vehicles, or a vehicle and an obstacle, by their indices.
     pub who: [usize; 2],
+}
+
+/// How the distance between two vehicles is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeparationShape {
+    /// In the horizontal plane.
+    Horizontal,
+    /// In space.
+    Spatial,
 }
 
 /// Smallest distance between any two of `motions` while both last. `None` with fewer than two.

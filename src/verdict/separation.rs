@@ -5,7 +5,7 @@
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
-use crate::verdict::closest::{self, ClosestApproach};
+use crate::verdict::closest::{self, ClosestApproach, SeparationShape};
 use crate::verdict::compare::{exceeds, is_smaller};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
@@ -13,15 +13,6 @@ use crate::verdict::motion::Motion;
 
 /// Nodes of two vehicles are compared if their times differ by no more than this, s.
 const SAME_TIME_S: f64 = 1e-6;
-
-/// How the distance between two vehicles is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SeparationShape {
-    /// In the horizontal plane.
-    Horizontal,
-    /// In space.
-    Spatial,
-}
 
 /// Over continuous time.
 pub fn check(

@@ -114,7 +114,7 @@ fn write_group(
     Ok(())
 }
 
-/// Reads a log that [`write`] wrote.
+/// Reads a log that [`write()`] wrote.
 ///
 /// # Errors
 ///
