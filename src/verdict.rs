@@ -29,6 +29,7 @@ mod provenance;
 mod random;
 mod rotors;
 mod separation;
+mod separation_shape;
 pub mod slung_load;
 mod tracking;
 mod trajectory_defect;
@@ -40,9 +41,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use arrival::duration_s as flown_duration_s;
-pub use closest::{
-    ClosestApproach, SeparationShape, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders,
-};
+pub use closest::{ClosestApproach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
 pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
@@ -51,6 +50,7 @@ pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, Motion};
 pub use provenance::{Provenance, Reconstruction};
 pub use separation::at_nodes as separation_at_nodes;
+pub use separation_shape::SeparationShape;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
 };

@@ -12,6 +12,7 @@ use scenarios::Cylinder;
 use crate::verdict::bernstein;
 use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::separation_shape::SeparationShape;
 
 /// Distance between the bounds that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
@@ -31,15 +32,6 @@ pub struct ClosestApproach {
     pub at_s: f64,
     /// Who: two vehicles, or a vehicle and an obstacle, by their indices.
     pub who: [usize; 2],
-}
-
-/// How the distance between two vehicles is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SeparationShape {
-    /// In the horizontal plane.
-    Horizontal,
-    /// In space.
-    Spatial,
 }
 
 /// Smallest distance between any two of `motions` while both last. `None` with fewer than two.

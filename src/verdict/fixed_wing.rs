@@ -15,10 +15,10 @@ pub use clearance::at_nodes as clearance_at_nodes;
 pub use planned::PlannedMotions;
 
 use crate::verdict::case::{Case, CheckTable, function_of};
-use crate::verdict::closest::SeparationShape;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
+use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.

@@ -15,10 +15,10 @@ use scenarios::{CheckSpec, Family, Plan};
 pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::{Case, CheckTable, function_of};
-use crate::verdict::closest::SeparationShape;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
+use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
 
 /// Why a plan of positions and velocities has no defects.

@@ -5,11 +5,12 @@
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
-use crate::verdict::closest::{self, ClosestApproach, SeparationShape};
+use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::compare::{exceeds, is_smaller};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
+use crate::verdict::separation_shape::SeparationShape;
 
 /// Nodes of two vehicles are compared if their times differ by no more than this, s.
 const SAME_TIME_S: f64 = 1e-6;

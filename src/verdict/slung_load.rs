@@ -30,10 +30,10 @@ use self::motion::SlungLoadMotion;
 use self::shape_pairs::ShapePairs;
 use self::terminal_conditions::TerminalConditions;
 use crate::verdict::case::{Case, CheckTable, function_of};
-use crate::verdict::closest::SeparationShape;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
+use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::{Check, flight_integrity, separation};
 
 /// Required clearance of the envelope in flight, m. The plan keeps a larger one, which the tracker may use up.
