@@ -228,8 +228,11 @@ fn without_rounding(value_mps2: f64, limit_mps2: f64, segment: &Segment) -> f64 
     let [from_s, to_s] = segment.t_s;
     let duration_s = to_s - from_s;
     let position_m = segment.points_m.iter().map(|point| norm(*point)).fold(0.0, f64::max);
-    let travelled_m = norm(std::array::from_fn(|axis| segment.points_m[3][axis] - segment.points_m[0][axis]));
-    let time_error_m = travelled_m / duration_s * to_s.abs() * f64::EPSILON;
+    let leg_m = |first: usize| {
+        norm(std::array::from_fn(|axis| segment.points_m[first + 1][axis] - segment.points_m[first][axis]))
+    };
+    // The speeds of the nodes, not the distance between them: a jump must not excuse itself.
+    let time_error_m = 3.0 * leg_m(0).max(leg_m(2)) / duration_s * to_s.abs() * f64::EPSILON;
     let rounding_mps2 = 6.0 * (4.0 * f64::EPSILON * position_m + time_error_m) / (duration_s * duration_s);
     let decides = exceeds(value_mps2, limit_mps2) && !exceeds(value_mps2 - rounding_mps2, limit_mps2);
     if decides { (value_mps2 - rounding_mps2).max(0.0) } else { value_mps2 }
@@ -270,6 +273,9 @@ mod tests {
         }
         // A hop of a micrometre within the same interval is no rounding.
         let hop = Segment::between(&a, &knot(b.t_s, b.position_m[0] + 1e-6, 0.7));
+        assert!(accelerations_mps2(&hop).iter().all(|value| without_rounding(norm(*value), 3.0, &hop) > 1e6));
+        // Nor is one between two neighbouring numbers of time.
+        let hop = Segment::between(&a, &knot(a.t_s.next_up(), a.position_m[0] + 0.5, 0.7));
         assert!(accelerations_mps2(&hop).iter().all(|value| without_rounding(norm(*value), 3.0, &hop) > 1e6));
     }
 }
