@@ -8,7 +8,7 @@ use sim::{Flight, PlanningLog, StateHash};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::metrics::Metrics;
 use crate::plan_source::plan_import::CompletedPlan;
-use crate::verdict::{Check, Integration, Outcome, Reconstruction, Verdict};
+use crate::verdict::{Check, Integration, Outcome, Reconstruction, RoundedRows, Verdict};
 
 /// Version of the format of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
@@ -94,6 +94,9 @@ pub struct PlanSummary {
     /// What the plan lacked and was reconstructed, with the error of the reconstruction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reconstruction: Option<Reconstruction>,
+    /// Rows of the plan's file that were left out because differences of their rounded numbers are noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounded: Option<RoundedRows>,
     /// Events of the plan, in the order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventSummary>,
@@ -212,7 +215,8 @@ impl PlanSummary {
             objective: plan.objective,
             events: plan.diagnostics.events.iter().map(EventSummary::new).collect(),
             alternatives: plan.diagnostics.alternatives.iter().map(AlternativeSummary::new).collect(),
-            reconstruction: answer.provenance.reconstruction.clone(),
+            reconstruction: answer.provenance.reconstruction,
+            rounded: answer.provenance.rounded,
         }
     }
 }

@@ -31,6 +31,7 @@ mod rotors;
 mod separation;
 mod separation_shape;
 pub mod slung_load;
+mod tolerance;
 mod tracking;
 mod trajectory_defect;
 mod worst;
@@ -48,7 +49,7 @@ pub use integrity::is_flyable;
 pub use judge::{judge, judge_imported, judge_with};
 pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, Motion};
-pub use provenance::{Provenance, Reconstruction};
+pub use provenance::{GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
 pub use separation::at_nodes as separation_at_nodes;
 pub use separation_shape::SeparationShape;
 pub use tracking::{

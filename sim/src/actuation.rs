@@ -2,6 +2,9 @@
 
 use scenarios::{fixed_wing, slung_load};
 
+/// Commands that exceed a limit by less than this, relative to it, are at the limit.
+const ROUNDING: f64 = 1e-9;
+
 /// Controls at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Actuation {
@@ -23,12 +26,12 @@ pub struct Commanded<C> {
 }
 
 impl Actuation {
-    /// Does the control differ from the command?
+    /// Does the control differ from the command, by more than rounding?
     pub(crate) fn is_saturated(&self) -> bool {
         match self {
-            Self::LoadFactors(Commanded { command, control }) => command != control,
-            Self::Thrusts(Commanded { command, control }) => command != control,
-            Self::Acceleration(Commanded { command, control }) => command != control,
+            Self::LoadFactors(Commanded { command, control }) => differ(command.to_array(), control.to_array()),
+            Self::Thrusts(Commanded { command, control }) => differ(command.thrust_n, control.thrust_n),
+            Self::Acceleration(Commanded { command, control }) => differ(*command, *control),
         }
     }
 
@@ -40,4 +43,10 @@ impl Actuation {
             Self::Acceleration(Commanded { command, control }) => [*command, *control].concat(),
         }
     }
+}
+
+/// NaN differs from everything.
+fn differ<const N: usize>(command: [f64; N], control: [f64; N]) -> bool {
+    let is_same = |(a, b): (f64, f64)| (a - b).abs() <= ROUNDING * b.abs().max(1.0);
+    !command.into_iter().zip(control).all(is_same)
 }

@@ -6,13 +6,19 @@
 //! whose residual is known. Plans of other families must be complete.
 
 mod controls;
+mod rounding;
 mod velocities;
 
+use rounding::Rounding;
 use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
 use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
-use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Vehicle};
+use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
 
-use crate::verdict::{Provenance, Reconstruction};
+use crate::verdict::fixed_wing::{max_acceleration_mps2, max_distance_m};
+use crate::verdict::{GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
+
+/// Load factors that are known better than this come from velocities that fit the positions.
+const EXACT_LOAD_FACTOR: f64 = 1e-3;
 
 /// A complete plan, and what of it was reconstructed.
 #[derive(Clone, Debug)]
@@ -41,17 +47,12 @@ pub fn complete(
     planner: &str,
     seed: u64,
 ) -> CompletedPlan {
-    let mut reconstruction: Option<Reconstruction> = None;
+    let mut provenance = Provenance::whole();
     let mut trajectories = Vec::with_capacity(tracks.len());
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
-        match track {
-            ImportedTrajectory::Complete(trajectory) => trajectories.push(trajectory),
-            ImportedTrajectory::Partial(track) => {
-                let (trajectory, own) = complete_trajectory(vehicle, track);
-                reconstruction = larger_errors(reconstruction, own);
-                trajectories.push(trajectory.into());
-            }
-        }
+        let (trajectory, own) = completed(scenario, vehicle, track);
+        trajectories.push(trajectory);
+        provenance.add(own);
     }
     let plan = Plan {
         status: header.status.unwrap_or(PlanStatus::Unstated),
@@ -62,7 +63,120 @@ pub fn complete(
         timings: header.timings.unwrap_or_default(),
         ..Plan::new(&scenario.name, planner, seed, trajectories)
     };
-    CompletedPlan { plan, provenance: Provenance { reconstruction } }
+    CompletedPlan { plan, provenance }
+}
+
+/// The trajectory of one vehicle, without the rows that are noise, and what of it was given.
+fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) -> (AnyTrajectory, VehicleProvenance) {
+    match track {
+        ImportedTrajectory::Complete(AnyTrajectory::Multirotor(trajectory)) => {
+            let limits = &scenario.multirotor_model(vehicle).limits;
+            let (trajectory, rounded) = thinned_multirotor(trajectory, limits.acceleration_mps2);
+            (trajectory.into(), VehicleProvenance { rounded, ..VehicleProvenance::default() })
+        }
+        ImportedTrajectory::Complete(trajectory) => (trajectory, VehicleProvenance::default()),
+        ImportedTrajectory::Partial(track) => {
+            let limits = &scenario.fixed_wing_model(vehicle).limits;
+            let (track, rounded) = thinned(track, max_acceleration_mps2(limits));
+            let (given, trajectory, residual) = reconstructed(vehicle, track);
+            let reconstruction =
+                residual.map(|residual| between_rows(scenario, vehicle, &trajectory, &given, residual));
+            (trajectory.into(), VehicleProvenance { reconstruction, given, rounded })
+        }
+    }
+}
+
+/// The complete trajectory and what of it was given.
+///
+/// Given velocities need not fit the positions: those of a planner's coarse model do not. Then the motion through the
+/// positions alone may be closer to both.
+fn reconstructed(vehicle: &Vehicle, track: PartialTrajectory) -> (GivenRows, Trajectory, Option<Reconstruction>) {
+    let given = given_rows(&track);
+    let positions = PartialTrajectory { states: None, ..track.clone() };
+    let (trajectory, residual) = complete_trajectory(vehicle, track);
+    let GivenRows::States(given_mps) = &given else { return (given, trajectory, residual) };
+    let Some(own) = residual.filter(|own| own.load_factor > EXACT_LOAD_FACTOR) else {
+        return (given, trajectory, residual);
+    };
+    let (smooth, smooth_residual) = complete_trajectory(vehicle, positions);
+    let Some(smooth_residual) = smooth_residual else { return (given, trajectory, Some(own)) };
+    let apart_mps = smooth.states.iter().zip(given_mps).map(|(state, given)| distance(state.velocity_mps(), *given));
+    let velocity_mps = apart_mps.fold(smooth_residual.velocity_mps, f64::max);
+    let smooth_residual = Reconstruction { velocities: false, velocity_mps, ..smooth_residual };
+    let interval_s = trajectory.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    // A cubic is off by a quarter of what its end velocities are off, times its duration.
+    let off_m = |of: &Reconstruction| of.position_m + of.velocity_mps * interval_s / 4.0;
+    if off_m(&smooth_residual) < off_m(&own) {
+        (given, smooth, Some(smooth_residual))
+    } else {
+        (given, trajectory, Some(own))
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn thinned_multirotor(
+    trajectory: multirotor::Trajectory,
+    acceleration_mps2: f64,
+) -> (multirotor::Trajectory, Option<RoundedRows>) {
+    let multirotor::Trajectory { vehicle, times_s, states } = &trajectory;
+    let positions_m: Vec<[f64; 3]> = states.iter().map(|state| state.position_m).collect();
+    let velocities_mps: Vec<[f64; 3]> = states.iter().map(|state| state.velocity_mps).collect();
+    let rounding = Rounding::of(times_s, &positions_m, &velocities_mps);
+    let is_between = |from, to| rounding.is_on_cubic(times_s, states, from, to);
+    let Some(kept) = rounding.rows_to_keep(times_s, acceleration_mps2, is_between) else { return (trajectory, None) };
+    let rounded = rounding.rows(times_s.len(), kept.len());
+    let vehicle = vehicle.clone();
+    (multirotor::Trajectory { vehicle, times_s: at(&kept, times_s), states: at(&kept, states) }, Some(rounded))
+}
+
+/// A fixed wing's table without the rows that are noise. What lies between the others is bounded by the vehicle's limits.
+fn thinned(track: PartialTrajectory, acceleration_mps2: f64) -> (PartialTrajectory, Option<RoundedRows>) {
+    if track.states.is_some() && track.controls.is_some() {
+        return (track, None);
+    }
+    let PartialTrajectory { vehicle, times_s, positions_m, states, controls } = &track;
+    let velocities_mps: Vec<[f64; 3]> = states.iter().flatten().map(State::velocity_mps).collect();
+    let rounding = Rounding::of(times_s, positions_m, &velocities_mps);
+    let Some(kept) = rounding.rows_to_keep(times_s, acceleration_mps2, |_, _| true) else { return (track, None) };
+    let rounded = rounding.rows(times_s.len(), kept.len());
+    let thinned = PartialTrajectory {
+        vehicle: vehicle.clone(),
+        times_s: at(&kept, times_s),
+        positions_m: at(&kept, positions_m),
+        states: states.as_ref().map(|states| at(&kept, states)),
+        controls: controls.as_ref().map(|controls| at(&kept, controls)),
+    };
+    (thinned, Some(rounded))
+}
+
+/// The values at the rows that are kept.
+fn at<T: Clone>(kept: &[usize], values: &[T]) -> Vec<T> {
+    kept.iter().map(|row| values[*row].clone()).collect()
+}
+
+fn given_rows(track: &PartialTrajectory) -> GivenRows {
+    match (&track.states, &track.controls) {
+        (None, _) => GivenRows::Positions,
+        (Some(states), None) => GivenRows::States(states.iter().map(State::velocity_mps).collect()),
+        (Some(_), Some(_)) => GivenRows::Everything,
+    }
+}
+
+/// The reconstruction with what the vehicle's limits allow between the rows.
+fn between_rows(
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    trajectory: &Trajectory,
+    given: &GivenRows,
+    residual: Reconstruction,
+) -> Reconstruction {
+    let acceleration_mps2 = max_acceleration_mps2(&scenario.fixed_wing_model(vehicle).limits);
+    let row_interval_s = trajectory.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    let between_rows_m = max_distance_m(given, acceleration_mps2, row_interval_s);
+    Reconstruction { row_interval_s, between_rows_m, ..residual }
 }
 
 fn complete_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajectory, Option<Reconstruction>) {
@@ -86,20 +200,6 @@ fn complete_trajectory(vehicle: &Vehicle, track: PartialTrajectory) -> (Trajecto
     let reconstruction = reconstruction.map(|residual| Reconstruction { velocities: velocities_missing, ..residual });
     let interpolation = Interpolation::FirstOrderHold;
     (Trajectory { vehicle: name, interpolation, times_s, states, controls }, reconstruction)
-}
-
-/// The larger errors of two vehicles. NaN counts as larger than any number.
-fn larger_errors(a: Option<Reconstruction>, b: Option<Reconstruction>) -> Option<Reconstruction> {
-    let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
-    match (a, b) {
-        (Some(a), Some(b)) => Some(Reconstruction {
-            velocities: a.velocities || b.velocities,
-            position_m: larger(a.position_m, b.position_m),
-            velocity_mps: larger(a.velocity_mps, b.velocity_mps),
-            load_factor: larger(a.load_factor, b.load_factor),
-        }),
-        (a, b) => a.or(b),
-    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
-use crate::verdict::{Check, arrival, conditions, flight_integrity, integrity, tracking};
+use crate::verdict::{Check, Provenance, arrival, conditions, flight_integrity, integrity, tracking};
 
 /// Why the groups `nodes` and `plan` are skipped for a plan that came into being during the flight.
 const PLANNED_IN_LOOP: &str = "planned in the loop: there was no plan before the flight";
@@ -19,6 +19,8 @@ pub struct Case<'a> {
     pub scenario: &'a Scenario,
     /// The plan, flyable or not.
     pub plan: &'a Plan,
+    /// What the plan gives.
+    pub provenance: &'a Provenance,
     flyable: Result<(), MissingEvidence>,
     flight: Result<&'a Flight, MissingEvidence>,
     flown: Result<FlownMotions<'a>, MissingEvidence>,
@@ -44,11 +46,11 @@ const SHARED_CHECKS: &CheckTable<fn(&CheckSpec, &Case<'_>) -> CheckResult> = &[
 
 impl<'a> Case<'a> {
     /// - `flight`: `None` when the plan was not flown
-    pub fn new(scenario: &'a Scenario, plan: &'a Plan, flight: Option<&'a Flight>) -> Self {
+    pub fn new(scenario: &'a Scenario, plan: &'a Plan, provenance: &'a Provenance, flight: Option<&'a Flight>) -> Self {
         let flyable = integrity::is_flyable(scenario, plan);
         let flight = flyable.clone().and_then(|()| flight.ok_or(MissingEvidence::NotFlown));
         let flown = flight.clone().and_then(|flight| FlownMotions::new(scenario, plan, flight));
-        Self { scenario, plan, flyable, flight, flown }
+        Self { scenario, plan, provenance, flyable, flight, flown }
     }
 
     /// The plan, if it is flyable.

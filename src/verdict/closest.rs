@@ -4,24 +4,21 @@
 //! smallest value. One search runs over all segments with the best distance so far, so that a segment, or a whole
 //! [block](super::broad_phase) of them, that is farther away costs one look at a box.
 
+mod search;
+
 use std::ops::Range;
 
 use rayon::prelude::*;
 use scenarios::Cylinder;
+use search::{Bound, Search};
 
-use crate::verdict::bernstein;
 use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
 use crate::verdict::separation_shape::SeparationShape;
 
-/// Distance between the bounds that counts as close enough, m.
-const RESOLUTION_M: f64 = 1e-9;
-/// Rounding of a squared distance, as a share of the largest coefficient of its polynomial.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`]. Of curves they are
 /// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m); of motions that
-/// are known at samples only, farther by what they may [deviate](Motion::deviation_m) from their curves, twice.
+/// are known up to a [deviation](Motion::deviation_m), farther by twice that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestApproach {
     /// No distance is smaller, m.
@@ -36,36 +33,76 @@ pub struct ClosestApproach {
 
 /// Smallest distance between any two of `motions` while both last. `None` with fewer than two.
 pub fn between_vehicles(motions: &[Motion], shape: SeparationShape) -> Option<ClosestApproach> {
-    let reaches: Vec<Reach> =
-        motions.iter().map(|motion| Reach { radius_m: 0.0, deviation_m: motion.deviation_m() }).collect();
-    let relative = match shape {
+    let seen = match shape {
         SeparationShape::Horizontal => horizontal,
         SeparationShape::Spatial => |relative_m| relative_m,
     };
-    sweep(motions, &reaches, Search::new(), relative)
+    let radii_m = vec![0.0; motions.len()];
+    bounded(motions, |bound| sweep(motions, &radii_m, Search::new(bound), seen))
 }
 
 /// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
 /// `None` if no two touch.
 pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
-    let reaches: Vec<Reach> = radii_m.iter().map(|&radius_m| Reach { radius_m, deviation_m: 0.0 }).collect();
-    sweep(motions, &reaches, Search::below(0.0), |relative_m| relative_m)
+    sweep(motions, radii_m, Search::below(0.0, Bound::Curve), |relative_m| relative_m)
 }
 
-/// The smallest distance between any two of `motions`, which reach so far from their curves, by the control points of one
-/// relative to the other as `seen` leaves them.
+/// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, negative inside.
+/// `None` without either.
+pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<ClosestApproach> {
+    let frame = Frame::over(motions);
+    bounded(motions, |bound| {
+        let mut search = Search::new(bound);
+        for (i, motion) in motions.iter().enumerate() {
+            let blocks = Blocks::new(motion, &frame);
+            for (m, cylinder) in cylinders.iter().enumerate() {
+                let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
+                let reach_m = bound.max_reach_m(cylinder.radius_m, motion);
+                let near = |search: &Search, block: &Block| {
+                    search.may_be_within(block.gap_to_point_m(cylinder.center_m), reach_m)
+                };
+                for block in blocks.iter() {
+                    if near(&search, block) {
+                        for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts)
+                        {
+                            let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
+                            search.look(&relative, &segment, cylinder.radius_m, [i, m]);
+                        }
+                    }
+                }
+            }
+        }
+        search.found()
+    })
+}
+
+/// The bounds of a smallest distance. Of reconstructed motions the upper one needs a search of its own: the place where the
+/// vehicle may be nearest is not the one where it certainly is.
+fn bounded(motions: &[Motion], search: impl Fn(Bound) -> Option<ClosestApproach>) -> Option<ClosestApproach> {
+    let closest = search(Bound::Possible)?;
+    if !motions.iter().any(Motion::is_reconstructed) {
+        return Some(closest);
+    }
+    let certain = search(Bound::Certain)?;
+    Some(ClosestApproach { upper_m: closest.upper_m.min(certain.upper_m), ..closest })
+}
+
+/// The smallest distance between any two of `motions`, balls of `radii_m`, by the control points of one relative to the other
+/// as `seen` leaves them.
 ///
 /// Block by block in time, a sweep from west to east: a pair is looked at only if its boxes are nearer to each other in
 /// x than the best so far, so that the cost grows with the number of neighbours, not with that of pairs.
 fn sweep(
     motions: &[Motion],
-    reaches: &[Reach],
+    radii_m: &[f64],
     mut search: Search,
     seen: fn([[f64; 3]; 4]) -> [[f64; 3]; 4],
 ) -> Option<ClosestApproach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
-    let widest_m = 2.0 * reaches.iter().map(|reach| reach.total_m()).fold(0.0, f64::max);
+    let reaches_m: Vec<f64> =
+        motions.iter().zip(radii_m).map(|(motion, &radius_m)| search.bound().max_reach_m(radius_m, motion)).collect();
+    let widest_m = 2.0 * reaches_m.iter().copied().fold(0.0, f64::max);
     for index in 0..frame.count() {
         let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
         let mut eastward: Vec<usize> = (0..motions.len()).filter(|&i| !blocks[i].segments.is_empty()).collect();
@@ -76,35 +113,11 @@ fn sweep(
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                let reach = reaches[i].and(reaches[j]);
-                if search.may_be_within(blocks[i].gap_m(blocks[j]), reach.total_m()) {
+                if search.may_be_within(blocks[i].gap_m(blocks[j]), reaches_m[i] + reaches_m[j]) {
                     let segments = who.map(|i| blocks[i].segments.clone());
                     each_common_span(who.map(|i| &motions[i]), segments, |relative_m, span| {
-                        search.look(&seen(relative_m), span, reach, who);
+                        search.look(&seen(relative_m), span, radii_m[i] + radii_m[j], who);
                     });
-                }
-            }
-        }
-    }
-    search.found()
-}
-
-/// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, negative inside.
-/// `None` without either.
-pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<ClosestApproach> {
-    let frame = Frame::over(motions);
-    let mut search = Search::new();
-    for (i, motion) in motions.iter().enumerate() {
-        let blocks = Blocks::new(motion, &frame);
-        for (m, cylinder) in cylinders.iter().enumerate() {
-            let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
-            for block in blocks.iter() {
-                let reach = Reach { radius_m: cylinder.radius_m, deviation_m: motion.deviation_m() };
-                if search.may_be_within(block.gap_to_point_m(cylinder.center_m), reach.total_m()) {
-                    for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts) {
-                        let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
-                        search.look(&relative, &segment, reach, [i, m]);
-                    }
                 }
             }
         }
@@ -114,11 +127,10 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Closes
 
 /// Smallest distance, in space, from `motion` to `point_m` from the time `from_s` on. `None` if it ends before.
 pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<ClosestApproach> {
-    let mut search = Search::new();
+    let mut search = Search::new(Bound::Curve);
     for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
         let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
-        let reach = Reach { radius_m: 0.0, deviation_m: 0.0 };
-        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, reach, [0, 0]);
+        search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, 0.0, [0, 0]);
     }
     search.found()
 }
@@ -131,22 +143,8 @@ fn horizontal(points_m: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     points_m.map(|[x, y, _]| [x, y, 0.0])
 }
 
-/// Distance from the origin to the smallest horizontal box around `points_m`, squared.
-fn squared_gap_to_box(points_m: &[[f64; 3]; 4]) -> f64 {
-    let axis_gap = |axis: usize| {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for point in points_m {
-            low = low.min(point[axis]);
-            high = high.max(point[axis]);
-        }
-        low.max(-high).max(0.0)
-    };
-    let (x, y) = (axis_gap(0), axis_gap(1));
-    x * x + y * y
-}
-
 /// Calls `look` with the motion of the first of two vehicles relative to the second, for each span of time in which neither
-/// goes on to its next segment.
+/// goes on to its next segment. The deviation of the span is that of both together.
 fn each_common_span(
     [first, second]: [&Motion; 2],
     [mut a, mut b]: [Range<usize>; 2],
@@ -157,79 +155,12 @@ fn each_common_span(
         let (from_s, to_s) = (one.t_s[0].max(other.t_s[0]), one.t_s[1].min(other.t_s[1]));
         if from_s < to_s {
             let (one, other) = (one.during(from_s, to_s), other.during(from_s, to_s));
-            look(std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k])), &one);
+            let span = Segment { deviation_m: one.deviation_m + other.deviation_m, ..one };
+            look(std::array::from_fn(|k| difference(&one.points_m[k], &other.points_m[k])), &span);
         }
         let (one_end_s, other_end_s) = (one.t_s[1], other.t_s[1]);
         a.start += usize::from(one_end_s <= other_end_s);
         b.start += usize::from(other_end_s <= one_end_s);
-    }
-}
-
-/// The search over all segments: bounds of the smallest distance so far, deviations taken off.
-struct Search {
-    lower_m: f64,
-    upper_m: f64,
-    at: Option<(f64, [usize; 2], f64)>,
-}
-
-/// How far something reaches from its curve.
-#[derive(Clone, Copy)]
-struct Reach {
-    /// As a shape, m.
-    radius_m: f64,
-    /// Because the curve is known no better, m.
-    deviation_m: f64,
-}
-
-impl Reach {
-    fn total_m(self) -> f64 {
-        self.radius_m + self.deviation_m
-    }
-
-    /// How far two of them reach towards each other.
-    fn and(self, other: Self) -> Self {
-        let [radius_m, deviation_m] = [self.radius_m + other.radius_m, self.deviation_m + other.deviation_m];
-        Self { radius_m, deviation_m }
-    }
-}
-
-impl Search {
-    fn new() -> Self {
-        Self::below(f64::INFINITY)
-    }
-
-    /// Only distances below this count, m.
-    fn below(upper_m: f64) -> Self {
-        Self { lower_m: upper_m, upper_m, at: None }
-    }
-
-    /// Can something that is `gap_m` or farther from the centre of a circle be nearer to the circle than the best?
-    fn may_be_within(&self, gap_m: f64, radius_m: f64) -> bool {
-        gap_m - radius_m < self.upper_m
-    }
-
-    /// One segment, by its control points relative to the centre of a circle.
-    fn look(&mut self, relative_m: &[[f64; 3]; 4], span: &Segment, reach: Reach, who: [usize; 2]) {
-        let radius_m = reach.total_m();
-        let reach_m = self.upper_m + radius_m;
-        if reach_m <= 0.0 || squared_gap_to_box(relative_m) >= reach_m * reach_m {
-            return;
-        }
-        let c = bernstein::squared_norm(relative_m);
-        let rounding = ROUNDING * c.iter().copied().fold(0.0, f64::max);
-        let tolerance = |best: f64| (RESOLUTION_M * best.sqrt()).max(RESOLUTION_M * RESOLUTION_M).max(rounding);
-        let minimum = bernstein::minimise(&c, reach_m * reach_m, tolerance);
-        self.lower_m = self.lower_m.min((minimum.lower - rounding).max(0.0).sqrt() - radius_m);
-        if let Some(u) = minimum.at {
-            self.upper_m = (minimum.upper + rounding).sqrt() - radius_m;
-            self.at = Some((span.instant_s(u), who, reach.deviation_m));
-        }
-    }
-
-    fn found(&self) -> Option<ClosestApproach> {
-        let (at_s, who, deviation_m) = self.at?;
-        let lower_m = self.lower_m.min(self.upper_m);
-        Some(ClosestApproach { lower_m, upper_m: self.upper_m + 2.0 * deviation_m, at_s, who })
     }
 }
 

@@ -6,7 +6,7 @@ use scenarios::CheckSpec;
 
 use crate::verdict::closest::ClosestApproach;
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::{Check, Status};
+use crate::verdict::{Check, Status, tolerance};
 
 /// What a check measures, or why it is missing.
 pub type Evidence<'a, T> = Result<&'a T, &'a MissingEvidence>;
@@ -63,11 +63,11 @@ impl Measurement {
 
 /// Compares the measurement of a declared check with its limit.
 pub trait Decide {
-    /// Passes if the lower bound is at least `limit`; undecided if `limit` lies between the bounds.
+    /// Passes if the lower bound is at least `limit`, up to the [`tolerance`]; undecided if `limit` lies between the bounds.
     /// The check reports the lower bound, the conservative one.
     fn at_least(&self, measured: Measurement, limit: f64) -> Check;
 
-    /// Passes if the upper bound is at most `limit`; undecided if `limit` lies between the bounds.
+    /// Passes if the upper bound is at most `limit`, up to the [`tolerance`]; undecided if `limit` lies between the bounds.
     /// The check reports the upper bound, the conservative one.
     fn at_most(&self, measured: Measurement, limit: f64) -> Check;
 
@@ -83,20 +83,22 @@ pub trait Decide {
 
 impl Decide for CheckSpec {
     fn at_least(&self, measured: Measurement, limit: f64) -> Check {
-        let status = decide(measured.lower >= limit, measured.lower < limit && measured.upper >= limit);
+        let least = limit - tolerance::beyond(self, limit);
+        let status = decide(measured.lower >= least, measured.lower < least && measured.upper >= least);
         let (value, margin) = (measured.lower, measured.lower - limit);
         compared(self, status, value, limit, margin, measured)
     }
 
     fn at_most(&self, measured: Measurement, limit: f64) -> Check {
-        let status = decide(measured.upper <= limit, measured.upper > limit && measured.lower <= limit);
+        let most = limit + tolerance::beyond(self, limit);
+        let status = decide(measured.upper <= most, measured.upper > most && measured.lower <= most);
         let (value, margin) = (measured.upper, limit - measured.upper);
         compared(self, status, value, limit, margin, measured)
     }
 
     fn inside(&self, measured: Measurement, limit: f64, margin: f64) -> Check {
         let value = measured.lower;
-        compared(self, decide(margin >= 0.0, false), value, limit, margin, measured)
+        compared(self, decide(margin >= -tolerance::beyond(self, limit), false), value, limit, margin, measured)
     }
 
     fn skip(&self, reason: impl fmt::Display) -> Check {
@@ -135,6 +137,8 @@ fn compared(spec: &CheckSpec, status: Status, value: f64, limit: f64, margin: f6
     let undecided = || format!("between {lower} and {upper} {}: the limit lies between the bounds", spec.unit);
     let reason = if status == Status::Undecided { Some(undecided()) } else { reason };
     let [lower, upper] = [lower, upper].map(|bound| Some(bound).filter(|bound| is_bounded && bound.is_finite()));
+    // Beyond the limit by no more than the tolerance is at the limit.
+    let margin = if status == Status::Pass { margin.max(0.0) } else { margin };
     let (value, limit, margin) = (Some(value), Some(limit), Some(margin));
     Check { status, value, lower, upper, limit, margin, at_s, between, reason, ..without_value(spec, status, "") }
 }

@@ -1,5 +1,6 @@
 //! The judge of fixed-wing fleets.
 
+mod between_rows;
 mod clearance;
 mod dynamics;
 mod limits;
@@ -9,10 +10,13 @@ mod reference;
 
 use std::ops::Deref;
 
-use scenarios::{CheckSpec, Family};
+use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 
+pub use between_rows::{max_acceleration_mps2, max_distance_m};
 pub use clearance::at_nodes as clearance_at_nodes;
 pub use planned::PlannedMotions;
+
+use between_rows::Tube;
 
 use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
@@ -31,6 +35,10 @@ pub fn checks(case: &Case<'_>) -> Vec<Check> {
 struct FleetCase<'a> {
     shared: &'a Case<'a>,
     planned: Result<PlannedMotions, MissingEvidence>,
+    /// Per vehicle, what may lie between the rows of a reconstructed plan.
+    tubes: Vec<Option<Tube>>,
+    /// The flown motions in their tubes; `None` if nothing was reconstructed.
+    flown_in_tubes: Option<Vec<Motion>>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
@@ -38,14 +46,14 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Horizontal)
     }),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
-    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?)),
+    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?, it.provenance)),
     ("nodes.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
     ("plan.separation", |spec, it| {
         separation::check(spec, it.scenario, it.planned_motions(), SeparationShape::Horizontal)
     }),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
-    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?)),
+    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?)),
     ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.plan, it.planned()?)),
@@ -54,14 +62,16 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     ("flight.crash", |spec, it| {
-        let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_cylinder);
+        let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_cylinder);
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
         separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Horizontal)
     }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
-    ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
+    ("flight.state_limits", |spec, it| {
+        limits::check_flown_states(spec, it.scenario, it.flown()?, it.flown_motions()?, &it.tubes)
+    }),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
     ("flight.goal", |spec, it| arrival::check_flown_goals(spec, it.scenario, it.flown()?)),
@@ -73,7 +83,13 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
 impl<'a> FleetCase<'a> {
     fn new(shared: &'a Case<'a>) -> Self {
         let plan = shared.flyable().map_err(MissingEvidence::from);
-        Self { shared, planned: plan.and_then(|plan| PlannedMotions::new(shared.scenario, plan)) }
+        let planned = plan.and_then(|plan| PlannedMotions::new(shared.scenario, plan));
+        let tubes = planned.as_ref().map_or_else(|_| Vec::new(), |planned| tubes(shared, planned));
+        let is_reconstructed = tubes.iter().any(Option::is_some);
+        let flown = shared.flown_motions().ok().filter(|_| is_reconstructed);
+        let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
+        let planned = planned.map(|planned| PlannedMotions { motions: surround(planned.motions, &tubes), ..planned });
+        Self { shared, planned, tubes, flown_in_tubes }
     }
 
     fn planned(&self) -> Evidence<'_, PlannedMotions> {
@@ -84,9 +100,28 @@ impl<'a> FleetCase<'a> {
         self.planned().map(|planned| planned.motions.as_slice())
     }
 
+    /// The flown motions. If the plan was reconstructed, the vehicle would have flown what lies in the tube around it.
     fn flown_motions(&self) -> Evidence<'_, [Motion]> {
-        self.shared.flown_motions()
+        self.flown_in_tubes.as_deref().map_or_else(|| self.shared.flown_motions(), Ok)
     }
+}
+
+fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<Option<Tube>> {
+    let vehicles = case.scenario.vehicles.iter().zip(&case.plan.trajectories).zip(&planned.motions);
+    let tube = |(index, ((vehicle, trajectory), motion)): (usize, ((&Vehicle, &Trajectory), &Motion))| {
+        let limits = &case.scenario.fixed_wing_model(vehicle).limits;
+        Tube::around(motion, trajectory.fixed_wing(), case.provenance.given(index), limits)
+            .map(|tube| tube.widened(case.provenance.rounding_m(index)))
+    };
+    vehicles.enumerate().map(tube).collect()
+}
+
+fn surround(motions: Vec<Motion>, tubes: &[Option<Tube>]) -> Vec<Motion> {
+    let surround = |(motion, tube): (Motion, &Option<Tube>)| match tube {
+        Some(tube) => tube.surround(motion),
+        None => motion,
+    };
+    motions.into_iter().zip(tubes).map(surround).collect()
 }
 
 impl<'a> Deref for FleetCase<'a> {

@@ -29,7 +29,7 @@ pub fn judge_with(
     flight: Option<&Flight>,
     integration: Option<Integration>,
 ) -> Verdict {
-    let case = Case::new(scenario, plan, flight);
+    let case = Case::new(scenario, plan, provenance, flight);
     let mut checks = (families::of(scenario.family()).checks)(&case);
     provenance.mark_undecided(&mut checks);
     let integration = integration.or_else(|| Integration::by_replay(&checks));

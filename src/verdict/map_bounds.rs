@@ -28,12 +28,12 @@ impl<'a> MapBounds<'a> {
         }
     }
 
-    /// Considers a motion over continuous time. Returns its lowest and highest altitude, m, and when, s.
-    pub fn path(&self, worst: &mut Worst<'a>, motion: &Motion) -> [(f64, f64); 2] {
+    /// Considers a motion over continuous time. Returns its lowest and highest altitude, m.
+    pub fn path(&self, worst: &mut Worst<'a>, motion: &Motion) -> [Extreme; 2] {
         let extremes_m = [0, 1, 2].map(|axis| extremes_m(motion, axis));
         for (axis, of_axis) in extremes_m.iter().enumerate() {
-            for &(value, t_s) in of_axis {
-                worst.consider(self.vehicle, self.quantity(axis), value, t_s);
+            for &Extreme { value, error, t_s } in of_axis {
+                worst.consider_within(self.vehicle, self.quantity(axis), (value, error), t_s);
             }
         }
         extremes_m[2]
@@ -45,18 +45,31 @@ impl<'a> MapBounds<'a> {
     }
 }
 
-/// Lowest and highest value of one coordinate over continuous time, m, and when, s.
-pub fn extremes_m(motion: &Motion, axis: usize) -> [(f64, f64); 2] {
+/// The smallest or largest value of a coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct Extreme {
+    /// On the curve, m.
+    pub value: f64,
+    /// How far the true motion may be from the curve there, m: 0 unless it was reconstructed.
+    pub error: f64,
+    /// When, s.
+    pub t_s: f64,
+}
+
+/// Lowest and highest value of one coordinate over continuous time, where the true motion may be lowest and highest.
+pub fn extremes_m(motion: &Motion, axis: usize) -> [Extreme; 2] {
     [1.0, -1.0].map(|sign| {
-        let (mut lowest, mut at_s) = (f64::INFINITY, motion.knots()[0].t_s);
-        for segment in motion.segments() {
-            let c = segment.points_m.map(|point| sign * point[axis]);
+        let (mut lowest, mut at) = (f64::INFINITY, Extreme { value: f64::NAN, error: 0.0, t_s: motion.knots()[0].t_s });
+        for (index, segment) in motion.segments().enumerate() {
+            let error = motion.tube_m(index);
+            let c = segment.points_m.map(|point| sign * point[axis] - error);
             if c.iter().any(|&coefficient| coefficient < lowest) {
                 let minimum = bernstein::minimise(&c, lowest, |_| RESOLUTION_M);
                 lowest = minimum.lower;
-                at_s = minimum.at.map_or(at_s, |u| segment.instant_s(u));
+                let t_s = minimum.at.map_or(at.t_s, |u| segment.instant_s(u));
+                at = Extreme { value: sign * (lowest + error), error, t_s };
             }
         }
-        (sign * lowest, at_s)
+        at
     })
 }

@@ -28,7 +28,10 @@ pub struct Knot {
 pub struct Motion {
     vehicle: String,
     knots: Vec<Knot>,
+    /// Of samples of a smooth motion: the interpolation error.
     deviation_m: f64,
+    /// Of a reconstructed motion: how far the true one may be from each segment; empty otherwise.
+    tube_m: Vec<f64>,
 }
 
 impl Motion {
@@ -48,7 +51,7 @@ impl Motion {
         if let Some(pair) = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s) {
             return Err(MissingEvidence::DecreasingTime { body, t_s: pair[0].t_s });
         }
-        Ok(Self { vehicle: vehicle.to_owned(), knots, deviation_m: 0.0 })
+        Ok(Self { vehicle: vehicle.to_owned(), knots, deviation_m: 0.0, tube_m: Vec::new() })
     }
 
     /// Treats the knots as samples of a smooth motion. Bounds of distances are widened by the interpolation error:
@@ -92,9 +95,27 @@ impl Motion {
         kept
     }
 
-    /// Largest distance of the true motion from the curve between two knots, m.
+    /// Surrounds the motion by a tube that holds the true motion.
+    ///
+    /// - `radius_m`: the radius of the tube around a segment
+    pub fn within(mut self, radius_m: impl Fn(&Segment) -> f64) -> Self {
+        self.tube_m = self.segments().map(|segment| radius_m(&segment)).collect();
+        self
+    }
+
+    /// Largest distance of the true motion from the curve, m.
     pub fn deviation_m(&self) -> f64 {
-        self.deviation_m
+        self.deviation_m + self.tube_m.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Radius of the tube around the segment `index`, m: 0 unless the motion was reconstructed. Hovering after it, the last.
+    pub fn tube_m(&self, index: usize) -> f64 {
+        self.tube_m.get(index).or(self.tube_m.last()).copied().unwrap_or(0.0)
+    }
+
+    /// Whether the motion was reconstructed, so that the true one is only known to be in a tube around it.
+    pub fn is_reconstructed(&self) -> bool {
+        !self.tube_m.is_empty()
     }
 
     /// Name of the vehicle.
@@ -136,6 +157,7 @@ impl Motion {
     pub fn end_at(&mut self, t_s: f64) {
         let kept = self.knots.partition_point(|knot| knot.t_s < t_s) + 1;
         self.knots.truncate(kept.max(2));
+        self.tube_m.truncate(self.knots.len() - 1);
     }
 
     /// Number of segments: one between each two knots.
@@ -145,12 +167,13 @@ impl Motion {
 
     /// The curve between the knots `index` and `index + 1`.
     pub fn segment(&self, index: usize) -> Segment {
-        Segment::between(&self.knots[index], &self.knots[index + 1])
+        let deviation_m = self.deviation_m + self.tube_m(index);
+        Segment { deviation_m, ..Segment::between(&self.knots[index], &self.knots[index + 1]) }
     }
 
     /// All segments, in the order of time.
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
-        self.knots.windows(2).map(|pair| Segment::between(&pair[0], &pair[1]))
+        (0..self.segment_count()).map(|index| self.segment(index))
     }
 }
 
@@ -165,6 +188,8 @@ pub struct Segment {
     pub t_s: [f64; 2],
     /// Control points, m.
     pub points_m: [[f64; 3]; 4],
+    /// How far the true motion may be from the curve, m.
+    pub deviation_m: f64,
 }
 
 impl Segment {
@@ -173,7 +198,7 @@ impl Segment {
         let third_s = (b.t_s - a.t_s) / 3.0;
         let leaving = std::array::from_fn(|axis| a.position_m[axis] + third_s * a.velocity_mps[axis]);
         let entering = std::array::from_fn(|axis| b.position_m[axis] - third_s * b.velocity_mps[axis]);
-        Self { t_s: [a.t_s, b.t_s], points_m: [a.position_m, leaving, entering, b.position_m] }
+        Self { t_s: [a.t_s, b.t_s], points_m: [a.position_m, leaving, entering, b.position_m], deviation_m: 0.0 }
     }
 
     /// The part of the curve in [`from_s`, `to_s`], a subinterval of the segment.
@@ -191,7 +216,7 @@ impl Segment {
                 point[axis] = value;
             }
         }
-        Self { t_s: [from_s, to_s], points_m }
+        Self { t_s: [from_s, to_s], points_m, ..*self }
     }
 
     /// Third derivative, constant over the segment, m/s³.

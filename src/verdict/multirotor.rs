@@ -19,7 +19,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
+use crate::verdict::{Check, Provenance, arrival, collision, flight_integrity, separation};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
@@ -38,6 +38,8 @@ struct FleetCase<'a> {
     planned: Result<Vec<Motion>, MissingEvidence>,
     /// The planned motions, each hovering at its end until the last vehicle has arrived.
     hovering: Result<Vec<Motion>, MissingEvidence>,
+    /// The flown motions, as far as a rounded plan is known; `None` if it was not rounded.
+    flown_rounded: Option<Vec<Motion>>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
@@ -58,7 +60,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     ("flight.crash", |spec, it| {
-        let contact = || collision::deepest(it.scenario, it.flown_motions().ok()?, clearance::entered_obstacle);
+        let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
@@ -75,9 +77,15 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
 impl<'a> FleetCase<'a> {
     fn new(shared: &'a Case<'a>) -> Self {
         let plan = shared.flyable().map_err(MissingEvidence::from);
-        let planned = plan.and_then(planned_motions);
+        let planned = plan.and_then(planned_motions).map(|motions| rounded(motions, shared.provenance));
         let hovering = planned.clone().map(until_all_have_arrived);
-        Self { shared, planned, hovering }
+        let flown = shared.flown_motions().ok().filter(|_| shared.provenance.rounded.is_some());
+        let flown_rounded = flown.map(|motions| rounded(motions.to_vec(), shared.provenance));
+        Self { shared, planned, hovering, flown_rounded }
+    }
+
+    fn flown_motions(&self) -> Evidence<'_, [Motion]> {
+        self.flown_rounded.as_deref().map_or_else(|| self.shared.flown_motions(), Ok)
     }
 
     fn hovering(&self) -> Evidence<'_, [Motion]> {
@@ -103,6 +111,15 @@ fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, MissingEvidence> {
     let motion =
         |trajectory: &Trajectory| Motion::new(&trajectory.vehicle, trajectory.nodes().into_iter().map(knot).collect());
     plan.trajectories.iter().map(|trajectory| motion(trajectory.multirotor())).collect()
+}
+
+/// The motions, each in a tube as wide as its rows were rounded.
+fn rounded(motions: Vec<Motion>, provenance: &Provenance) -> Vec<Motion> {
+    let tube = |(index, motion): (usize, Motion)| match provenance.rounding_m(index) {
+        0.0 => motion,
+        rounding_m => motion.within(|_| rounding_m),
+    };
+    motions.into_iter().enumerate().map(tube).collect()
 }
 
 /// A vehicle that has arrived hovers there until the last one has.

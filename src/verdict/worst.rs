@@ -5,11 +5,7 @@ use scenarios::{CheckSpec, Range};
 use crate::number_format::given_range;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::{Check, LimitKey};
-
-/// How far a node may be outside a planning limit, as a fraction of the limit's range: the tolerance of a solver.
-/// The limit that a check reports includes it. The physical limits have no tolerance.
-pub const SOLVER_TOLERANCE: f64 = 1e-6;
+use crate::verdict::{Check, LimitKey, Status};
 
 /// Something limited to a range.
 #[derive(Clone, Copy)]
@@ -26,47 +22,83 @@ pub struct Quantity {
 
 /// The value that uses most of its range so far.
 pub struct Worst<'a> {
+    /// The worst that is possible.
+    possible: Candidate<'a>,
+    /// The worst that is certain: not the same where values are known up to an error.
+    certain: Candidate<'a>,
+}
+
+/// A value and its margin as a fraction of its range.
+#[derive(Clone)]
+struct Candidate<'a> {
     relative: f64,
     found: Option<Found<'a>>,
 }
 
 /// A value of a vehicle at a time.
+#[derive(Clone)]
 struct Found<'a> {
     vehicle: &'a str,
     quantity: Quantity,
     value: f64,
+    error: f64,
     t_s: f64,
 }
 
 impl<'a> Worst<'a> {
     fn new() -> Self {
-        Self { relative: f64::INFINITY, found: None }
+        let none = Candidate { relative: f64::INFINITY, found: None };
+        Self { possible: none.clone(), certain: none }
     }
 
     /// Keeps `value` if it uses more of its range than those before it. Margins of different units are compared as fractions of
     /// their ranges. NaN counts as the worst.
     pub fn consider(&mut self, vehicle: &'a str, quantity: Quantity, value: f64, t_s: f64) {
+        self.consider_within(vehicle, quantity, (value, 0.0), t_s);
+    }
+
+    /// [`consider`](Self::consider), of a value that is known up to an error.
+    pub fn consider_within(&mut self, vehicle: &'a str, quantity: Quantity, (value, error): (f64, f64), t_s: f64) {
         let Range { min, max } = quantity.range;
         let margin = (value - min).min(max - value);
         let width = max - min;
-        let relative = if width > 0.0 && width.is_finite() { margin / width } else { margin };
+        let relative = |margin: f64| if width > 0.0 && width.is_finite() { margin / width } else { margin };
+        let found = Found { vehicle, quantity, value, error, t_s };
+        self.possible.keep(relative(margin - error), &found);
+        self.certain.keep(relative(margin + error), &found);
+    }
+}
+
+impl<'a> Candidate<'a> {
+    fn keep(&mut self, relative: f64, found: &Found<'a>) {
         if relative >= self.relative {
             return;
         }
         self.relative = if relative.is_nan() { f64::NEG_INFINITY } else { relative };
-        self.found = Some(Found { vehicle, quantity, value, t_s });
+        self.found = Some(found.clone());
     }
 }
 
 impl Found<'_> {
     fn into_check(self, spec: &CheckSpec) -> Check {
-        let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, t_s } = self;
-        let limit = if value - range.min < range.max - value { range.min } else { range.max };
-        let margin = range.margin(value);
-        let place = if margin >= 0.0 { "inside" } else { "outside" };
-        let remark = format!("{what} {place} {}", given_range(range, unit));
-        let measured = Measurement::value(value).at(t_s).with(vehicle).with_reason(remark);
-        Check { unit: unit.to_owned(), limit_key: Some(key), ..spec.inside(measured, limit, margin) }
+        let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, error, t_s } = self;
+        let is_low = value - range.min < range.max - value;
+        let limit = if is_low { range.min } else { range.max };
+        let exact = Measurement::value(value).at(t_s).with(vehicle);
+        let bounded = Measurement::bounds(value - error, value + error).at(t_s).with(vehicle);
+        let spec = &CheckSpec { unit, ..*spec };
+        let mut check = match is_low {
+            _ if error == 0.0 => spec.inside(exact, limit, range.margin(value)),
+            true => spec.at_least(bounded, limit),
+            false => spec.at_most(bounded, limit),
+        };
+        let remark = |place: &str| format!("{what} {place} {}", given_range(range, unit));
+        match check.status {
+            Status::Undecided => {}
+            Status::Pass | Status::Skip => check.reason = Some(remark("inside")),
+            Status::Fail => check.reason = Some(remark("outside")),
+        }
+        Check { limit_key: Some(key), ..check }
     }
 }
 
@@ -74,5 +106,7 @@ impl Found<'_> {
 pub fn check_limits<'a>(spec: &CheckSpec, consider: impl FnOnce(&mut Worst<'a>)) -> CheckResult {
     let mut worst = Worst::new();
     consider(&mut worst);
-    Ok(worst.found.ok_or(MissingEvidence::NoValue)?.into_check(spec))
+    let Worst { possible, certain } = worst;
+    let decides = if certain.relative < 0.0 { certain } else { possible };
+    Ok(decides.found.ok_or(MissingEvidence::NoValue)?.into_check(spec))
 }

@@ -7,4 +7,5 @@ mod fleet;
 mod roundabout;
 mod rules;
 mod simulated;
+mod sparse_rows;
 mod submitted;

@@ -85,12 +85,17 @@ fn nodes_at_different_times_are_not_compared() {
 }
 
 #[test]
-fn a_distance_nearer_to_its_limit_than_rounding_is_undecided() {
+fn a_distance_that_misses_its_limit_by_rounding_is_at_the_limit() {
     let mut case = Case::good();
     case.scenario.fleet.separation_m = Some(200.0);
     let check = case.check("plan.separation");
-    assert_eq!(check.status, Status::Undecided, "{check:#?}");
-    assert_eq!(case.judge().outcome, Outcome::Fail);
+    assert_eq!((check.status, check.margin), (Status::Pass, Some(0.0)), "{check:#?}");
+    // A micrometre is no rounding between the nodes, and what a solver leaves at them.
+    case.scenario.fleet.separation_m = Some(200.0 + 1e-6);
+    assert_eq!(case.status("plan.separation"), Status::Fail);
+    assert_eq!(case.status("nodes.separation"), Status::Pass);
+    case.scenario.fleet.separation_m = Some(200.0 + 2e-5);
+    assert_eq!(case.status("nodes.separation"), Status::Fail);
 }
 
 #[test]

@@ -21,6 +21,7 @@ pub(super) const COLUMNS: Columns = Columns {
     words: &[],
     arrays: &[],
     allows_discontinuity: false,
+    refuses_gaps: false,
 };
 
 /// The planned motion of one aircraft as far as the file gives it: velocities and controls at every node, or not at all.

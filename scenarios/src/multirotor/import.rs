@@ -16,6 +16,7 @@ pub(super) const COLUMNS: Columns = Columns {
     words: &[],
     arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],
     allows_discontinuity: true,
+    refuses_gaps: true,
 };
 
 pub(super) fn trajectory(table: &ColumnTable) -> ImportedTrajectory {

@@ -82,7 +82,7 @@ fn trajectory(
     }
     if issues.is_empty() {
         let max_end_s = MAX_DURATIONS * scenario.simulation.max_duration_s;
-        issues.extend(time_issue(table, spec.columns.allows_discontinuity).or_else(|| too_long(table, max_end_s)));
+        issues.extend(time_issue(table, spec.columns).or_else(|| too_long(table, max_end_s)));
     }
     if !issues.is_empty() {
         return Err(issues);
@@ -158,10 +158,8 @@ fn not_finite(table: &ColumnTable) -> Vec<PlanIssue> {
         .collect()
 }
 
-/// The first violation of: times start at 0, increase, and have no gap.
-///
-/// - `allows_discontinuity`: whether two successive rows may share a time
-fn time_issue(table: &ColumnTable, allows_discontinuity: bool) -> Option<PlanIssue> {
+/// The first violation of: times start at 0, increase, and have no gap where that matters.
+fn time_issue(table: &ColumnTable, columns: &Columns) -> Option<PlanIssue> {
     let times_s = &table.times_s;
     let issue = |row: usize, found: String, expected: &str, remedy: &str| {
         let issue = Issue::new("t_s", found, expected).remedy(remedy);
@@ -176,19 +174,29 @@ fn time_issue(table: &ColumnTable, allows_discontinuity: bool) -> Option<PlanIss
         let found = format!("{} s after {} s", pair[1], pair[0]);
         match pair[0].partial_cmp(&pair[1]) {
             Some(Ordering::Less) => intervals_s.push(pair[1] - pair[0]),
-            Some(Ordering::Equal) if allows_discontinuity && intervals_s.last() != Some(&0.0) => intervals_s.push(0.0),
+            Some(Ordering::Equal) if columns.allows_discontinuity && intervals_s.last() != Some(&0.0) => {
+                intervals_s.push(0.0);
+            }
             Some(Ordering::Equal) => {
                 return issue(row + 1, found, "each time once per vehicle", "remove one of the rows");
             }
             _ => return issue(row + 1, found, "rows in the order of time", "sort the rows of each vehicle by t_s"),
         }
     }
+    if columns.refuses_gaps { gap_issue(table, &intervals_s) } else { None }
+}
+
+/// The first interval that is much longer than the others.
+fn gap_issue(table: &ColumnTable, intervals_s: &[f64]) -> Option<PlanIssue> {
     let mut sorted: Vec<f64> = intervals_s.iter().copied().filter(|interval_s| *interval_s > 0.0).collect();
     sorted.sort_by(f64::total_cmp);
     let median_s = *sorted.get(sorted.len() / 2)?;
     let gap = intervals_s.iter().position(|interval_s| *interval_s > MAX_INTERVALS * median_s)?;
-    let found = format!("a gap from {} s to {} s, where rows are {median_s} s apart", times_s[gap], times_s[gap + 1]);
-    issue(gap + 1, found, "no interval longer than 20 times the median", "add the missing rows, or resample the plan")
+    let [from_s, to_s] = [table.times_s[gap], table.times_s[gap + 1]];
+    let found = format!("a gap from {from_s} s to {to_s} s, where rows are {median_s} s apart");
+    let issue = Issue::new("t_s", found, "no interval longer than 20 times the median");
+    let issue = issue.remedy("add the missing rows, or resample the plan");
+    Some(PlanIssue::new(table.locations.of(gap + 1), of_vehicle(table, issue)))
 }
 
 /// An end so late that the times must be in another unit.

@@ -23,6 +23,9 @@ pub struct Columns {
     pub arrays: &'static [(&'static str, &'static [&'static str])],
     /// Whether two successive rows may share a time, before and after a jump in velocity.
     pub allows_discontinuity: bool,
+    /// Whether the rows alone determine the motion between them, so that an interval much longer than the others is refused:
+    /// rows are missing. Otherwise the judge accounts for what may happen between two rows.
+    pub refuses_gaps: bool,
 }
 
 /// Name of the column with the vehicle's name.

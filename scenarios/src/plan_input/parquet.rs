@@ -22,6 +22,12 @@ pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<
         vec![PlanIssue::new("", issue)]
     };
     let reader = SerializedFileReader::new(file).map_err(broken)?;
+    let columns = reader.metadata().file_metadata().schema().get_fields();
+    let names: Vec<&str> = columns.iter().map(|column| column.name()).collect();
+    if let Some((_, twice)) = names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)) {
+        let issue = Issue::new("columns", format!("two columns named `{twice}`"), "each name once");
+        return Err(vec![PlanIssue::new("", issue.remedy("rename or remove one of them"))]);
+    }
     let only_vehicle = (scenario.vehicles.len() == 1).then(|| scenario.vehicles[0].name.as_str());
     let mut document = PlanDocument::default();
     let mut issues = Vec::new();

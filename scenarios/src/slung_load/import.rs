@@ -24,6 +24,7 @@ pub(super) const COLUMNS: Columns = Columns {
         ("thrust_n", &["thrust_1_n", "thrust_2_n", "thrust_3_n", "thrust_4_n"]),
     ],
     allows_discontinuity: true,
+    refuses_gaps: true,
 };
 
 pub(super) fn trajectory(table: &ColumnTable) -> ImportedTrajectory {

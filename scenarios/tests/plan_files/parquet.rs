@@ -56,6 +56,19 @@ fn issues_are_located_by_row() {
     assert!(lines[0].contains("plan.parquet, row 38: x_m of uav-2: found NaN"), "{lines:#?}");
 }
 
+#[test]
+fn two_columns_of_one_name_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.parquet");
+    let doubled = complete().lines().enumerate().map(|(line, text)| {
+        let x_m = if line == 0 { "x_m" } else { "7" };
+        format!("{text},{x_m}")
+    });
+    write(&path, &doubled.collect::<Vec<_>>().join("\n"));
+    let lines = read(&path, &scenario()).unwrap_err().lines();
+    assert!(lines.len() == 1 && lines[0].contains("two columns named `x_m`"), "{lines:#?}");
+}
+
 /// Changed bytes and truncation never cause a panic, and what is accepted is finite.
 #[test]
 fn damaged_files_are_rejected_or_valid() {

@@ -11,7 +11,7 @@ use super::{Summary, SummaryRun, headline, table};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::number_format::{number, quantity, signed, signed_quantity};
 use crate::report::Report;
-use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, Status};
+use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, RoundedRows, Status};
 
 /// Number of lines of an external planner's log that are shown if there is no plan.
 const LOG_LINES: usize = 20;
@@ -122,6 +122,7 @@ fn plan_line(report: &Report) -> String {
     }
     parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
     parts.extend(plan.reconstruction.as_ref().map(Reconstruction::describe));
+    parts.extend(plan.rounded.as_ref().map(RoundedRows::describe));
     parts.join("; ")
 }
 

@@ -51,7 +51,7 @@ pub(super) fn fit(times_s: &[f64], states: &[State]) -> (Vec<Control>, Reconstru
 
 /// Largest residuals of all intervals when `controls` lead from each state to the next.
 pub(super) fn residual(times_s: &[f64], states: &[State], controls: &[Control]) -> Reconstruction {
-    let mut largest = Reconstruction { velocities: false, position_m: 0.0, velocity_mps: 0.0, load_factor: 0.0 };
+    let mut largest = Reconstruction::default();
     // f64::max would drop NaN.
     let larger = |old: f64, new: f64| if new.is_nan() || new > old { new } else { old };
     for k in 0..times_s.len() - 1 {

@@ -11,49 +11,73 @@
 use scenarios::fixed_wing::{Control, Limits, Model};
 use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
-use crate::verdict::LimitKey;
 use crate::verdict::evidence::CheckResult;
+use crate::verdict::fixed_wing::between_rows::Tube;
 use crate::verdict::flown::FlownMotions;
-use crate::verdict::map_bounds::MapBounds;
+use crate::verdict::map_bounds::{Extreme, MapBounds};
 use crate::verdict::motion::Motion;
-use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
+use crate::verdict::tolerance::SOLVER_TOLERANCE;
+use crate::verdict::worst::{Quantity, Worst, check_limits};
+use crate::verdict::{GivenRows, LimitKey, Provenance};
 
-/// States at the nodes against the planning limits.
-pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
+/// States at the nodes against the planning limits. Velocities that the plan gives count as they are given.
+pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, provenance: &Provenance) -> CheckResult {
     check_limits(spec, |worst| {
-        for (limited, trajectory) in limited_vehicles(scenario, promised).zip(&plan.trajectories) {
+        for (index, (limited, trajectory)) in limited_vehicles(scenario, promised).zip(&plan.trajectories).enumerate() {
             let trajectory = trajectory.fixed_wing();
-            for (state, &t_s) in trajectory.states.iter().zip(&trajectory.times_s) {
+            for (node, (state, &t_s)) in trajectory.states.iter().zip(&trajectory.times_s).enumerate() {
                 limited.place(worst, state.position_m(), t_s);
-                limited.velocity(worst, state.speed_mps, state.flight_path_rad.to_degrees(), t_s);
+                match provenance.given(index) {
+                    GivenRows::States(given_mps) => limited.velocity_vector(worst, given_mps[node], 0.0, t_s),
+                    GivenRows::Positions | GivenRows::Everything => {
+                        let flight_path_deg = state.flight_path_rad.to_degrees();
+                        limited.velocity(worst, (state.speed_mps, 0.0), (flight_path_deg, 0.0), t_s);
+                    }
+                }
             }
         }
     })
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+pub fn check_planned_states(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    tubes: &[Option<Tube>],
+) -> CheckResult {
     check_limits(spec, |worst| {
-        for (limited, motion) in limited_vehicles(scenario, physical).zip(motions) {
+        for ((limited, motion), tube) in limited_vehicles(scenario, physical).zip(motions).zip(tubes) {
             limited.path(worst, motion);
             for knot in motion.knots() {
-                limited.velocity_vector(worst, knot.velocity_mps, knot.t_s);
+                limited.velocity_vector(worst, knot.velocity_mps, error_mps(tube, knot.t_s), knot.t_s);
             }
         }
     })
 }
 
 /// Flown states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+pub fn check_flown_states(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    flown: &FlownMotions<'_>,
+    motions: &[Motion],
+    tubes: &[Option<Tube>],
+) -> CheckResult {
     check_limits(spec, |worst| {
-        let logs = flown.motions.iter().zip(&flown.vehicles);
-        for (limited, (motion, vehicle)) in limited_vehicles(scenario, physical).zip(logs) {
+        let logs = motions.iter().zip(&flown.vehicles).zip(tubes);
+        for (limited, ((motion, vehicle), tube)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);
             for sample in vehicle.judged {
-                limited.velocity_vector(worst, sample.air_velocity_mps(), sample.t_s);
+                limited.velocity_vector(worst, sample.air_velocity_mps(), error_mps(tube, sample.t_s), sample.t_s);
             }
         }
     })
+}
+
+/// What is not known of a velocity, m/s.
+fn error_mps(tube: &Option<Tube>, t_s: f64) -> f64 {
+    tube.as_ref().map_or(0.0, |tube| tube.velocity_mps(t_s))
 }
 
 /// Controls at the nodes: the planning limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
@@ -126,22 +150,21 @@ impl<'a> Limited<'a> {
     }
 
     fn path(&self, worst: &mut Worst<'a>, motion: &Motion) {
-        for (value, t_s) in self.map.path(worst, motion) {
-            self.altitude(worst, value, t_s);
+        for Extreme { value, error, t_s } in self.map.path(worst, motion) {
+            worst.consider_within(self.vehicle, self.altitude_quantity(), (value, error), t_s);
         }
     }
 
     fn altitude(&self, worst: &mut Worst<'a>, value: f64, t_s: f64) {
-        let altitude = Quantity {
-            name: "altitude",
-            unit: "m",
-            range: self.limits.altitude_m,
-            key: LimitKey::Limits("altitude_m"),
-        };
-        worst.consider(self.vehicle, altitude, value, t_s);
+        worst.consider(self.vehicle, self.altitude_quantity(), value, t_s);
     }
 
-    fn velocity(&self, worst: &mut Worst<'a>, speed_mps: f64, flight_path_deg: f64, t_s: f64) {
+    fn altitude_quantity(&self) -> Quantity {
+        Quantity { name: "altitude", unit: "m", range: self.limits.altitude_m, key: LimitKey::Limits("altitude_m") }
+    }
+
+    /// - `speed_mps`, `flight_path_deg`: each with its error
+    fn velocity(&self, worst: &mut Worst<'a>, speed_mps: (f64, f64), flight_path_deg: (f64, f64), t_s: f64) {
         let speed =
             Quantity { name: "speed", unit: "m/s", range: self.limits.speed_mps, key: LimitKey::Limits("speed_mps") };
         let flight_path = Quantity {
@@ -150,13 +173,18 @@ impl<'a> Limited<'a> {
             range: self.limits.flight_path_deg,
             key: LimitKey::Limits("flight_path_deg"),
         };
-        worst.consider(self.vehicle, speed, speed_mps, t_s);
-        worst.consider(self.vehicle, flight_path, flight_path_deg, t_s);
+        worst.consider_within(self.vehicle, speed, speed_mps, t_s);
+        worst.consider_within(self.vehicle, flight_path, flight_path_deg, t_s);
     }
 
-    fn velocity_vector(&self, worst: &mut Worst<'a>, [x, y, z]: [f64; 3], t_s: f64) {
+    fn velocity_vector(&self, worst: &mut Worst<'a>, [x, y, z]: [f64; 3], error_mps: f64, t_s: f64) {
         let horizontal = (x * x + y * y).sqrt();
-        self.velocity(worst, (x * x + y * y + z * z).sqrt(), z.atan2(horizontal).to_degrees(), t_s);
+        let speed_mps = (x * x + y * y + z * z).sqrt();
+        // A vector turns by at most asin(|error|/|vector|).
+        let error_deg = if error_mps < speed_mps { (error_mps / speed_mps).asin().to_degrees() } else { 180.0 };
+        let error_deg = if error_mps == 0.0 { 0.0 } else { error_deg };
+        let flight_path_deg = z.atan2(horizontal).to_degrees();
+        self.velocity(worst, (speed_mps, error_mps), (flight_path_deg, error_deg), t_s);
     }
 
     fn control(&self, worst: &mut Worst<'a>, control: &Control, t_s: f64) {

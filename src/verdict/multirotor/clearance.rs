@@ -12,7 +12,7 @@ use sim::multirotor::Obstacles;
 use crate::verdict::collision::{GRAZE_M, crash};
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
-use crate::verdict::map_bounds::extremes_m;
+use crate::verdict::map_bounds::{Extreme, extremes_m};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Motion, Segment};
 
@@ -146,7 +146,7 @@ impl<'a> Clearances<'a> {
 
 fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<ObstacleApproach>) {
     for (axis, range) in scenario.world.map.axes().into_iter().enumerate() {
-        for (value, at_s) in extremes_m(motion, axis) {
+        for Extreme { value, t_s: at_s, .. } in extremes_m(motion, axis) {
             let distance_m = range.margin(value) - reach_m;
             consider(best, distance_m, || ObstacleApproach::exact(distance_m, at_s, vehicle, FRAME));
         }

@@ -14,7 +14,8 @@ use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::{Knot, Motion, Segment};
-use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
+use crate::verdict::tolerance::SOLVER_TOLERANCE;
+use crate::verdict::worst::{Quantity, Worst, check_limits};
 use crate::verdict::{FlownMotions, LimitKey};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.

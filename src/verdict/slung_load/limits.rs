@@ -15,7 +15,8 @@ use super::{FlownMotion, PlannedMotion};
 use crate::verdict::LimitKey;
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::map_bounds::MapBounds;
-use crate::verdict::worst::{Quantity, SOLVER_TOLERANCE, Worst, check_limits};
+use crate::verdict::tolerance::SOLVER_TOLERANCE;
+use crate::verdict::worst::{Quantity, Worst, check_limits};
 
 /// A vehicle and what it has to stay inside.
 pub struct LimitChecks<'a> {

@@ -1,0 +1,168 @@
+use rayon::prelude::*;
+use scenarios::fixed_wing::{Control, Limits, PartialTrajectory, State, states_from_velocities};
+use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
+use scenarios::{Range, Scenario};
+use sim::fixed_wing::propagate;
+
+use super::*;
+use crate::plan_source::plan_import::complete;
+use crate::verdict::fixed_wing::PlannedMotions;
+use crate::verdict::random::Uniform;
+
+const PAIR: &str = include_str!("../../../../tests/scenarios/pair.toml");
+
+/// Numerical integral over s ∈ [0, 1] of |kernel|, in n intervals.
+fn integral(kernel: impl Fn(f64) -> f64) -> f64 {
+    let n = 20_000;
+    (0..n).map(|k| kernel((f64::from(k) + 0.5) / f64::from(n)).abs()).sum::<f64>() / f64::from(n)
+}
+
+/// Weight of p''(s) in p(u) - h(u), from p1 = p0 + v0 + ∫ (1 - s) p'' ds and v1 = v0 + ∫ p'' ds, for T = 1.
+fn hermite_kernel(u: f64, s: f64) -> f64 {
+    (u - s).max(0.0) - (3.0 * u * u - 2.0 * u.powi(3)) * (1.0 - s) - (u.powi(3) - u * u)
+}
+
+#[test]
+fn the_closed_forms_are_the_integrals_of_the_kernels() {
+    let step = 1e-5;
+    let mut fastest = 0.0_f64;
+    for k in 1..40 {
+        let u = f64::from(k) / 40.0;
+        let chord_kernel = |s: f64| (u - s).max(0.0) - u * (1.0 - s);
+        for (given, kernel) in [
+            (GivenRows::Positions, &chord_kernel as &dyn Fn(f64) -> f64),
+            (GivenRows::States(Vec::new()), &|s| hermite_kernel(u, s)),
+        ] {
+            let factor = max_position_factor(&given, [u, u]);
+            assert!((factor - integral(kernel)).abs() < 1e-6, "{given:?} at {u}: {factor}");
+        }
+        let rate = |s| (hermite_kernel(u + step, s) - hermite_kernel(u - step, s)) / (2.0 * step);
+        fastest = fastest.max(integral(rate));
+    }
+    assert!((0.25..MAX_VELOCITY_FACTOR).contains(&fastest), "{fastest}");
+    assert_eq!(max_position_factor(&GivenRows::States(Vec::new()), [0.0, 1.0]), 1.0 / 16.0);
+    assert_eq!(max_position_factor(&GivenRows::Positions, [0.2, 1.0]), 1.0 / 8.0);
+    assert!((max_position_factor(&GivenRows::Positions, [0.0, 0.2]) - 0.08).abs() < 1e-15);
+}
+
+/// 4 s at ±2 m/s²: with velocities at both ends the sharpest motion accelerates for 1 s, brakes for 2 s and accelerates
+/// again, and is 2 m away from the curve of no acceleration.
+#[test]
+fn the_bounds_are_attained() {
+    assert_eq!(max_distance_m(&GivenRows::States(Vec::new()), 2.0, 4.0), 2.0);
+    assert_eq!(max_distance_m(&GivenRows::Positions, 2.0, 4.0), 4.0);
+    assert_eq!(max_distance_m(&GivenRows::Everything, 2.0, 4.0), 0.0);
+}
+
+fn scenario() -> Scenario {
+    scenarios::parse("pair.toml", PAIR).expect("the smallest fleet")
+}
+
+/// A motion that keeps its limits, every 50 ms or more often, and the indices of the rows in it.
+struct Admissible {
+    knots: Vec<sim::fixed_wing::Knot>,
+    rows: Vec<usize>,
+}
+
+impl Admissible {
+    /// - `intervals`: number of intervals between rows, each up to `longest_s`
+    fn random(uniform: &mut Uniform, start: State, limits: &Limits, intervals: usize, longest_s: f64) -> Self {
+        let mut motion = Self { knots: Vec::new(), rows: vec![0] };
+        let (mut state, mut t_s) = (start, 0.0);
+        for _ in 0..intervals {
+            let end_s = t_s + longest_s * uniform.between(0.02, 1.0);
+            while t_s < end_s {
+                let step_s = uniform.between(0.05, 1.0).min(end_s - t_s);
+                let control = control(uniform, &state, limits);
+                let flown = propagate(&state, [control, control], t_s, step_s, 0.05);
+                let end = flown[flown.len() - 1];
+                state = states_from_velocities(&[end.position_m.into()], &[end.velocity_mps.into()])[0];
+                t_s = if step_s == end_s - t_s { end_s } else { t_s + step_s };
+                motion.knots.extend(flown);
+            }
+            motion.rows.push(motion.knots.len() - 1);
+        }
+        motion
+    }
+
+    /// The rows as a plan.
+    fn table(&self, with_velocities: bool) -> PartialTrajectory {
+        let rows: Vec<_> = self.rows.iter().map(|row| self.knots[*row]).collect();
+        let positions_m: Vec<[f64; 3]> = rows.iter().map(|row| row.position_m.into()).collect();
+        let velocities_mps: Vec<[f64; 3]> = rows.iter().map(|row| row.velocity_mps.into()).collect();
+        let states = with_velocities.then(|| states_from_velocities(&positions_m, &velocities_mps));
+        let times_s = rows.iter().map(|row| row.t_s).collect();
+        PartialTrajectory { vehicle: "uav-1".to_owned(), times_s, positions_m, states, controls: None }
+    }
+}
+
+/// Load factors anywhere in their limits, mostly at the ends, that keep speed and flight-path angle inside theirs.
+fn control(uniform: &mut Uniform, state: &State, limits: &Limits) -> Control {
+    let mut pick = |Range { min, max }: Range| match uniform.between(0.0, 3.0) {
+        low if low < 1.0 => min,
+        high if high < 2.0 => max,
+        _ => uniform.between(min, max),
+    };
+    let [mut n_x, n_y, mut n_z] = limits.controls().map(&mut pick);
+    let flight_path_deg = state.flight_path_rad.to_degrees();
+    // A second at the largest load factor turns the path by less than this at the slowest speed.
+    let reserve_deg = (GRAVITY_MPS2 * 0.7 / limits.speed_mps.min).to_degrees();
+    if flight_path_deg > limits.flight_path_deg.max - reserve_deg {
+        n_z = limits.n_z.min;
+    } else if flight_path_deg < limits.flight_path_deg.min + reserve_deg {
+        n_z = limits.n_z.max;
+    }
+    if state.speed_mps > limits.speed_mps.max - 12.0 {
+        n_x = limits.n_x.min;
+    } else if state.speed_mps < limits.speed_mps.min + 12.0 {
+        n_x = limits.n_x.max;
+    }
+    Control { n_x, n_y, n_z }
+}
+
+/// How much of its tube the motion uses at most, in position and velocity: 1 at its surface.
+fn used(scenario: &Scenario, motion: &Admissible, with_velocities: bool) -> [f64; 2] {
+    let table = motion.table(with_velocities);
+    let completed = complete(scenario, PlanHeader::default(), vec![ImportedTrajectory::Partial(table)], "theirs", 0);
+    let planned = PlannedMotions::new(scenario, &completed.plan).expect("a finite plan");
+    let limits = &scenario.fixed_wing_model(&scenario.vehicles[0]).limits;
+    let trajectory = completed.plan.trajectories[0].fixed_wing();
+    let tube = Tube::around(&planned.motions[0], trajectory, completed.provenance.given(0), limits)
+        .expect("a reconstructed motion");
+    let mut largest = [0.0_f64; 2];
+    for knot in &motion.knots {
+        let found_m = planned.motions[0].position_m(knot.t_s).expect("a time of the plan");
+        let apart_m = distance(found_m, knot.position_m.into());
+        let radius_m = tube.distance_m([knot.t_s; 2]) + planned.motions[0].deviation_m() + 1e-6;
+        largest[0] = larger(largest[0], apart_m / radius_m);
+    }
+    for row in planned.motions[0].knots() {
+        let nearest = motion.knots.iter().filter(|knot| (knot.t_s - row.t_s).abs() < 1e-9);
+        for knot in nearest {
+            let apart_mps = distance(row.velocity_mps, knot.velocity_mps.into());
+            largest[1] = larger(largest[1], apart_mps / (tube.velocity_mps(row.t_s) + 1e-6));
+        }
+    }
+    largest
+}
+
+/// 10⁵ intervals of admissible motions: whatever the vehicle does between its rows, it stays in the tube around what is
+/// reconstructed from them.
+#[test]
+fn admissible_motions_stay_in_the_tube() {
+    let scenario = scenario();
+    let limits = &scenario.fixed_wing_model(&scenario.vehicles[0]).limits;
+    let start = scenario.vehicles[0].start.fixed_wing_state();
+    let most = (0..12_500_u64)
+        .into_par_iter()
+        .map(|seed| {
+            let mut uniform = Uniform::seeded(seed);
+            let longest_s = [0.5, 2.0, 8.0][seed as usize % 3];
+            let motion = Admissible::random(&mut uniform, start, limits, 8, longest_s);
+            let used = used(&scenario, &motion, seed % 2 == 0);
+            assert!(used.iter().all(|used| *used <= 1.0), "{used:?} with seed {seed}");
+            used
+        })
+        .reduce(|| [0.0; 2], |a, b| [larger(a[0], b[0]), larger(a[1], b[1])]);
+    assert!(most[0] > 0.3 && most[1] > 0.2, "the tube is needlessly wide: {most:?}");
+}
