@@ -24,4 +24,5 @@ mod pipeline;
 pub mod plan_source;
 mod progress;
 pub mod report;
+mod statistics;
 pub mod verdict;

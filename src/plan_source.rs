@@ -67,7 +67,7 @@ impl PlanSource {
                 PlannerOutput { guidance, log: None }
             }
             Self::External(planner) => planner.prepare(&scenario.planner_view(), seed),
-            Self::Imported(answer) => PlannerOutput { guidance: Guidance::Plan((**answer).clone()), log: None },
+            Self::Imported(answer) => PlannerOutput { guidance: Guidance::Plan(answer.clone()), log: None },
         }
     }
 
@@ -93,6 +93,6 @@ fn prepare_registered(
         let planners = vehicles.map(|index| planner.in_loop(planner_view, index, seed)).collect();
         Guidance::InLoop { planner: planner.name.to_owned(), planners }
     } else {
-        Guidance::Plan(CompletedPlan::whole(planner.plan(planner_view, seed, progress)))
+        Guidance::Plan(Box::new(CompletedPlan::whole(planner.plan(planner_view, seed, progress))))
     }
 }

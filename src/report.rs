@@ -8,6 +8,7 @@ use sim::{Flight, PlanningLog, StateHash};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::metrics::Metrics;
 use crate::plan_source::plan_import::CompletedPlan;
+use crate::statistics;
 use crate::verdict::{Check, Integration, Outcome, Reconstruction, RoundedRows, Verdict};
 
 /// Version of the format of `report.json` and `summary.json`.
@@ -161,8 +162,8 @@ impl ReplanTimes {
         let mut walls_s: Vec<f64> = log.replans.iter().map(|replan| replan.wall_s).collect();
         walls_s.sort_by(f64::total_cmp);
         let (min_s, max_s) = (*walls_s.first()?, *walls_s.last()?);
-        let mean_s = walls_s.iter().sum::<f64>() / walls_s.len() as f64;
-        Some(Self { mean_s, min_s, median_s: walls_s[walls_s.len() / 2], max_s })
+        let mean_s = statistics::mean(walls_s.iter().copied())?;
+        Some(Self { mean_s, min_s, median_s: statistics::median(&walls_s)?, max_s })
     }
 }
 

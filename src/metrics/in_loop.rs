@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use sim::{EventKind, Flight, PlanningLog, Replan};
 
 use super::finite;
+use crate::statistics::mean;
 
 /// Figures of planning in the loop: the same on every machine, unless the scenario takes planning times from the clock.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,9 +58,4 @@ fn path_m(flight: &Flight) -> f64 {
     };
     let of_vehicle = |log: &sim::VehicleLog| log.samples.windows(2).map(step_m).sum::<f64>();
     flight.vehicles.iter().map(of_vehicle).sum()
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), value| (count + 1.0, sum + value));
-    finite(sum / count)
 }

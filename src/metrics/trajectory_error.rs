@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 use sim::fixed_wing::world_from_body;
 use sim::{Actuation, Flight, Sample, VehicleLog};
 
+use crate::statistics;
+
 /// Time between two poses, s.
 const INTERVAL_S: f64 = 0.1;
 /// Poses between the two ends of a relative error: 1 s.
@@ -126,7 +128,7 @@ impl Statistics {
         Some(Self {
             rmse: mean_of(&|error| error * error).sqrt(),
             mean,
-            median: f64::midpoint(errors[(n - 1) / 2], errors[n / 2]),
+            median: statistics::median(&errors)?,
             std: mean_of(&|error| (error - mean).powi(2)).sqrt(),
             min: errors[0],
             max: errors[n - 1],

@@ -61,7 +61,7 @@ impl ExternalPlanner {
             PlannerOutput { guidance, log: Some(Box::new(log)) }
         } else {
             let ExternalAnswer { answer, log } = self.plan(planner_view, seed);
-            PlannerOutput { guidance: Guidance::Plan(answer), log: Some(Box::new(|| log)) }
+            PlannerOutput { guidance: Guidance::Plan(Box::new(answer)), log: Some(Box::new(|| log)) }
         }
     }
 

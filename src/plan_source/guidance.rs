@@ -11,7 +11,7 @@ use crate::verdict::{self, Verdict};
 /// What guides the vehicles through a flight.
 pub enum Guidance {
     /// A plan, which the tracking controllers follow.
-    Plan(CompletedPlan),
+    Plan(Box<CompletedPlan>),
     /// In-loop planners, which plan during the flight.
     InLoop {
         /// Name under which the results go.
@@ -33,7 +33,7 @@ impl Guidance {
     /// The plan; `None` for in-loop planners.
     pub fn into_plan(self) -> Option<CompletedPlan> {
         match self {
-            Self::Plan(answer) => Some(answer),
+            Self::Plan(answer) => Some(*answer),
             Self::InLoop { .. } => None,
         }
     }
@@ -42,7 +42,8 @@ impl Guidance {
     pub fn max_flight_duration_s(&self, scenario: &Scenario) -> Option<f64> {
         let max_duration_s = scenario.simulation.max_duration_s;
         match self {
-            Self::Plan(CompletedPlan { plan, .. }) => {
+            Self::Plan(answer) => {
+                let plan = &answer.plan;
                 verdict::is_flyable(scenario, plan).ok()?;
                 Some((plan.flight_time_s()? + scenario.simulation.coast_s).min(max_duration_s))
             }
@@ -59,7 +60,7 @@ impl Guidance {
             Self::Plan(answer) => {
                 let is_flyable = verdict::is_flyable(scenario, &answer.plan).is_ok();
                 let flight = is_flyable.then(|| sim::fly(scenario, &answer.plan, seed, progress));
-                Flown { answer, flight }
+                Flown { answer: *answer, flight }
             }
             Self::InLoop { planner, planners } => {
                 let flight = sim::fly(scenario, planners, seed, progress);

@@ -60,7 +60,8 @@ fn issues_are_located_by_row() {
 fn two_columns_of_one_name_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plan.parquet");
-    let doubled = complete().lines().enumerate().map(|(line, text)| {
+    let whole = complete();
+    let doubled = whole.lines().enumerate().map(|(line, text)| {
         let x_m = if line == 0 { "x_m" } else { "7" };
         format!("{text},{x_m}")
     });

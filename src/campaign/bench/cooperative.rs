@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::entry::{self, Entry, Outcome};
 use crate::error::Error;
 use crate::metrics::PlanMetrics;
+use crate::statistics;
 pub use show::{markdown, text};
 
 /// The solvers and their names; the baseline is the last.
@@ -123,13 +124,8 @@ fn mean(rows: &[Row], mission: &str, solver: &'static str) -> Mean {
     Mean {
         mission: mission.to_owned(),
         solver,
-        flight_time_s: average(own.iter().filter_map(|row| row.metrics.as_ref()?.flight_time_s)),
-        planning_s: average(own.iter().filter_map(|row| row.planning_s)),
-        speedup: average(own.iter().filter_map(|row| baseline(row))),
+        flight_time_s: statistics::mean(own.iter().filter_map(|row| row.metrics.as_ref()?.flight_time_s)),
+        planning_s: statistics::mean(own.iter().filter_map(|row| row.planning_s)),
+        speedup: statistics::mean(own.iter().filter_map(|row| baseline(row))),
     }
-}
-
-fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, sum) = values.fold((0, 0.0), |(count, sum), value| (count + 1, sum + value));
-    (count > 0).then(|| sum / f64::from(count))
 }

@@ -13,6 +13,7 @@ pub use show::{markdown, text};
 
 use crate::metrics;
 use crate::plan_source::{Flown, PlanSource};
+use crate::statistics::mean;
 use crate::verdict;
 
 /// What to measure.
@@ -202,9 +203,4 @@ fn accelerations_mps2(replan: &Replan) -> Vec<[f64; 3]> {
         std::array::from_fn(|axis| (ends[1].velocity_mps[axis] - ends[0].velocity_mps[axis]) / time_s)
     };
     replan.nodes.windows(2).map(between).collect()
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), value| (count + 1.0, sum + value));
-    (count > 0.0).then(|| sum / count)
 }

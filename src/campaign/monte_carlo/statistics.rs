@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::{Sample, Sweep};
+use crate::statistics::quantile_index;
 use crate::verdict::Outcome;
 
 /// Statistics of a sweep.
@@ -52,7 +53,7 @@ impl Statistics {
                 in_unit().map(|sample| (sample.margins[index], sample.number)).collect();
             margins.retain(|(margin, _)| !margin.is_nan());
             margins.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let quantile = |p: f64| margins[(p * (margins.len() - 1) as f64).floor() as usize].0;
+            let quantile = |p: f64| quantile_index(margins.len(), p).map_or(f64::NAN, |index| margins[index].0);
             CheckStatistics {
                 name: name.clone(),
                 unit: unit.to_owned(),

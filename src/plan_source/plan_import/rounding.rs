@@ -72,7 +72,7 @@ impl Rounding {
         while let Some(&from) = kept.last().filter(|row| **row < last) {
             let end = (from + 1..last).find(|to| is_jump(*to) || is_long(from, *to)).unwrap_or(last);
             // What is left at the end joins the last interval.
-            let end = if (end..last).any(|row| is_jump(row)) || is_long(end, last) { end } else { last };
+            let end = if (end..last).any(is_jump) || is_long(end, last) { end } else { last };
             let lengths = std::iter::successors(Some(end - from), |length| Some(length / 2));
             let fitting = lengths.take_while(|length| *length > 1).find(|length| is_between(from, from + length));
             kept.push(from + fitting.unwrap_or(1));
