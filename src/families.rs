@@ -5,7 +5,6 @@ use serde_json::Value;
 use sim::Flight;
 
 use crate::campaign::failure_threshold::TypicalDisturbances;
-use crate::campaign::selftest::{self, FamilySelftest};
 use crate::metrics::{self, Metrics};
 #[cfg(any(feature = "mcap", feature = "rrd"))]
 use crate::output::scene::{self, FamilyScene};
@@ -23,8 +22,6 @@ pub struct VehicleFamily {
     pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
     /// A vehicle as external planners are told of it.
     pub request: fn(&Scenario, &Vehicle) -> Value,
-    /// References, faults and near misses of the selftest.
-    pub selftest: FamilySelftest,
     /// The disturbances at which `stress` begins and which `sweep` draws.
     pub typical_disturbances: TypicalDisturbances,
     /// What it adds to the scene that recordings draw.
@@ -38,7 +35,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         checks: verdict::fixed_wing::checks,
         measure: metrics::fixed_wing::measure,
         request: request::fixed_wing::vehicle,
-        selftest: selftest::fixed_wing::SELFTEST,
         typical_disturbances: TypicalDisturbances { wind_mps: 3.0, position_noise_m: 0.25 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::fixed_wing::SCENE,
@@ -48,7 +44,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         checks: verdict::slung_load::checks,
         measure: metrics::slung_load::measure,
         request: request::slung_load::vehicle,
-        selftest: selftest::slung_load::SELFTEST,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::slung_load::SCENE,
@@ -58,7 +53,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         checks: verdict::multirotor::checks,
         measure: metrics::multirotor::measure,
         request: request::multirotor::vehicle,
-        selftest: selftest::multirotor::SELFTEST,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
         #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::multirotor::SCENE,

@@ -31,7 +31,7 @@ mod rotors;
 mod separation;
 mod separation_shape;
 pub mod slung_load;
-mod tolerance;
+pub mod tolerance;
 mod tracking;
 mod trajectory_defect;
 mod worst;

@@ -1,4 +1,4 @@
-use scenarios::Trajectory;
+use scenarios::{Family, Trajectory};
 
 use super::faults::tightened_limits::TightenedLimit;
 use super::reference_case::UnflownCase;
@@ -6,6 +6,8 @@ use super::{Fault, NearMiss, ReferenceCase};
 
 /// What differs between the selftests of the vehicle families.
 pub struct FamilySelftest {
+    /// The family.
+    pub family: Family,
     /// The reference cases: first in still air, then in wind and with sensor noise.
     pub reference_cases: fn() -> Vec<UnflownCase>,
     /// The faults for a reference case in still air.

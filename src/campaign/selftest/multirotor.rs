@@ -8,7 +8,7 @@ mod plans;
 mod rotors;
 
 use scenarios::multirotor::{self, Plant};
-use scenarios::{Sensors, Trajectory};
+use scenarios::{Family, Sensors, Trajectory};
 
 use super::family::{EditTrajectory, FamilySelftest};
 use super::faults::tightened_limits::{self, SEPARATION_CHECKS, limit};
@@ -16,8 +16,9 @@ use super::faults::{log, plan};
 use super::reference_case::UnflownCase;
 use super::{Fault, ReferenceCase};
 
-/// The entry in the table of families.
-pub const SELFTEST: FamilySelftest = FamilySelftest {
+/// The entry in the selftest's table of families.
+pub static SELFTEST: FamilySelftest = FamilySelftest {
+    family: Family::Multirotor,
     reference_cases,
     faults,
     near_misses: near_misses::all,
@@ -90,7 +91,7 @@ fn faults(reference: &ReferenceCase) -> Vec<Fault> {
     } else {
         // Positions and velocities determine the accelerations between two nodes: there is no defect.
         let on_plans = plan::faults().into_iter().filter(|fault| fault.aims_at != "plan.dynamics");
-        let all = [log::faults(), plans::faults(), flights::faults(), tightened_limits::faults(reference.family())];
+        let all = [log::faults(), plans::faults(), flights::faults(), tightened_limits::faults(reference.selftest)];
         on_plans.chain(all.into_iter().flatten()).collect()
     }
 }

@@ -2,7 +2,6 @@
 
 use super::faults::tightened_limits::{self, RELATIVE_STEP};
 use super::{NearMiss, ReferenceCase};
-use crate::families;
 
 /// Distance from a limit, m.
 pub const NEAR_M: f64 = 1e-5;
@@ -12,12 +11,12 @@ pub fn of(reference: &ReferenceCase) -> Vec<NearMiss> {
     if reference.scenario.simulation.wind.is_some() {
         return Vec::new();
     }
-    (families::of(reference.family()).selftest.near_misses)(reference)
+    (reference.selftest.near_misses)(reference)
 }
 
 /// Every upper limit just above the largest value that it bounds.
 pub fn limits(reference: &ReferenceCase) -> Vec<NearMiss> {
-    tightened_limits::upper(reference.family()).map(just_above).collect()
+    tightened_limits::upper(reference.selftest).map(just_above).collect()
 }
 
 fn just_above(limit: &'static tightened_limits::TightenedLimit) -> NearMiss {

@@ -3,8 +3,7 @@ mod unflown;
 use scenarios::{Family, Plan, Scenario, slung_load};
 use sim::{Actuation, Commanded, Flight, Sample};
 
-use super::family::EditTrajectory;
-use crate::families;
+use super::family::{EditTrajectory, FamilySelftest};
 use crate::plan_source::PlanSource;
 use crate::verdict::{self, Check, Verdict};
 
@@ -19,6 +18,8 @@ pub struct ReferenceCase {
     pub plan: Plan,
     /// The flight.
     pub flight: Option<Flight>,
+    /// The selftest of its family.
+    pub selftest: &'static FamilySelftest,
     /// Where the plan comes from.
     plan_source: PlanSource,
 }
@@ -87,8 +88,7 @@ impl ReferenceCase {
 
     /// The planned trajectory of a vehicle, whatever its family.
     pub fn edit(&mut self, vehicle: usize) -> &mut dyn EditTrajectory {
-        let edit = families::of(self.family()).selftest.edit;
-        edit(&mut self.plan.trajectories[vehicle])
+        (self.selftest.edit)(&mut self.plan.trajectories[vehicle])
     }
 }
 

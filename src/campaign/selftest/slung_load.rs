@@ -2,7 +2,7 @@
 
 mod faults;
 
-use scenarios::{Trajectory, slung_load};
+use scenarios::{Family, Trajectory, slung_load};
 use sim::LoadSample;
 
 use super::family::{EditTrajectory, FamilySelftest};
@@ -11,8 +11,9 @@ use super::near_misses::{self, NEAR_M};
 use super::reference_case::{UnflownCase, thrusts};
 use super::{Fault, NearMiss, ReferenceCase};
 
-/// The entry in the table of families.
-pub const SELFTEST: FamilySelftest = FamilySelftest {
+/// The entry in the selftest's table of families.
+pub static SELFTEST: FamilySelftest = FamilySelftest {
+    family: Family::SlungLoad,
     reference_cases,
     faults,
     near_misses,

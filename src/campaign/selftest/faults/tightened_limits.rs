@@ -1,9 +1,10 @@
 //! Limits tightened to just below the value reached. Their counterparts, just above it, are near misses.
 
-use scenarios::Family;
+use scenarios::check_spec;
 
+use super::super::family::FamilySelftest;
 use super::super::{Fault, ReferenceCase};
-use crate::families;
+use crate::verdict::tolerance;
 
 /// A limit of the scenario, and the checks that it bounds.
 pub struct TightenedLimit {
@@ -54,29 +55,33 @@ pub const fn limit(
 }
 
 /// The upper limits of a family.
-pub fn upper(family: Family) -> impl Iterator<Item = &'static TightenedLimit> {
-    COMMON.iter().chain(families::of(family).selftest.upper_limits)
+pub fn upper(selftest: &'static FamilySelftest) -> impl Iterator<Item = &'static TightenedLimit> {
+    COMMON.iter().chain(selftest.upper_limits)
 }
 
 /// The faults.
-pub fn faults(family: Family) -> Vec<Fault> {
+pub fn faults(selftest: &'static FamilySelftest) -> Vec<Fault> {
     let mut all = Vec::new();
-    for limit in upper(family) {
+    for limit in upper(selftest) {
         for check in limit.checks {
             all.push(Fault::new(check, limit.name, move |it| {
                 let reached = it.value(check);
-                (limit.set)(it, reached * (1.0 - RELATIVE_STEP));
+                (limit.set)(it, reached * (1.0 - RELATIVE_STEP) - beyond_tolerance(check, reached));
             }));
         }
     }
-    let selftest = &families::of(family).selftest;
     all.extend(selftest.distance_checks.iter().map(|check| {
         Fault::new(check, "the required distance is larger than the smallest one", move |it| {
             let reached_m = it.value(check);
-            (selftest.set_distance)(it, reached_m + 1e-6);
+            (selftest.set_distance)(it, reached_m + 1e-6 + beyond_tolerance(check, reached_m));
         })
     }));
     all
+}
+
+/// A distance from the limit that is no longer at the limit, in the unit of the check.
+fn beyond_tolerance(check: &str, reached: f64) -> f64 {
+    1.01 * tolerance::beyond(check_spec(check).expect("a declared check"), reached)
 }
 
 /// Sets the required distance between vehicles, m.
