@@ -34,7 +34,7 @@ impl ShapePairs<'_> {
         motion: Evidence<'_, SlungLoadMotion>,
         load: Evidence<'_, Motion>,
     ) -> CheckResult {
-        let lowest = load.ok().map(|load| extremes_m(load, 2)[0]);
+        let lowest = load.ok().map(|load| extremes_m(load, 2)[0]).map(|lowest| (lowest.value, lowest.t_s));
         let check = self.check_pairs(spec, &self.parts(), 0.0, |shapes| Ok(self.closest(motion?, shapes)))?;
         Ok(lowest.and_then(|lowest| self.load_in_ground(spec, lowest)).unwrap_or(check))
     }
