@@ -15,6 +15,7 @@ pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
+mod goal;
 mod in_loop_planning;
 mod integration;
 mod integrity;
@@ -42,7 +43,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use arrival::duration_s as flown_duration_s;
-pub use closest::{ClosestApproach, between_vehicles as closest_vehicles, to_cylinders as closest_to_cylinders};
+pub use closest::{ClosestApproach, between_vehicles as closest_vehicles};
 pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
@@ -160,6 +161,8 @@ pub enum LimitKey {
     Limits(&'static str),
     /// In the airframe of the vehicle's model.
     Airframe(&'static str),
+    /// In `verdict`.
+    Verdict(&'static str),
 }
 
 impl Check {

@@ -23,7 +23,7 @@ pub use trajectory::{CSV_COLUMNS, Trajectory};
 pub struct Model {
     /// Nominal mass, kg. Forces are computed from it even if the true mass differs.
     pub mass_kg: f64,
-    /// Radius of the sphere that encloses the airframe, for collisions, m.
+    /// Radius of the sphere that encloses the airframe, which must stay clear of obstacles, m.
     pub body_radius_m: f64,
     /// Physical limits, applied to the flight.
     pub limits: Limits,

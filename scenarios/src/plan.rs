@@ -139,7 +139,7 @@ pub struct Iteration {
     pub slack: f64,
     /// Smallest horizontal distance between two vehicles at the nodes, m.
     pub separation_m: Option<f64>,
-    /// Smallest distance to an obstacle's surface at the nodes, m.
+    /// Smallest distance from a body to an obstacle's surface at the nodes, m.
     pub clearance_m: Option<f64>,
     /// Largest change in horizontal position since the previous iteration, m.
     pub change_m: f64,

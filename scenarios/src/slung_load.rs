@@ -18,7 +18,7 @@ use crate::Range;
 pub use crate::GRAVITY_MPS2;
 pub(crate) use family::FAMILY;
 pub use state::{Cable, Control, State};
-pub use trajectory::{CSV_COLUMNS, Trajectory};
+pub use trajectory::{AT_NODE, CSV_COLUMNS, Trajectory};
 
 /// A quadrotor with a slung load.
 ///

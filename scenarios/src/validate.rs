@@ -1,5 +1,6 @@
 //! Validation of scenarios. Every rule is a pure function from a part of the scenario to issues.
 
+pub(crate) mod body;
 mod fleet;
 mod identifier;
 mod model;

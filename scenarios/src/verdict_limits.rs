@@ -20,6 +20,18 @@ pub struct VerdictLimits {
     /// Maximum distance from the goal on arrival, m. Default: 5 m, 0.05 m, 0.5 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub goal_m: Option<f64>,
+    /// Maximum difference between the heading on arrival and that of the goal, deg, modulo a full turn; only for fixed wings.
+    /// Default: 5 deg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal_heading_deg: Option<f64>,
+    /// Maximum difference between the flight-path angle on arrival and that of the goal, deg; only for fixed wings. Default:
+    /// 3 deg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal_flight_path_deg: Option<f64>,
+    /// Maximum difference between the speed over ground on arrival and that of the goal, m/s; only for fixed wings. Default:
+    /// 2 m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal_speed_mps: Option<f64>,
     /// Maximum speed of quadrotor and load at the end, relative to the goal, m/s; not applied to fixed wings. Default:
     /// 0.1 m/s for slung loads, 0.2 m/s for multirotors.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,6 +77,12 @@ pub struct AppliedLimits {
     pub arrival_spread_s: f64,
     /// Distance from the goal at arrival, m.
     pub goal_m: f64,
+    /// Heading at arrival, difference from the goal, deg.
+    pub goal_heading_deg: f64,
+    /// Flight-path angle at arrival, difference from the goal, deg.
+    pub goal_flight_path_deg: f64,
+    /// Speed at arrival, difference from the goal, m/s.
+    pub goal_speed_mps: f64,
     /// Speed at the end, m/s.
     pub rest_mps: f64,
     /// Defect of the plan's intervals, m.
@@ -86,6 +104,9 @@ impl VerdictLimits {
             tracking_rms_m: self.tracking_rms_m.unwrap_or(default.tracking_rms_m),
             arrival_spread_s: self.arrival_spread_s.unwrap_or(default.arrival_spread_s),
             goal_m: self.goal_m.unwrap_or(default.goal_m),
+            goal_heading_deg: self.goal_heading_deg.unwrap_or(default.goal_heading_deg),
+            goal_flight_path_deg: self.goal_flight_path_deg.unwrap_or(default.goal_flight_path_deg),
+            goal_speed_mps: self.goal_speed_mps.unwrap_or(default.goal_speed_mps),
             rest_mps: self.rest_mps.unwrap_or(default.rest_mps),
             dynamics_m: self.dynamics_m.unwrap_or(default.dynamics_m),
             rollout_m: self.rollout_m.unwrap_or(default.rollout_m),

@@ -29,7 +29,7 @@ pub struct World {
     /// Vertical prisms over convex polygons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prisms: Vec<Prism>,
-    /// Altitude of the level ground on which a load may lie, m. Absent: no ground.
+    /// Altitude of the level ground, m: a load may lie on it, an aircraft crashes into it. Absent: no ground.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_m: Option<f64>,
     /// Gates that a quadrotor with a slung load must pass.

@@ -120,6 +120,17 @@ fn the_load_is_within_the_cable_length_above_the_ground_and_outside_obstacles() 
 }
 
 #[test]
+fn the_load_does_not_overlap_the_body() {
+    let (start, field) = ("load = { x_m = -2, y_m = 0, z_m = 0.03 }", "vehicles[0].start.load");
+    let inside = "load = { x_m = -1.9, y_m = 0.1, z_m = 0.475 }";
+    assert_issue(start, inside, field, "overlaps the body of the quadrotor by 0.0050 m", "at least 0.03 m");
+    assert_issue(start, &inside.replace("0.475", "0.52"), field, "by 0.0100 m", "at least 0.03 m");
+    for beside in [inside.replace("0.475", "0.469"), inside.replace("-1.9", "-1.61")] {
+        assert!(scenarios::parse("slung.toml", &TEXT.replace(start, &beside)).is_ok(), "{beside}");
+    }
+}
+
+#[test]
 fn models_can_hover_and_rotors_cannot_pull_down() {
     let planning = "models.slung-load.quad.planning_limits.thrust_n";
     assert_issue("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "contains 3.728 N");

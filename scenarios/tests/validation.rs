@@ -149,7 +149,8 @@ fn starts_and_goals_are_outside_obstacles() {
         "inside `pillar`",
         "outside",
     );
-    assert!(load_changed("x_m = 900, y_m = 200", "x_m = 50, y_m = 0").is_ok(), "a point on the surface is outside");
+    let touching = load_changed("x_m = 900, y_m = 200", "x_m = 51, y_m = 0");
+    assert!(touching.is_ok(), "a body of 1 m on the surface is outside");
 }
 
 #[test]
@@ -254,12 +255,33 @@ fn simulation_settings_are_in_range() {
 }
 
 #[test]
+fn aircraft_keep_their_bodies_off_obstacles_and_the_ground() {
+    let map = "map = { x_m = [-1000, 1000], y_m = [-500, 500], z_m = [0, 600] }";
+    let field = "models.fixed-wing.glider.planning_limits.altitude_m";
+    assert_issue(map, &format!("{map}\nground_m = 299.1"), (field, 26, 14), "[300, 500]", "at least 300.1 m");
+    assert!(load_changed(map, &format!("{map}\nground_m = 299")).is_ok());
+    let start = "start = { x_m = -900, y_m = -200,";
+    let issues = issues(start, "start = { x_m = -50.5, y_m = 0,");
+    let [issue] = issues.as_slice() else { panic!("{issues:#?}") };
+    assert_eq!(issue.issue.field, "vehicles[0].start", "{issue}");
+    assert!(
+        issue.issue.found.contains("0.500 m from `pillar`") && issue.issue.expected.contains("at least 1 m"),
+        "{issue}"
+    );
+    assert!(load_changed(start, "start = { x_m = -51, y_m = 0,").is_ok());
+}
+
+#[test]
 fn verdict_limits_are_positive_and_checks_are_known() {
     let positive = "greater than 0";
     assert_issue("tracking_max_m = 5", "tracking_max_m = 0", ("verdict.tracking_max_m", 66, 18), "0", positive);
     assert_issue("tracking_rms_m = 2", "tracking_rms_m = 0", ("verdict.tracking_rms_m", 67, 18), "0", positive);
     assert_issue("spread_s = 0.5", "spread_s = -1", ("verdict.arrival_spread_s", 68, 20), "-1", positive);
     assert_issue("\ngoal_m = 5", "\ngoal_m = 0", ("verdict.goal_m", 69, 10), "0", positive);
+    for (name, column) in [("goal_heading_deg", 20), ("goal_flight_path_deg", 24), ("goal_speed_mps", 18)] {
+        let field = format!("verdict.{name}");
+        assert_issue("\ngoal_m = 5", &format!("\ngoal_m = 5\n{name} = 0"), (&field, 70, column), "0", positive);
+    }
     assert_issue("dynamics_m = 1", "dynamics_m = 0", ("verdict.dynamics_m", 70, 14), "0", positive);
     assert_issue("rollout_m = 5", "rollout_m = 0", ("verdict.rollout_m", 71, 13), "0", positive);
     assert_issue("saturation = 0.05", "saturation = 1.5", ("verdict.saturation", 72, 14), "1.5", "from 0 to 1");

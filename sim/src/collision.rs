@@ -1,5 +1,8 @@
 use nalgebra::Vector3;
 
+/// Name of the ground in events and reports.
+pub const GROUND: &str = "ground";
+
 /// First contact of two balls (or circles) that move along straight lines at constant velocity.
 ///
 /// ```text

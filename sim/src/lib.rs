@@ -28,6 +28,7 @@ mod start;
 mod state_hash;
 
 pub use actuation::{Actuation, Commanded};
+pub use collision::GROUND;
 pub use flight::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 pub use fly::{fly, fly_with};
 pub use planning_log::{PlanningLog, Replan};

@@ -21,6 +21,6 @@ pub use dynamics::{Plant, impact};
 pub use propagate::{Knot, propagate};
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{AppliedControls, Replay};
-pub use shapes::{GROUND, OVERHANG_M, Part, Parts, SeparatingPlane};
+pub use shapes::{OVERHANG_M, Part, Parts, SeparatingPlane};
 pub(crate) use slung_load_sim::simulate;
 pub use state::SlungLoadState;

@@ -49,8 +49,8 @@ Columns of CSV and Parquet files for fixed wings, one row per node; x points eas
                                               reconstructed if absent
   n_x, n_y, n_z                               load factors, linear between the nodes; reconstructed if absent
 
-The plan of another vehicle needs all the columns of its plan.csv. In a table every row counts as a node of the planner
-in the checks nodes.*; plan.json names the planner's own nodes.
+The plan of another vehicle needs the columns of its plan.csv. In a table every row counts as a node of the planner in
+the checks nodes.*, unless the column at_node of a slung load's plan says `no`; plan.json names the planner's own nodes.
 
 A JSON file is a plan.json of `harness run`, or the same with these columns as arrays in every trajectory.";
 

@@ -6,7 +6,7 @@ use sim::Flight;
 
 use super::flight::{self, Dispersion};
 use super::{FlightMetrics, Metrics, PlanMetrics, SmallestDistances, finite};
-use crate::verdict::fixed_wing::{PlannedMotions, clearance_at_nodes};
+use crate::verdict::fixed_wing::{PlannedMotions, clearance_at_nodes, closest_obstacle};
 use crate::verdict::{self, Motion, SeparationShape};
 
 /// Measures a flyable plan and, if there is one, its flight.
@@ -46,7 +46,7 @@ fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
         at_nodes: SmallestDistances {
             separation_m: verdict::separation_at_nodes(plan, SeparationShape::Horizontal)
                 .and_then(|nearest| finite(nearest.lower_m)),
-            clearance_m: clearance_at_nodes(&scenario.world, plan).and_then(|nearest| finite(nearest.lower_m)),
+            clearance_m: clearance_at_nodes(scenario, plan).and_then(|nearest| finite(nearest.lower_m)),
         },
         between_nodes: planned.map_or_else(|_| SmallestDistances::default(), |it| distances(scenario, &it.motions)),
     }
@@ -55,6 +55,6 @@ fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
 fn distances(scenario: &Scenario, motions: &[Motion]) -> SmallestDistances {
     SmallestDistances {
         separation_m: verdict::closest_vehicles(motions, SeparationShape::Horizontal).map(|nearest| nearest.lower_m),
-        clearance_m: verdict::closest_to_cylinders(motions, &scenario.world.cylinders).map(|nearest| nearest.lower_m),
+        clearance_m: closest_obstacle(scenario, motions).map(|nearest| nearest.lower_m),
     }
 }

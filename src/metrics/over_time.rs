@@ -1,8 +1,9 @@
 //! Smallest distances of a fleet over time, for plots; the smallest of all, over continuous time, is in the verdict.
 
 use rayon::prelude::*;
-use scenarios::{Cylinder, Scenario};
+use scenarios::Scenario;
 
+use crate::verdict::fixed_wing::clearance_at;
 use crate::verdict::multirotor::Clearances;
 use crate::verdict::{Motion, SeparationShape};
 
@@ -13,7 +14,7 @@ pub struct DistanceSample {
     pub t_s: f64,
     /// How far, m.
     pub distance_m: f64,
-    /// Two motions, or a motion and a cylinder, by their indices.
+    /// Two motions, or a motion and an obstacle, by their indices.
     pub who: [usize; 2],
 }
 
@@ -40,13 +41,12 @@ pub fn separation_over_time(motions: &[Motion], shape: SeparationShape, step_s: 
     })
 }
 
-/// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, every `step_s` from
-/// 0 s on. With a single motion it is that vehicle's own clearance.
-pub fn clearance_over_time(motions: &[Motion], cylinders: &[Cylinder], step_s: f64) -> Vec<DistanceSample> {
+/// Smallest distance from the body of any fixed wing to the surface of any obstacle, every `step_s` from 0 s on.
+pub fn clearance_over_time(scenario: &Scenario, motions: &[Motion], step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
         for (i, position_m) in present.iter() {
-            for (m, cylinder) in cylinders.iter().enumerate() {
-                nearest.consider(cylinder.signed_distance_m(position_m[0], position_m[1]), [*i, m]);
+            if let Some(closest) = clearance_at(scenario, *i, nearest.t_s, *position_m) {
+                nearest.consider(closest.upper_m, closest.who);
             }
         }
     })

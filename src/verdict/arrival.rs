@@ -1,4 +1,4 @@
-//! Arrival: the distance from the goals, the time between the first and the last arrival, and the flight time.
+//! Arrival: the time between the first and the last arrival, and the flight time.
 //!
 //! In flight the arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
 //! arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late arrival is in the log. A
@@ -7,40 +7,9 @@
 use scenarios::{CheckSpec, Plan, Scenario};
 
 use crate::verdict::Check;
-use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::Motion;
-
-/// Largest distance from a goal to the last node.
-pub fn check_node_goals(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
-    let last = |index: usize| {
-        let trajectory = &plan.trajectories[index];
-        let last = trajectory.times_s().len().checked_sub(1)?;
-        Some((trajectory.nodes().position_m(last), trajectory.times_s()[last]))
-    };
-    Ok(spec.at_most(farthest_end(scenario, last)?, scenario.limits().goal_m))
-}
-
-/// Largest distance from a goal to the end of the continuous plan.
-pub fn check_planned_goals(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
-    let last = |index: usize| motions[index].knots().last().map(|knot| (knot.position_m, knot.t_s));
-    Ok(spec.at_most(farthest_end(scenario, last)?, scenario.limits().goal_m))
-}
-
-/// Largest distance from a goal at the closest approach in flight.
-pub fn check_flown_goals(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
-    let mut farthest: Option<(f64, Measurement)> = None;
-    for vehicle in &flown.vehicles {
-        let approach = vehicle.approach.ok_or_else(|| not_arrived(vehicle))?;
-        if farthest.as_ref().is_none_or(|(distance_m, _)| is_larger(approach.upper_m, *distance_m)) {
-            farthest = Some((approach.upper_m, Measurement::approach(&approach).with(vehicle.name)));
-        }
-    }
-    let (_, measured) = farthest.ok_or(MissingEvidence::NoVehicle)?;
-    Ok(spec.at_most(measured, scenario.limits().goal_m))
-}
 
 /// Time between the first and the last end of a trajectory.
 pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
@@ -90,24 +59,6 @@ fn any_time(spec: &CheckSpec) -> Check {
     spec.skip("the vehicles may arrive at different times")
 }
 
-fn farthest_end(
-    scenario: &Scenario,
-    end: impl Fn(usize) -> Option<([f64; 3], f64)>,
-) -> Result<Measurement, MissingEvidence> {
-    let mut farthest: Option<(f64, f64, &str)> = None;
-    for (index, vehicle) in scenario.vehicles.iter().enumerate() {
-        let early = || MissingEvidence::EndsEarly { vehicle: vehicle.name.clone() };
-        let (position_m, t_s) = end(index).ok_or_else(early)?;
-        let goal_m = vehicle.goal.position_m();
-        let distance_m = (0..3).map(|axis| (position_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
-        if farthest.is_none_or(|(worst_m, ..)| is_larger(distance_m, worst_m)) {
-            farthest = Some((distance_m, t_s, &vehicle.name));
-        }
-    }
-    let (distance_m, t_s, vehicle) = farthest.ok_or(MissingEvidence::NoVehicle)?;
-    Ok(Measurement::value(distance_m).at(t_s).with(vehicle))
-}
-
 fn spread<'a>(
     arrivals: impl Iterator<Item = Result<(f64, &'a str), MissingEvidence>>,
 ) -> Result<Measurement, MissingEvidence> {
@@ -117,7 +68,8 @@ fn spread<'a>(
     Ok(Measurement::value(latest.0 - earliest.0).at(latest.0).with(earliest.1).with(latest.1))
 }
 
-fn not_arrived(vehicle: &FlownVehicle<'_>) -> MissingEvidence {
+/// Why a vehicle has no arrival.
+pub fn not_arrived(vehicle: &FlownVehicle<'_>) -> MissingEvidence {
     let (name, log_end_s) = (vehicle.name.to_owned(), vehicle.log_end_s);
     match vehicle.approach {
         None => MissingEvidence::NeverNearGoal { vehicle: name, log_end_s },

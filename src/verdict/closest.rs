@@ -47,17 +47,18 @@ pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
     sweep(motions, radii_m, Search::below(0.0, Bound::Curve), |relative_m| relative_m)
 }
 
-/// Smallest signed horizontal distance from any of `motions` to the surface of any of `cylinders`, negative inside.
-/// `None` without either.
-pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<ClosestApproach> {
+/// Smallest signed horizontal distance from any of `motions`, balls of `radii_m`, to the surface of any of `cylinders`,
+/// negative inside. `None` without either.
+pub fn to_cylinders(motions: &[Motion], radii_m: &[f64], cylinders: &[Cylinder]) -> Option<ClosestApproach> {
     let frame = Frame::over(motions);
     bounded(motions, |bound| {
         let mut search = Search::new(bound);
-        for (i, motion) in motions.iter().enumerate() {
+        for (i, (motion, body_m)) in motions.iter().zip(radii_m).enumerate() {
             let blocks = Blocks::new(motion, &frame);
             for (m, cylinder) in cylinders.iter().enumerate() {
                 let axis = [cylinder.center_m[0], cylinder.center_m[1], 0.0];
-                let reach_m = bound.max_reach_m(cylinder.radius_m, motion);
+                let radius_m = cylinder.radius_m + body_m;
+                let reach_m = bound.max_reach_m(radius_m, motion);
                 let near = |search: &Search, block: &Block| {
                     search.may_be_within(block.gap_to_point_m(cylinder.center_m), reach_m)
                 };
@@ -66,7 +67,7 @@ pub fn to_cylinders(motions: &[Motion], cylinders: &[Cylinder]) -> Option<Closes
                         for segment in block.segments.clone().map(|index| motion.segment(index)).filter(Segment::lasts)
                         {
                             let relative = horizontal(segment.points_m.map(|point| difference(&point, &axis)));
-                            search.look(&relative, &segment, cylinder.radius_m, [i, m]);
+                            search.look(&relative, &segment, radius_m, [i, m]);
                         }
                     }
                 }
@@ -227,12 +228,12 @@ mod tests {
         let cylinder = |x_m, y_m, radius_m| Cylinder { name: "pillar".to_owned(), center_m: [x_m, y_m], radius_m };
         let motion = [line([0.0, 0.0, 50.0], [35.0, 0.0, 0.0], 0.05, 20.0)];
         let pillars = [cylinder(350.0, 420.0, 400.0), cylinder(100.0, -30.0, 5.0)];
-        assert_is(&to_cylinders(&motion, &pillars).unwrap(), 20.0, 10.0);
-        assert_eq!(to_cylinders(&motion, &pillars).unwrap().who, [0, 0]);
+        assert_is(&to_cylinders(&motion, &[0.0], &pillars).unwrap(), 20.0, 10.0);
+        assert_eq!(to_cylinders(&motion, &[0.0], &pillars).unwrap().who, [0, 0]);
         // Inside a large one, a small one is never nearer.
         let nested = [cylinder(351.0, 3.0, 1.0), cylinder(350.0, 4.0, 400.0)];
-        assert_is(&to_cylinders(&motion, &nested).unwrap(), -396.0, 10.0);
-        assert!(to_cylinders(&motion, &[]).is_none());
+        assert_is(&to_cylinders(&motion, &[1.0], &nested).unwrap(), -397.0, 10.0);
+        assert!(to_cylinders(&motion, &[0.0], &[]).is_none());
     }
 
     #[test]

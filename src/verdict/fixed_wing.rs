@@ -13,7 +13,7 @@ use std::ops::Deref;
 use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 
 pub use between_rows::{max_acceleration_mps2, max_distance_m};
-pub use clearance::at_nodes as clearance_at_nodes;
+pub use clearance::{at_instant as clearance_at, at_nodes as clearance_at_nodes, closest as closest_obstacle};
 pub use planned::PlannedMotions;
 
 use between_rows::Tube;
@@ -23,7 +23,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, arrival, collision, flight_integrity, separation};
+use crate::verdict::{Check, collision, flight_integrity, goal, separation};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
@@ -48,7 +48,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?, it.provenance)),
     ("nodes.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
-    ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
+    ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?)),
     ("plan.separation", |spec, it| {
         separation::check(spec, it.scenario, it.planned_motions(), SeparationShape::Horizontal)
     }),
@@ -57,12 +57,12 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?)),
     ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.plan, it.planned()?)),
-    ("plan.goal", |spec, it| arrival::check_planned_goals(spec, it.scenario, it.planned_motions()?)),
+    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned_motions()?)),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     ("flight.crash", |spec, it| {
-        let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_cylinder);
+        let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
@@ -74,7 +74,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
-    ("flight.goal", |spec, it| arrival::check_flown_goals(spec, it.scenario, it.flown()?)),
+    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?)),
     ("flight.tension", no_load),
     ("flight.slack", no_load),
     ("flight.swing", no_load),

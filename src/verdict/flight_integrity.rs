@@ -86,6 +86,19 @@ pub fn check_crash(
     spec.at_most(measured, 0.0)
 }
 
+/// The first crash into an obstacle or the ground until the mission's end: its time, s, and the names of the vehicle and the
+/// obstacle.
+pub fn obstacle_crash(flight: &Flight, mission_end_s: f64) -> Option<(f64, [&str; 2])> {
+    flight.events.iter().find_map(|event| match (&event.kind, event.vehicles.as_slice()) {
+        (EventKind::Crash { obstacle: Some(obstacle) }, [vehicle, ..])
+            if !exceeds(event.t_s, mission_end_s + flight.step_s) =>
+        {
+            Some((event.t_s, [vehicle.as_str(), obstacle.as_str()]))
+        }
+        _ => None,
+    })
+}
+
 /// No crash, with a word on the first one after the mission's end, if there is one.
 fn later_crash(flight: &Flight) -> Measurement {
     let Some((t_s, concerned)) = flight.events.iter().find_map(crash) else { return Measurement::value(0.0) };

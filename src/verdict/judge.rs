@@ -3,7 +3,7 @@ use sim::Flight;
 
 use crate::families;
 use crate::verdict::case::Case;
-use crate::verdict::{Check, Integration, Outcome, Provenance, Status, Verdict};
+use crate::verdict::{Check, Integration, Outcome, Provenance, Status, Verdict, collision};
 
 /// Judges a plan and its flight.
 ///
@@ -36,6 +36,7 @@ pub fn judge_with(
     if let Some(integration) = &integration {
         integration.mark_undecided(&mut checks);
     }
+    collision::mark_crashed(&case, &mut checks);
     let overclaimed = plan.status == PlanStatus::Solved && checks.iter().any(|check| check.is_bad_in(Group::Plan));
     apply_check_policy(scenario, &mut checks);
     let outcome = if plan.status == PlanStatus::NoPlan || plan.trajectories.is_empty() {

@@ -19,7 +19,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, Provenance, arrival, collision, flight_integrity, separation};
+use crate::verdict::{Check, Provenance, collision, flight_integrity, goal, separation};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
@@ -47,14 +47,14 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?)),
     ("nodes.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
-    ("nodes.goal", |spec, it| arrival::check_node_goals(spec, it.scenario, it.flyable()?)),
+    ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?)),
     ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering(), SeparationShape::Spatial)),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.hovering()?)),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?)),
     ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
     ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
-    ("plan.goal", |spec, it| arrival::check_planned_goals(spec, it.scenario, it.planned()?)),
+    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?)),
     ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?)),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
@@ -70,7 +70,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
-    ("flight.goal", |spec, it| arrival::check_flown_goals(spec, it.scenario, it.flown()?)),
+    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?)),
     ("flight.rest", |spec, it| rest::check_flown(spec, it.scenario, it.plan, it.flown()?)),
 ];
 

@@ -62,6 +62,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
     ("nodes.clearance", |spec, it| it.shape_pairs.check_nodes(spec, it.trajectory())),
     ("nodes.envelope", |spec, it| it.shape_pairs.check_envelope_nodes(spec, it.trajectory(), it.envelope_m())),
+    ("nodes.rotor_clearance", |spec, it| it.shape_pairs.check_own_nodes(spec, it.trajectory())),
     ("nodes.state_limits", |spec, it| it.limits.check_node_states(spec, it.trajectory()?)),
     ("nodes.control_limits", |spec, it| it.limits.check_node_thrusts(spec, it.trajectory()?)),
     ("nodes.goal", |spec, it| it.end.check_node_goal(spec, it.trajectory()?)),
@@ -69,8 +70,11 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("plan.separation", |spec, it| {
         separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]), SeparationShape::Spatial)
     }),
-    ("plan.clearance", |spec, it| it.shape_pairs.check(spec, it.planned_motion())),
+    ("plan.clearance", |spec, it| {
+        it.shape_pairs.check(spec, it.planned_motion(), it.planned().map(|it| &it.motions[1]))
+    }),
     ("plan.envelope", |spec, it| it.shape_pairs.check_envelope(spec, it.planned_motion(), it.envelope_m())),
+    ("plan.rotor_clearance", |spec, it| it.shape_pairs.check_own(spec, it.planned_motion())),
     ("plan.state_limits", |spec, it| it.limits.check_planned_states(spec, it.planned()?)),
     ("plan.control_limits", |spec, it| it.limits.check_planned_thrusts(spec, it.trajectory()?)),
     ("plan.dynamics", check_defects),
@@ -92,10 +96,11 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("flight.separation", |spec, it| {
         separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]), SeparationShape::Spatial)
     }),
-    ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion())),
+    ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion(), it.flown().map(|it| &it.motions[1]))),
     ("flight.envelope", |spec, it| {
         it.shape_pairs.check_envelope(spec, it.flown_motion(), it.envelope_m().map(|_| FLOWN_ENVELOPE_M))
     }),
+    ("flight.rotor_clearance", |spec, it| it.shape_pairs.check_own(spec, it.flown_motion())),
     ("flight.state_limits", |spec, it| it.limits.check_flown_states(spec, it.flown()?)),
     ("flight.control_limits", |spec, it| it.limits.check_flown_thrusts(spec, it.flown()?.log)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.plan, it.flight()?)),

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use scenarios::slung_load::State;
 use scenarios::{Family, Scenario, Trajectory, Vehicle};
+use sim::slung_load::SlungLoadState;
 use thiserror::Error;
 
 use crate::verdict::compare::exceeds;
@@ -125,8 +126,15 @@ fn load_start_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
     let start = State::at(&vehicle.start, scenario.slung_load_model(vehicle).cable_length_m);
     start_defect("m (the load)", first.load_position_m, start.load_position_m, START_TOLERANCE)
         .or_else(|| start_defect("m/s (the load)", first.load_velocity_mps, start.load_velocity_mps, START_TOLERANCE))
-        .or_else(|| start_defect("rad", first.roll_pitch_yaw_rad, start.roll_pitch_yaw_rad, START_TOLERANCE))
+        .or_else(|| start_attitude_defect(first, &start))
         .or_else(|| start_defect("rad/s", first.body_rate_radps, start.body_rate_radps, START_TOLERANCE))
+}
+
+/// Attitudes differ by the angle of the rotation between them: Euler angles that are full turns apart are the same attitude.
+fn start_attitude_defect(first: &State, start: &State) -> Option<TrajectoryDefect> {
+    let [first, start] = [first, start].map(|state| SlungLoadState::from(state).attitude);
+    let distance = first.angle_to(&start);
+    exceeds(distance, START_TOLERANCE).then_some(TrajectoryDefect::Start { distance, unit: "rad" })
 }
 
 /// Times begin at 0 and increase; where the family allows a discontinuity, two nodes may share one time.

@@ -9,10 +9,10 @@ fn pillar(x_m: f64, y_m: f64, radius_m: f64) -> Cylinder {
     Cylinder { name: "needle".to_owned(), center_m: [x_m, y_m], radius_m }
 }
 
-/// Samples are 0.35 m apart; the needle stands between the two at 3.50 m and 3.85 m.
+/// Samples are 0.35 m apart; the needle stands between the two at 3.50 m and 3.85 m. The body reaches 1 m to the side.
 #[test]
 fn a_needle_between_two_samples_is_hit() {
-    for (y_m, status) in [(0.0, Status::Fail), (0.049, Status::Fail), (0.051, Status::Pass)] {
+    for (y_m, status) in [(0.0, Status::Fail), (1.049, Status::Fail), (1.051, Status::Pass)] {
         let mut case = Case::good();
         case.scenario.world.cylinders = vec![pillar(3.675, y_m, 0.05)];
         assert_eq!(case.status("flight.clearance"), status, "needle at {y_m} m");
@@ -83,6 +83,7 @@ fn circling(needle: Cylinder) -> Case {
     let mut case = Case::straight(&[0.0], 1.0);
     let (radius_m, rate_radps) = (125.0, SPEED_MPS / 125.0);
     case.scenario.world.cylinders = vec![needle];
+    case.scenario.models.fixed_wing.get_mut("paper").unwrap().body_radius_m = 0.1;
     for step in 0..=22 {
         let t_s = f64::from(step);
         let (sin, cos) = (rate_radps * t_s).sin_cos();
@@ -92,11 +93,11 @@ fn circling(needle: Cylinder) -> Case {
     case
 }
 
-/// The needle stands at the middle of the arc from 5 s to 6 s, `outside_m` outside of it.
+/// The needle stands at the middle of the arc from 5 s to 6 s, `outside_m` outside of it; needle and body are 0.3 m wide.
 fn needle_beside_the_arc(outside_m: f64) -> Cylinder {
     let (sin, cos) = (SPEED_MPS / 125.0 * 5.5).sin_cos();
     let distance_m = 125.0 + outside_m;
-    pillar(distance_m * sin, 125.0 - distance_m * cos, 0.3)
+    pillar(distance_m * sin, 125.0 - distance_m * cos, 0.2)
 }
 
 #[test]

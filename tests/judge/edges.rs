@@ -23,14 +23,14 @@ const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes
 /// Distances 1 mm from their limits where the check measures in metres.
 const EDGES: &[Edge] = &[
     edge("nodes.separation", |case, y_m| case.trajectory(0).states[5].y_m = y_m, 100.001, 99.999),
-    edge("nodes.clearance", |case, y_m| case.trajectory(0).states[5].y_m = y_m, -100.001, -99.999),
+    edge("nodes.clearance", |case, y_m| case.trajectory(0).states[5].y_m = y_m, -99.001, -98.999),
     edge("nodes.state_limits", |case, speed| case.trajectory(1).states[3].speed_mps = speed, 40.001, 39.999),
     edge("nodes.control_limits", |case, n_y| case.trajectory(1).controls[3].n_y = n_y, -0.2001, -0.1999),
     edge("nodes.goal", |case, x_m| case.trajectory(2).states[10].x_m += x_m, 5.001, 4.999),
     edge("plan.finite", |case, value| case.plan.objective = Some(value), f64::NAN, 0.0),
     edge("plan.complete", |case, t_s| case.trajectory(0).times_s[4] = t_s, 6.0, 6.001),
     edge("plan.separation", |case, y_m| case.trajectory(0).states[5].y_m = y_m, 100.001, 99.999),
-    edge("plan.clearance", |case, y_m| case.trajectory(0).states[5].y_m = y_m, -100.001, -99.999),
+    edge("plan.clearance", |case, y_m| case.trajectory(0).states[5].y_m = y_m, -99.001, -98.999),
     edge("plan.state_limits", |case, speed| case.trajectory(1).states[3].speed_mps = speed, 45.001, 44.999),
     edge("plan.control_limits", |case, n_z| case.trajectory(1).controls[3].n_z = n_z, 1.4001, 1.3999),
     edge("plan.dynamics", |case, x_m| case.trajectory(2).states[6].x_m += x_m, 1.001, 0.999),
@@ -42,7 +42,7 @@ const EDGES: &[Edge] = &[
     edge("flight.complete", |case, steps| case.samples(1).truncate(steps as usize), 1999.0, 2001.0),
     edge("flight.crash", crash, 1.0, 0.0),
     edge("flight.separation", |case, y_m| shift(case, 0, [0.0, y_m, 0.0]), 100.001, 99.999),
-    edge("flight.clearance", |case, y_m| shift(case, 0, [0.0, -y_m, 0.0]), 100.001, 99.999),
+    edge("flight.clearance", |case, y_m| shift(case, 0, [0.0, -y_m, 0.0]), 99.001, 98.999),
     edge("flight.state_limits", |case, wind| case.samples(2)[400].wind_mps[0] = -wind, 10.001, 9.999),
     edge("flight.control_limits", |case, n_x| factors(&mut case.samples(2)[400]).control.n_x = n_x, 0.4001, 0.3999),
     edge("flight.conditions", |case, mps| case.samples(2)[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
@@ -143,7 +143,7 @@ fn there_is_a_red_test_for_every_check_of_a_verdict() {
 #[test]
 fn margins_are_in_the_unit_of_the_check() {
     for (name, amount, margin) in
-        [("flight.separation", 99.999, 0.001), ("flight.clearance", 100.001, -0.001), ("flight.goal", 4.999, 0.001)]
+        [("flight.separation", 99.999, 0.001), ("flight.clearance", 99.001, -0.001), ("flight.goal", 4.999, 0.001)]
     {
         let edge = EDGES.iter().find(|edge| edge.check == name).unwrap();
         let measured = broken(edge, amount).check(name).margin.unwrap();
@@ -159,7 +159,7 @@ fn the_worst_place_is_named() {
     assert_eq!(separation.between, ["uav-1", "uav-2"]);
     let clearance = Case::good().check("plan.clearance");
     assert_eq!(clearance.between, ["uav-1", "pillar"]);
-    assert!((clearance.at_s.unwrap() - 10.0).abs() < 1e-3 && (clearance.value.unwrap() - 100.0).abs() < 1e-9);
+    assert!((clearance.at_s.unwrap() - 10.0).abs() < 1e-3 && (clearance.value.unwrap() - 99.0).abs() < 1e-9);
     let mut case = Case::good();
     case.trajectory(1).states[3].speed_mps = 46.0;
     let limits = case.check("plan.state_limits");

@@ -2,8 +2,10 @@
 
 mod between_samples;
 mod broken;
+mod clearances;
 mod edges;
 mod fleet;
+mod goals;
 mod roundabout;
 mod rules;
 mod simulated;

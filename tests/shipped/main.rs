@@ -4,6 +4,7 @@ mod between_nodes;
 mod conformance;
 mod geometry;
 mod multirotor;
+mod own_plans;
 mod trapezoid;
 mod verdicts;
 

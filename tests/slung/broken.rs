@@ -108,3 +108,46 @@ fn a_cable_that_would_have_to_push_fails() {
     assert_eq!(check.status, Status::Fail, "{check:?}");
     assert!(check.reason.is_some_and(|reason| reason.contains("push")));
 }
+
+#[test]
+fn angles_a_full_turn_apart_are_the_same() {
+    for turns in [-2.0, -1.0, 1.0, 3.0] {
+        for axis in 0..3 {
+            let mut case = Case::good();
+            case.trajectory().states[0].roll_pitch_yaw_rad[axis] += turns * std::f64::consts::TAU;
+            assert_eq!(case.judge().outcome, Outcome::Pass, "{turns} turns about axis {axis}");
+        }
+    }
+    let mut case = Case::good();
+    case.trajectory().states[0].roll_pitch_yaw_rad[0] += 0.011;
+    assert_eq!(case.status("plan.complete"), Status::Fail);
+}
+
+/// The load of the good flight begins with its lowest point at 0.62 m; the body stays above 1 m.
+#[test]
+fn a_load_may_lie_on_the_ground_and_not_be_in_it() {
+    for (ground_m, status) in [(0.6195, Status::Pass), (0.6205, Status::Pass), (0.622, Status::Fail)] {
+        let mut case = Case::good();
+        case.scenario.world.ground_m = Some(ground_m);
+        for name in ["nodes.clearance", "plan.clearance", "flight.clearance"] {
+            let check = case.check(name);
+            assert_eq!(check.status, status, "{ground_m}: {check:#?}");
+            assert_eq!(check.between.last().is_some_and(|name| name == "ground"), status == Status::Fail);
+        }
+    }
+}
+
+/// Deep in an obstacle the motion between the nodes is no farther from it than the nodes.
+#[test]
+fn between_the_nodes_is_never_better_than_at_them() {
+    for (south_m, z_m) in
+        [(0.6, None), (1.0, None), (0.8, Some(Range::new(-1.0, 1.6))), (1.2, Some(Range::new(0.9, 1.2)))]
+    {
+        let mut case = Case::good();
+        let wall = &mut case.scenario.world.boxes[0];
+        (wall.center_m[1], wall.z_m) = (-south_m, z_m);
+        let [nodes, plan] = ["nodes.clearance", "plan.clearance"].map(|name| case.check(name));
+        assert_eq!((nodes.status, plan.status), (Status::Fail, Status::Fail));
+        assert!(plan.value.unwrap() <= nodes.value.unwrap(), "{plan:#?} {nodes:#?}");
+    }
+}

@@ -25,6 +25,7 @@ const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes
 const EDGES: &[Edge] = &[
     edge("nodes.clearance", |case, y_m| grow_wall(case, "nodes.clearance", y_m), -0.001, 0.001),
     edge("nodes.envelope", |case, y_m| grow_wall(case, "nodes.envelope", y_m), 0.049, 0.051),
+    edge("nodes.rotor_clearance", |case, m| enlarge_load(case, "nodes.rotor_clearance", m), -0.001, 0.001),
     edge(
         "nodes.state_limits",
         |case, deg| case.trajectory().states[9].roll_pitch_yaw_rad[2] = deg.to_radians(),
@@ -38,6 +39,7 @@ const EDGES: &[Edge] = &[
     edge("plan.complete", |case, rate| case.trajectory().states[0].body_rate_radps[1] = rate, 0.011, 0.009),
     edge("plan.clearance", |case, y_m| grow_wall(case, "plan.clearance", y_m), -0.001, 0.001),
     edge("plan.envelope", |case, y_m| grow_wall(case, "plan.envelope", y_m), 0.049, 0.051),
+    edge("plan.rotor_clearance", |case, m| enlarge_load(case, "plan.rotor_clearance", m), -0.001, 0.001),
     edge("plan.state_limits", |case, x_m| case.scenario.world.map.x_m.max = 2.0 + x_m, -0.001, 0.001),
     edge("plan.control_limits", |case, n| case.trajectory().controls[9].thrust_n[1] = n, 0.199, 0.201),
     edge("plan.dynamics", |case, x_m| case.trajectory().states[300].load_position_m[0] += x_m, 0.0102, 0.0097),
@@ -58,6 +60,7 @@ const EDGES: &[Edge] = &[
     edge("flight.crash", crash, 1.0, 0.0),
     edge("flight.clearance", |case, y_m| shift_to(case, "flight.clearance", y_m), -0.001, 0.001),
     edge("flight.envelope", |case, y_m| shift_to(case, "flight.envelope", y_m), -0.001, 0.001),
+    edge("flight.rotor_clearance", |case, m| enlarge_load(case, "flight.rotor_clearance", m), -0.001, 0.001),
     edge("flight.state_limits", |case, x_m| case.scenario.world.map.x_m.min = -2.0 - x_m, -0.001, 0.001),
     edge("flight.control_limits", |case, n| thrusts(&mut case.samples()[400]).control.thrust_n[3] = n, 7.001, 6.999),
     edge("flight.conditions", |case, mps| case.samples()[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
@@ -95,6 +98,17 @@ fn lower_gate(case: &mut Case, check: &str, depth_m: f64) {
     let now_m = case.check(check).value.unwrap();
     assert!(now_m < 0.0, "the load is below the window: {now_m}");
     case.scenario.world.gates[0].load.z_m = Some(Range::new(0.9 + now_m - depth_m, 2.0));
+}
+
+/// Enlarges the load until it is this far from the body.
+fn enlarge_load(case: &mut Case, check: &str, distance_m: f64) {
+    let set_radius_m = |case: &mut Case, radius_m: f64| {
+        case.scenario.models.slung_load.get_mut("quad").unwrap().load_radius_m = radius_m;
+    };
+    let large_m = 0.6;
+    set_radius_m(case, large_m);
+    let now_m = case.check(check).value.unwrap();
+    set_radius_m(case, large_m + now_m - distance_m);
 }
 
 /// Moves the flight to the north so that what the check measures becomes `y_m`.

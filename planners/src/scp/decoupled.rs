@@ -164,11 +164,12 @@ impl<'a> FleetProblem<'a> {
     ) -> Vec<HalfspaceConstraint> {
         let mut halfspaces = Vec::new();
         let margin_m = self.options.margin_m;
+        let body_m = self.scenario.fixed_wing_model(&self.scenario.vehicles[i]).body_radius_m;
         let obstacles = self.scenario.world.cylinders.iter().filter(|_| avoidance.obstacles);
         for cylinder in obstacles {
             let keep_out = KeepOut {
                 center_m: &|_| cylinder.center_m,
-                radius_m: cylinder.radius_m + margin_m,
+                radius_m: cylinder.radius_m + body_m + margin_m,
                 tie_break: [0.0, 1.0],
             };
             append_halfspaces(&last[i], &keep_out, trust_region_m, &mut halfspaces);
@@ -216,7 +217,7 @@ impl<'a> FleetProblem<'a> {
             defect_m: max(&|result| result.trajectory.defect_m(self.options.transcription)),
             slack: max(&|result| result.slack),
             separation_m: plan::node_separation_m(&now),
-            clearance_m: plan::node_clearance_m(&now, &self.scenario.world.cylinders),
+            clearance_m: plan::node_clearance_m(self.scenario, &now),
             change_m: change[0].max(change[1]),
             trust_region_m: trust_region[0],
             solver_iterations: results.iter().map(|result| result.solver_iterations).sum(),

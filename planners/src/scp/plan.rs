@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use scenarios::fixed_wing::{Control, State, Trajectory};
-use scenarios::{Cylinder, Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
 
 use super::interval::Interval;
 use super::iterate::{Iterate, max_dt_s, max_flight_time_s};
@@ -121,12 +121,18 @@ pub fn node_separation_m(trajectories: &[&Iterate]) -> Option<f64> {
     min_m.is_finite().then_some(min_m)
 }
 
-/// Smallest distance from a node to the surface of a cylinder, m.
-pub fn node_clearance_m(trajectories: &[&Iterate], cylinders: &[Cylinder]) -> Option<f64> {
-    let nodes = trajectories.iter().flat_map(|trajectory| trajectory.states.iter());
-    nodes
-        .flat_map(|state| cylinders.iter().map(|cylinder| cylinder.signed_distance_m(state[0], state[1])))
-        .reduce(f64::min)
+/// Smallest distance from the body of a vehicle at a node to the surface of a cylinder, m.
+pub fn node_clearance_m(scenario: &Scenario, trajectories: &[&Iterate]) -> Option<f64> {
+    let vehicles = scenario.vehicles.iter().zip(trajectories);
+    let clearances = vehicles.flat_map(|(vehicle, trajectory)| {
+        let body_m = scenario.fixed_wing_model(vehicle).body_radius_m;
+        let nodes = trajectory.states.iter();
+        nodes.flat_map(move |state| {
+            let distances_m = scenario.world.cylinders.iter().map(|it| it.signed_distance_m(state[0], state[1]));
+            distances_m.map(move |distance_m| distance_m - body_m)
+        })
+    });
+    clearances.reduce(f64::min)
 }
 
 fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {

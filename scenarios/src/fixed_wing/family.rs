@@ -12,6 +12,9 @@ pub(crate) const FAMILY: FamilySpec = FamilySpec {
         tracking_rms_m: 2.0,
         arrival_spread_s: 0.5,
         goal_m: 5.0,
+        goal_heading_deg: 5.0,
+        goal_flight_path_deg: 3.0,
+        goal_speed_mps: 2.0,
         rest_mps: 0.1,
         dynamics_m: 1.0,
         rollout_m: 5.0,
@@ -36,8 +39,8 @@ impl VehicleModel for Model {
         super::validate::model(field, self)
     }
 
-    fn waypoint_issues(&self, _world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
-        super::validate::waypoint(self, field, waypoint)
+    fn waypoint_issues(&self, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+        super::validate::waypoint(self, world, field, waypoint)
     }
 }
 
@@ -64,5 +67,5 @@ fn unsupported(scenario: &Scenario) -> Vec<Issue> {
         surplus("world.moving", world.moving.len(), 0, sensing, ""),
         surplus("world.gates", world.gates.len(), 0, gates, ""),
     ];
-    rules.into_iter().flatten().collect()
+    rules.into_iter().flatten().chain(super::validate::above_ground(scenario)).collect()
 }

@@ -17,6 +17,7 @@ pub(super) const COLUMNS: Columns = Columns {
     required: &["x_m", "y_m", "z_m"],
     velocity: &[&["speed_mps", "heading_rad", "flight_path_rad"], &["vx_mps", "vy_mps", "vz_mps"]],
     controls: &["n_x", "n_y", "n_z"],
+    optional: &[],
     converted: &[("heading_deg", "heading_rad", DEGREE), ("flight_path_deg", "flight_path_rad", DEGREE)],
     words: &[],
     arrays: &[],

@@ -1,9 +1,10 @@
-//! Validation of fixed-wing models, and of starts and goals against their planning limits.
+//! Validation of fixed-wing models, and of starts and goals against their planning limits, obstacles and the ground.
 
 use super::{Limits, Model};
+use crate::validate::body::too_near_obstacles;
 use crate::validate::planning_inside_physical;
 use crate::validate::quantity::{inside, ordered, positive};
-use crate::{Issue, Range, Waypoint};
+use crate::{Issue, Range, Scenario, Waypoint, World};
 
 pub(super) fn model(field: &str, model: &Model) -> Vec<Issue> {
     let mut issues = Vec::new();
@@ -42,8 +43,8 @@ fn named(limits: &Limits) -> [(&'static str, Range); 6] {
     ]
 }
 
-/// Start or goal against the planning limits.
-pub(super) fn waypoint(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
+/// Start or goal against the planning limits and the obstacles.
+pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let limits = &model.planning_limits;
     let quantities = [
         ("z_m", waypoint.z_m, limits.altitude_m, "the planning limits of altitude, m"),
@@ -59,5 +60,21 @@ pub(super) fn waypoint(model: &Model, field: &str, waypoint: &Waypoint) -> Vec<I
     let load = waypoint.load.map(|_| {
         Issue::new(format!("{field}.load"), "a load", "nothing: a fixed wing carries no load").remedy("remove it")
     });
-    quantities.into_iter().filter_map(check).chain(load).collect()
+    let near = too_near_obstacles(model.body_radius_m, world, field, waypoint);
+    quantities.into_iter().filter_map(check).chain(load).chain(near).collect()
+}
+
+/// Planners keep aircraft off the ground by their planning limits.
+pub(super) fn above_ground(scenario: &Scenario) -> Vec<Issue> {
+    let Some(ground_m) = scenario.world.ground_m else { return Vec::new() };
+    let models = scenario.models.fixed_wing.iter();
+    let low = models.filter(|(_, model)| model.planning_limits.altitude_m.min < ground_m + model.body_radius_m);
+    low.map(|(name, model)| {
+        let field = format!("models.fixed-wing.{name}.planning_limits.altitude_m");
+        let expected =
+            format!("a minimum of at least {} m, the body radius above the ground", ground_m + model.body_radius_m);
+        Issue::new(field, model.planning_limits.altitude_m.to_string(), expected)
+            .remedy("raise the minimum, or lower world.ground_m")
+    })
+    .collect()
 }

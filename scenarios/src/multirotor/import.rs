@@ -12,6 +12,7 @@ pub(super) const COLUMNS: Columns = Columns {
     required: without_vehicle_and_time(&CSV_COLUMNS),
     velocity: &[],
     controls: &[],
+    optional: &[],
     converted: &[],
     words: &[],
     arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],

@@ -15,6 +15,8 @@ pub struct Columns {
     pub velocity: &'static [&'static [&'static str]],
     /// Controls. A file has all of them or none.
     pub controls: &'static [&'static str],
+    /// Other columns that a file may have.
+    pub optional: &'static [&'static str],
     /// Columns in another unit: name, the column that it is converted to, and the factor.
     pub converted: &'static [(&'static str, &'static str, f64)],
     /// Columns of words: name, and the words for the numbers 0, 1, ...
@@ -42,7 +44,7 @@ impl Columns {
     /// Every known column except vehicle and time.
     pub fn names(&self) -> Vec<&'static str> {
         let velocity = self.velocity.iter().flat_map(|form| form.iter());
-        let plain = self.required.iter().chain(velocity).chain(self.controls).copied();
+        let plain = self.required.iter().chain(velocity).chain(self.controls).chain(self.optional).copied();
         plain.chain(self.converted.iter().map(|(name, ..)| *name)).collect()
     }
 

@@ -1,19 +1,20 @@
 //! The family's plan columns, and what a table of them becomes.
 
-use super::{CSV_COLUMNS, Cable, Control, State, Trajectory};
+use super::{AT_NODE, CSV_COLUMNS, Cable, Control, State, Trajectory};
 use crate::plan_input::columns::{Columns, without_vehicle_and_time};
 use crate::plan_input::{ColumnTable, ImportedTrajectory};
 use crate::{Family, Interpolation};
 
-/// State, control and cable, all required: nothing is reconstructed.
+/// State, control and cable, all required: nothing is reconstructed. Without the column `at_node` every row is a node.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::SlungLoad,
     written: &CSV_COLUMNS,
-    required: without_vehicle_and_time(&CSV_COLUMNS),
+    required: without_vehicle_and_time(CSV_COLUMNS.split_at(25).0),
     velocity: &[],
     controls: &[],
+    optional: &[AT_NODE],
     converted: &[],
-    words: &[("cable", &["slack", "taut"])],
+    words: &[("cable", &["slack", "taut"]), (AT_NODE, &["no", "yes"])],
     arrays: &[
         ("position_m", &["x_m", "y_m", "z_m"]),
         ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"]),
@@ -41,7 +42,15 @@ pub(super) fn trajectory(table: &ColumnTable) -> ImportedTrajectory {
         states: nodes.clone().map(state).collect(),
         controls: nodes.clone().map(control).collect(),
         cable: nodes.map(cable).collect(),
-        planner_nodes: table.planner_nodes.clone(),
+        planner_nodes: planner_nodes(table),
     };
     ImportedTrajectory::Complete(trajectory.into())
+}
+
+/// The nodes of the planner that the table lists, or the rows that say so.
+fn planner_nodes(table: &ColumnTable) -> Vec<usize> {
+    match table.columns.get(AT_NODE) {
+        Some(at_node) => (0..at_node.len()).filter(|row| at_node[*row] != 0.0).collect(),
+        None => table.planner_nodes.clone(),
+    }
 }

@@ -4,8 +4,9 @@ use super::{Cable, Control, State};
 use crate::{Family, Interpolation, TrajectoryNodes};
 
 /// Columns of a written slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI,
-/// radians. `cable` is `taut` or `slack` from this node to the next.
-pub const CSV_COLUMNS: [&str; 25] = [
+/// radians. `cable` is `taut` or `slack` from this node to the next; `at_node` is `yes` where the planner imposed its
+/// constraints, `no` at samples between.
+pub const CSV_COLUMNS: [&str; 26] = [
     "vehicle",
     "t_s",
     "x_m",
@@ -31,7 +32,11 @@ pub const CSV_COLUMNS: [&str; 25] = [
     "thrust_3_n",
     "thrust_4_n",
     "cable",
+    AT_NODE,
 ];
+
+/// The column that tells nodes of the planner from samples.
+pub const AT_NODE: &str = "at_node";
 
 /// The planned motion of a quadrotor with a load, given at nodes.
 ///
@@ -105,7 +110,9 @@ impl TrajectoryNodes for Trajectory {
             Cable::Taut => "taut",
             Cable::Slack => "slack",
         };
-        numbers.map(|number| format!("{number:?}")).chain([cable.to_owned()]).collect()
+        let is_node = self.planner_nodes.is_empty() || self.planner_nodes.contains(&node);
+        let words = [cable, if is_node { "yes" } else { "no" }].map(str::to_owned);
+        numbers.map(|number| format!("{number:?}")).chain(words).collect()
     }
 }
 

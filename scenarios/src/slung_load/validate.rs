@@ -76,6 +76,7 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
         let expected = format!("at most {} m, the length of the cable", model.cable_length_m);
         issues.push(Issue::new(load.clone(), found, expected).remedy("move the load or the quadrotor"));
     }
+    issues.extend(inside_body(model, &load, &state));
     let min_z_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
     if let Some(min_z_m) = min_z_m.filter(|min_z_m| state.load_position_m[2] < min_z_m - LENGTH_TOLERANCE_M) {
         let found = format!("a load whose centre is at {} m", state.load_position_m[2]);
@@ -83,4 +84,16 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
         issues.push(Issue::new(load, found, expected).remedy("raise the load, or lower world.ground_m"));
     }
     issues
+}
+
+/// A load that overlaps the disc of the level body.
+fn inside_body(model: &Model, load: &str, state: &State) -> Option<Issue> {
+    let [x_m, y_m, z_m]: [f64; 3] = std::array::from_fn(|axis| state.load_position_m[axis] - state.position_m[axis]);
+    let beyond_m = (x_m.hypot(y_m) - model.body_radius_m()).max(0.0);
+    let clearance_m = beyond_m.hypot(z_m) - model.load_radius_m;
+    (clearance_m < 0.0).then(|| {
+        let found = format!("a load that overlaps the body of the quadrotor by {:.4} m", -clearance_m);
+        let expected = format!("at least {} m, the radius of the load, from the body's disc", model.load_radius_m);
+        Issue::new(load, found, expected).remedy("move the load or the quadrotor")
+    })
 }

@@ -42,8 +42,10 @@ fn a_slung_load_plan_is_read_back_unchanged() {
     let whole = plan.trajectories[0].slung_load().clone();
     let (_, trajectories) = parse_json("plan.json", &json, &scenario).unwrap();
     assert_eq!(trajectories, [ImportedTrajectory::Complete(whole.clone().into())]);
-    // A table has no planner nodes.
     let (_, trajectories) = parse_csv("plan.csv", &csv, &scenario).unwrap();
+    assert_eq!(trajectories, [ImportedTrajectory::Complete(whole.clone().into())]);
+    // Without the column every row is a node.
+    let (_, trajectories) = parse_csv("plan.csv", &without_last_column(&csv), &scenario).unwrap();
     assert_eq!(
         trajectories,
         [ImportedTrajectory::Complete(slung_load::Trajectory { planner_nodes: Vec::new(), ..whole }.into())]
@@ -59,7 +61,11 @@ fn a_slung_load_plan_must_be_complete() {
     let misspelt = csv.replacen("slack", "loose", 1);
     let result = parse_csv("plan.csv", &misspelt, &scenario);
     assert_rejected(result, &["plan.csv:2: cable: found \"loose\", expected `slack` or `taut`"]);
-    let cut = |line: &str| line.rsplit_once(',').unwrap().0.to_owned() + "\n";
-    let result = parse_csv("plan.csv", &csv.lines().map(cut).collect::<String>(), &scenario);
+    let without_cable = without_last_column(&without_last_column(&csv));
+    let result = parse_csv("plan.csv", &without_cable, &scenario);
     assert_rejected(result, &["cable of", "found nothing, expected a column of this name"]);
+}
+
+fn without_last_column(csv: &str) -> String {
+    csv.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned() + "\n").collect()
 }

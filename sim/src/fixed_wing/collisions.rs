@@ -4,7 +4,7 @@ use scenarios::Cylinder;
 use crate::collision::time_of_impact;
 use crate::flight::Sample;
 
-/// First contact of two aircraft, or of an aircraft and a cylinder.
+/// First contact of two aircraft, or of an aircraft and an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Collision {
     /// Index of the step in the time chunk, from 0.
@@ -22,6 +22,15 @@ pub(super) struct Collision {
 pub(super) enum Obstacle {
     Aircraft(usize),
     Cylinder(usize),
+    Ground,
+}
+
+/// What aircraft collide with, beside each other.
+#[derive(Clone, Copy)]
+pub(super) struct Obstacles<'a> {
+    pub cylinders: &'a [Cylinder],
+    /// Altitude of the ground, if there is one, m.
+    pub ground_m: Option<f64>,
 }
 
 /// Path of a ball over a time chunk: straight from one sample to the next, as the simulator moves it.
@@ -36,15 +45,16 @@ pub(super) struct SweptPath<'a> {
 /// contact only. Contacts between two steps are found, too.
 ///
 /// Candidate pairs are found by sweep and prune along x.
-pub(super) fn collisions(paths: &[SweptPath<'_>], cylinders: &[Cylinder]) -> Vec<Collision> {
+pub(super) fn collisions(paths: &[SweptPath<'_>], obstacles: Obstacles<'_>) -> Vec<Collision> {
     let mut swept: Vec<BoundedPath<'_>> = paths.iter().map(|path| BoundedPath::new(*path)).collect();
     swept.sort_by(|a, b| a.west_m().total_cmp(&b.west_m()));
     let mut found: Vec<Collision> = Vec::new();
     for (rank, first) in swept.iter().enumerate() {
         let overlapping = swept[rank + 1..].iter().take_while(|other| other.west_m() <= first.east_m());
         found.extend(overlapping.filter_map(|second| first.collision(second)));
-        let cylinders = cylinders.iter().enumerate();
+        let cylinders = obstacles.cylinders.iter().enumerate();
         found.extend(cylinders.filter_map(|(index, cylinder)| first.collision_with_cylinder(index, cylinder)));
+        found.extend(obstacles.ground_m.and_then(|ground_m| first.collision_with_ground(ground_m)));
     }
     let when = |collision: &Collision| collision.step as f64 + collision.fraction;
     found.sort_by(|a, b| when(a).total_cmp(&when(b)).then(a.aircraft.cmp(&b.aircraft)));
@@ -98,9 +108,27 @@ impl<'a> BoundedPath<'a> {
         Some(Collision { step, fraction, aircraft: self.path.aircraft, with: Obstacle::Cylinder(index) })
     }
 
+    fn collision_with_ground(&self, ground_m: f64) -> Option<Collision> {
+        if self.center_m.z - self.reach_m > ground_m {
+            return None;
+        }
+        let height_m = |index: usize| position_m(&self.path.samples[index]).z - self.path.radius_m - ground_m;
+        let (step, fraction) = self.first_step(|step| touchdown(height_m(step), height_m(step + 1)))?;
+        Some(Collision { step, fraction, aircraft: self.path.aircraft, with: Obstacle::Ground })
+    }
+
     fn first_step(&self, contact: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
         (0..self.path.samples.len() - 1).find_map(|step| Some((step, contact(step)?)))
     }
+}
+
+/// The fraction of a step at which a height that changes linearly from `start_m` to `end_m` reaches 0: 0 if it begins there,
+/// `None` if it stays above.
+fn touchdown(start_m: f64, end_m: f64) -> Option<f64> {
+    if start_m <= 0.0 {
+        return Some(0.0);
+    }
+    (end_m <= 0.0).then(|| start_m / (start_m - end_m))
 }
 
 /// The horizontal part of a vector: only that matters for the distance from a vertical cylinder.

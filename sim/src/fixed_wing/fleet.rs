@@ -1,10 +1,11 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use scenarios::{Cylinder, Plan};
+use scenarios::Plan;
 
 use super::aircraft::Aircraft;
 use super::aircraft_batch::AircraftBatch;
-use super::collisions::{Collision, Obstacle, SweptPath, collisions};
+use super::collisions::{Collision, Obstacle, Obstacles, SweptPath, collisions};
+use crate::collision::GROUND;
 use crate::flight::{Event, EventKind, FleetLog};
 use crate::kinematics::PointState;
 use crate::request::FlightRequest;
@@ -31,7 +32,7 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, plan: &Plan, progress: &mut 
 /// Fixed wings in flight.
 struct Fleet<'a> {
     batches: Vec<AircraftBatch>,
-    cylinders: &'a [Cylinder],
+    obstacles: Obstacles<'a>,
     step_s: f64,
     events: Vec<Event>,
 }
@@ -55,7 +56,8 @@ impl<'a> Fleet<'a> {
             batch.add(aircraft, scenario.simulation.mismatch.mass_ratio, &start);
         }
         batches.par_iter_mut().for_each(AircraftBatch::begin);
-        Self { batches, cylinders: &scenario.world.cylinders, step_s, events: Vec::new() }
+        let obstacles = Obstacles { cylinders: &scenario.world.cylinders, ground_m: scenario.world.ground_m };
+        Self { batches, obstacles, step_s, events: Vec::new() }
     }
 
     /// Simulates steps `first`..`end`, counted from 0.
@@ -81,14 +83,15 @@ impl<'a> Fleet<'a> {
                 samples: &aircraft.samples()[first..],
             })
             .collect();
-        collisions(&paths, self.cylinders)
+        collisions(&paths, self.obstacles)
     }
 
     /// Removes the aircraft that collided, unless one of them had been removed before.
     fn crash(&mut self, first: usize, collision: &Collision) {
         let (crashed, obstacle) = match collision.with {
             Obstacle::Aircraft(other) => (vec![collision.aircraft, other], None),
-            Obstacle::Cylinder(index) => (vec![collision.aircraft], Some(self.cylinders[index].name.clone())),
+            Obstacle::Cylinder(index) => (vec![collision.aircraft], Some(self.obstacles.cylinders[index].name.clone())),
+            Obstacle::Ground => (vec![collision.aircraft], Some(GROUND.to_owned())),
         };
         if !crashed.iter().all(|index| self.aircraft(*index).is_flying()) {
             return;

@@ -1,6 +1,9 @@
 //! Body, cable and load as convex shapes, and their signed distances from the obstacles.
 
 mod distance;
+mod golden_section;
+mod own_body;
+mod penetration;
 
 use scenarios::Prism;
 use scenarios::slung_load::Model;
@@ -8,9 +11,6 @@ use scenarios::slung_load::Model;
 use self::distance::{ConvexPart, point_to_prism_m, to_prism, to_prism_m};
 pub use self::distance::{OVERHANG_M, SeparatingPlane};
 use super::state::SlungLoadState;
-
-/// The name of the ground where an obstacle has a name.
-pub const GROUND: &str = "ground";
 
 /// A part of a quadrotor with a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,12 +42,14 @@ impl Part {
 pub struct Parts {
     body_radius_m: f64,
     load_radius_m: f64,
+    propeller_radius_m: f64,
 }
 
 impl Parts {
     /// The parts of a vehicle of this model.
     pub fn new(model: &Model) -> Self {
-        Self { body_radius_m: model.body_radius_m(), load_radius_m: model.load_radius_m }
+        let (body_radius_m, propeller_radius_m) = (model.body_radius_m(), model.propeller_radius_m);
+        Self { body_radius_m, load_radius_m: model.load_radius_m, propeller_radius_m }
     }
 
     /// Signed distance between a part and an obstacle, whose corners are counterclockwise, m: negative if they overlap.
@@ -68,14 +70,9 @@ impl Parts {
         }
     }
 
-    /// Signed distance as [`distance_m`](Self::distance_m), and a plane between obstacle and part (for the load, its
-    /// centre) if they do not overlap.
-    pub fn distance_and_plane(
-        &self,
-        part: Part,
-        state: &SlungLoadState,
-        obstacle: &Prism,
-    ) -> (f64, Option<SeparatingPlane>) {
+    /// Signed distance as [`distance_m`](Self::distance_m), and the plane that separates obstacle and part (for the load, its
+    /// centre) best, if they do not overlap, or least badly.
+    pub fn distance_and_plane(&self, part: Part, state: &SlungLoadState, obstacle: &Prism) -> (f64, SeparatingPlane) {
         match part {
             Part::Body => {
                 let (center_m, axis) = (state.position_m, state.thrust_axis());

@@ -1,4 +1,5 @@
 use scenarios::Scenario;
+use scenarios::fixed_wing::{Control, State};
 use sim::{Event, EventKind, Flight, fly};
 
 use crate::arena::{self, BODY_RADIUS_M};
@@ -87,4 +88,24 @@ fn an_aircraft_that_starts_inside_a_cylinder_crashes_at_once() {
     let tracks = [0.0, 3000.0].map(|y_m| arena::straight(arena::level(0.0, y_m, 35.0, 0.0), 30.0));
     let flight = fly(&scenario, &arena::plan(tracks.to_vec()), 0, &mut arena::silent);
     assert_eq!(crashes(&flight)[0].t_s, 0.0);
+}
+
+#[test]
+fn an_aircraft_that_descends_to_the_ground_crashes_when_its_body_touches_it() {
+    let mut scenario = arena::scenario(1);
+    scenario.world.ground_m = Some(100.0);
+    let start = State { flight_path_rad: -0.1, ..arena::level(0.0, 0.0, 35.0, 0.0) };
+    let controls = Control { n_x: start.flight_path_rad.sin(), n_y: 0.0, n_z: start.flight_path_rad.cos() };
+    let mut descent = arena::straight(start, 120.0);
+    let sink_mps = -start.velocity_mps()[2];
+    for (state, t_s) in descent.states.iter_mut().zip(&descent.times_s) {
+        *state = State { x_m: start.velocity_mps()[0] * t_s, z_m: start.z_m - sink_mps * t_s, ..start };
+    }
+    descent.controls.fill(controls);
+    let flight = fly(&scenario, &arena::plan(vec![descent]), 0, &mut arena::silent);
+    let [crash] = crashes(&flight)[..] else { panic!("{:?}", flight.events) };
+    let touch_s = (start.z_m - BODY_RADIUS_M - 100.0) / sink_mps;
+    assert!((crash.t_s - touch_s).abs() < 1e-3, "{} s, expected {touch_s} s", crash.t_s);
+    assert_eq!(crash.kind, EventKind::Crash { obstacle: Some("ground".into()) });
+    assert_log_ends_at(&flight, 0, crash.t_s);
 }

@@ -1,12 +1,13 @@
 //! Selftest of fixed wings.
 
 mod faults;
+mod goals;
 
 use scenarios::{Cylinder, Family, Trajectory, fixed_wing};
 use sim::{Actuation, Commanded, Sample};
 
 use super::family::{EditTrajectory, FamilySelftest};
-use super::faults::tightened_limits::{self, DEFECTS, GOALS, SEPARATION_CHECKS, limit};
+use super::faults::tightened_limits::{self, DEFECTS, SEPARATION_CHECKS, limit};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::UnflownCase;
 use super::{Fault, NearMiss, ReferenceCase};
@@ -19,7 +20,6 @@ pub static SELFTEST: FamilySelftest = FamilySelftest {
     near_misses,
     upper_limits: &[
         DEFECTS,
-        GOALS,
         limit("the limit of the open-loop error", &["plan.rollout"], |it, limit| {
             it.scenario.verdict.rollout_m = Some(limit);
         }),
@@ -40,12 +40,12 @@ fn reference_cases() -> Vec<UnflownCase> {
 }
 
 fn faults(reference: &ReferenceCase) -> Vec<Fault> {
-    super::faults::with_common(faults::all(), reference)
+    super::faults::with_common(faults::all().into_iter().chain(goals::faults()).collect(), reference)
 }
 
 fn near_misses(reference: &ReferenceCase) -> Vec<NearMiss> {
     let common = [near_misses::limits(reference), near_misses::whole(), vec![near_misses::separation()]];
-    common.into_iter().flatten().chain(own_near_misses()).collect()
+    common.into_iter().flatten().chain(own_near_misses()).chain(goals::near_misses()).collect()
 }
 
 fn own_near_misses() -> [NearMiss; 2] {

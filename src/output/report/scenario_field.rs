@@ -62,7 +62,11 @@ fn goal(check: &Check, scenario: &Scenario) -> Vec<String> {
     let vehicles = scenario.vehicles.iter().enumerate();
     let concerned = vehicles.filter(|(_, vehicle)| check.between.contains(&vehicle.name));
     let goals = concerned.map(|(index, _)| format!("vehicles[{index}].goal"));
-    std::iter::once("verdict.goal_m".to_owned()).chain(goals).collect()
+    let tolerance = match check.limit_key {
+        Some(LimitKey::Verdict(key)) => key,
+        _ => "goal_m",
+    };
+    std::iter::once(format!("verdict.{tolerance}")).chain(goals).collect()
 }
 
 #[cfg(test)]

@@ -39,9 +39,7 @@ pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan
 
 fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     add_bodies(scene, run.scenario, flight);
-    let distances = distances::add(scene, run, SeparationShape::Horizontal, |scenario, motions, step_s| {
-        clearance_over_time(motions, &scenario.world.cylinders, step_s)
-    });
+    let distances = distances::add(scene, run, SeparationShape::Horizontal, clearance_over_time);
     for quantity in Quantity::ALL {
         for (name, value) in quantity.limits(run.scenario) {
             scene.series.push(Series::limit(quantity.group(), &name, value, quantity.unit(), scene.end_s));

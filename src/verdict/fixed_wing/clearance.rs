@@ -1,24 +1,28 @@
-//! Clearance: the smallest signed horizontal distance from any vehicle to the surface of any cylinder, over continuous time.
+//! Clearance: the smallest distance from the body of any aircraft, a sphere, to the surface of any cylinder or to the ground,
+//! over continuous time.
 //!
-//! The limit is 0, since the radius of a threat is the distance to keep.
+//! Cylinders are unbounded, so that the distance from them is horizontal. The limit is 0: what is to be kept beyond the
+//! airframe is part of a threat's radius.
 
-use scenarios::{CheckSpec, Plan, Scenario, World};
+use scenarios::{CheckSpec, Plan, Scenario};
+use sim::GROUND;
 
 use crate::verdict::closest::{self, ClosestApproach};
-use crate::verdict::collision::{crash, is_contact};
+use crate::verdict::collision::{body_radii_m, crash, is_contact};
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
+use crate::verdict::map_bounds::extremes_m;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
 
 /// Over continuous time.
 pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> CheckResult {
-    against_obstacles(spec, scenario, motions, |motions| closest::to_cylinders(motions, &scenario.world.cylinders))
+    against_obstacles(spec, scenario, motions, |motions| closest(scenario, motions))
 }
 
 /// At the planner's nodes.
 pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
-    against_obstacles(spec, scenario, plan, |plan| at_nodes(&scenario.world, plan))
+    against_obstacles(spec, scenario, plan, |plan| at_nodes(scenario, plan))
 }
 
 fn against_obstacles<T: ?Sized>(
@@ -27,7 +31,7 @@ fn against_obstacles<T: ?Sized>(
     evidence: Evidence<'_, T>,
     measure: impl Fn(&T) -> Option<ClosestApproach>,
 ) -> CheckResult {
-    if scenario.world.cylinders.is_empty() {
+    if scenario.world.cylinders.is_empty() && scenario.world.ground_m.is_none() {
         return Ok(spec.skip("there are no obstacles"));
     }
     let closest = measure(evidence?).ok_or(MissingEvidence::NoApproach)?;
@@ -35,35 +39,78 @@ fn against_obstacles<T: ?Sized>(
     Ok(spec.at_least(Measurement::approach(&closest).with(vehicle).with(obstacle), 0.0))
 }
 
-/// Names of the vehicle and the cylinder that an approach is between.
+/// Names of the vehicle and the obstacle that an approach is between.
 fn names<'a>(scenario: &'a Scenario, approach: &ClosestApproach) -> [&'a str; 2] {
     let [vehicle, obstacle] = approach.who;
-    [&scenario.vehicles[vehicle].name, &scenario.world.cylinders[obstacle].name]
+    let cylinder = scenario.world.cylinders.get(obstacle);
+    [&scenario.vehicles[vehicle].name, cylinder.map_or(GROUND, |cylinder| cylinder.name.as_str())]
 }
 
-/// The crash of the first airframe that enters a cylinder; `None` if none does.
-pub fn entered_cylinder(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
-    let entered = scenario.vehicles.iter().zip(motions).enumerate().find_map(|(index, (vehicle, motion))| {
-        let closest = closest::to_cylinders(std::slice::from_ref(motion), &scenario.world.cylinders)?;
-        let upper_m = closest.upper_m - scenario.model(vehicle).body_radius_m();
-        Some(ClosestApproach { upper_m, who: [index, closest.who[1]], ..closest }).filter(is_contact)
+/// The crash of the first airframe that enters a cylinder or touches the ground; `None` if none does.
+pub fn entered_obstacle(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
+    let radii_m = body_radii_m(scenario);
+    let entered = motions.iter().zip(&radii_m).enumerate().find_map(|(index, (motion, &radius_m))| {
+        let closest = closest_of(scenario, std::slice::from_ref(motion), &[radius_m])?;
+        Some(ClosestApproach { who: [index, closest.who[1]], ..closest }).filter(is_contact)
     })?;
     Some(crash(entered.at_s, names(scenario, &entered)))
 }
 
-/// Smallest distance of a node to an obstacle's surface. `None` without nodes or obstacles.
-pub fn at_nodes(world: &World, plan: &Plan) -> Option<ClosestApproach> {
-    let mut closest: Option<ClosestApproach> = None;
-    for (i, trajectory) in plan.trajectories.iter().enumerate() {
-        for (node, &at_s) in trajectory.times_s().iter().enumerate() {
-            let [x_m, y_m, _] = trajectory.nodes().position_m(node);
-            for (m, cylinder) in world.cylinders.iter().enumerate() {
-                let distance_m = cylinder.signed_distance_m(x_m, y_m);
-                if closest.is_none_or(|closest| is_smaller(distance_m, closest.upper_m)) {
-                    closest = Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s, who: [i, m] });
-                }
+/// Closest approach of any body to an obstacle: an index of a cylinder, or their number for the ground. `None` without
+/// motions or obstacles.
+pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ClosestApproach> {
+    closest_of(scenario, motions, &body_radii_m(scenario))
+}
+
+fn closest_of(scenario: &Scenario, motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
+    let cylinders = &scenario.world.cylinders;
+    let to_ground = scenario.world.ground_m.and_then(|ground_m| {
+        let heights = motions.iter().zip(radii_m).enumerate().map(|(index, (motion, radius_m))| {
+            let lowest = extremes_m(motion, 2)[0];
+            let height_m = lowest.value - radius_m - ground_m;
+            let deviation_m = if motion.is_reconstructed() { lowest.error } else { motion.deviation_m() };
+            ClosestApproach {
+                lower_m: height_m - deviation_m,
+                upper_m: height_m + deviation_m,
+                at_s: lowest.t_s,
+                who: [index, cylinders.len()],
             }
-        }
-    }
-    closest
+        });
+        heights.reduce(closer)
+    });
+    closest::to_cylinders(motions, radii_m, cylinders).into_iter().chain(to_ground).reduce(closer)
+}
+
+/// Closest obstacle of a body at a node. `None` without nodes or obstacles.
+pub fn at_nodes(scenario: &Scenario, plan: &Plan) -> Option<ClosestApproach> {
+    let nodes = plan.trajectories.iter().enumerate().flat_map(|(vehicle, trajectory)| {
+        let at_node = move |(node, &at_s)| at_instant(scenario, vehicle, at_s, trajectory.nodes().position_m(node));
+        trajectory.times_s().iter().enumerate().filter_map(at_node)
+    });
+    nodes.reduce(closer)
+}
+
+/// Closest obstacle of the body of a vehicle, by its index, at a position. `None` without obstacles.
+pub fn at_instant(
+    scenario: &Scenario,
+    vehicle: usize,
+    at_s: f64,
+    [x_m, y_m, z_m]: [f64; 3],
+) -> Option<ClosestApproach> {
+    let world = &scenario.world;
+    let cylinders = world.cylinders.iter().map(|cylinder| cylinder.signed_distance_m(x_m, y_m));
+    let distances_m = cylinders.chain(world.ground_m.map(|ground_m| z_m - ground_m)).enumerate();
+    let radius_m = scenario.fixed_wing_model(scenario.vehicles.get(vehicle)?).body_radius_m;
+    let approaches = distances_m.map(|(obstacle, distance_m)| {
+        let distance_m = distance_m - radius_m;
+        ClosestApproach { lower_m: distance_m, upper_m: distance_m, at_s, who: [vehicle, obstacle] }
+    });
+    approaches.reduce(closer)
+}
+
+/// Bounds of the smaller one of two distances.
+fn closer(so_far: ClosestApproach, next: ClosestApproach) -> ClosestApproach {
+    let upper_m = if is_smaller(next.upper_m, so_far.upper_m) { next.upper_m } else { so_far.upper_m };
+    let closest = if is_smaller(next.lower_m, so_far.lower_m) { next } else { so_far };
+    ClosestApproach { upper_m, ..closest }
 }

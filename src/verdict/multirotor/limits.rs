@@ -9,6 +9,8 @@ use scenarios::multirotor::{Airframe, Limits, Model, Plant};
 use scenarios::{CheckSpec, Group, Range, Scenario};
 use sim::{Actuation, Commanded, Sample};
 
+use super::rest::RECORD;
+use crate::number_format::quantity;
 use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::CheckResult;
@@ -16,7 +18,7 @@ use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::tolerance::SOLVER_TOLERANCE;
 use crate::verdict::worst::{Quantity, Worst, check_limits};
-use crate::verdict::{FlownMotions, LimitKey};
+use crate::verdict::{Check, FlownMotions, LimitKey};
 
 /// What rounding leaves of the length of a quaternion that is a rotation.
 const ROTATION_TOLERANCE: f64 = 1e-6;
@@ -68,7 +70,8 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMo
 /// [`Group::Plan`]. An acceleration is linear in time and largest at an end. Two nodes that share a time and differ in
 /// position or velocity need an infinite one.
 pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
-    check_limits(spec, |worst| {
+    let jumps = || motions.iter().flat_map(|motion| motion.knots().windows(2).filter(|pair| is_jump(pair)));
+    let check = check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
             for segment in motion.segments().filter(Segment::lasts) {
@@ -81,7 +84,16 @@ pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Mot
                 limited.acceleration(worst, f64::INFINITY, limits.acceleration_mps2, jump[0].t_s);
             }
         }
-    })
+    })?;
+    Ok(Check { reason: jumps().next().map(jump_remark).or(check.reason), ..check })
+}
+
+/// Why a jump fails, with a word to those who fly the recorded plan of an in-loop flight.
+fn jump_remark(pair: &[Knot]) -> String {
+    let apart = |a: [f64; 3], b: [f64; 3]| norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]);
+    let jump_m = quantity(apart(pair[0].position_m, pair[1].position_m), "m");
+    let jump_mps = quantity(apart(pair[0].velocity_mps, pair[1].velocity_mps), "m/s");
+    format!("it jumps by {jump_m} and {jump_mps} at one time; {RECORD}")
 }
 
 /// What acted in flight against the physical limits.

@@ -3,21 +3,27 @@
 use scenarios::{CheckSpec, Plan, Scenario};
 use sim::Sample;
 
-use crate::verdict::FlownMotions;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
+use crate::verdict::{Check, FlownMotions};
 
 /// Times that differ by less are the same, s: rounding.
 const SAME_TIME_S: f64 = 1e-6;
 
+/// A remark for those who check the recorded plan of an in-loop flight.
+pub const RECORD: &str = "the plan of an in-loop flight is the record of the references that were followed, each of which \
+                          begins at a measured state, until the vehicles arrived";
+
 /// Speed at the end of the plan.
 pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
-    check_fastest(spec, scenario, |index| {
+    let check = check_fastest(spec, scenario, |index| {
         let last = motions.get(index)?.knots().last()?;
         Some((last.velocity_mps, last.t_s))
-    })
+    })?;
+    let remark = check.is_bad().then(|| format!("it ends in motion; {RECORD}"));
+    Ok(Check { reason: remark.or(check.reason), ..check })
 }
 
 /// Speed in flight at the end of the plan.

@@ -43,7 +43,7 @@ pub struct Deviation {
     pub turn_rad: f64,
 }
 
-/// Largest speeds within a segment.
+/// Largest speeds and distances within a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speeds {
     /// Of the quadrotor's centre, m/s.
@@ -54,6 +54,8 @@ pub struct Speeds {
     pub relative_mps: f64,
     /// Of the attitude, rad/s.
     pub turn_radps: f64,
+    /// Distance of the load from the quadrotor, m.
+    pub reach_m: f64,
 }
 
 impl SlungLoadMotion {
@@ -179,6 +181,7 @@ impl SlungLoadMotion {
             load_mps: fastest(&load),
             relative_mps: fastest(&relative),
             turn_radps: a.attitude.angle_to(&b.attitude) / duration_s,
+            reach_m: relative.iter().map(|point| point.norm()).fold(0.0, f64::max),
         }
     }
 

@@ -149,7 +149,7 @@ impl<'a> ScpSolver<'a> {
             defect_m: defects_m.collect::<Vec<_>>().into_iter().fold(0.0, f64::max),
             slack: violation,
             separation_m: node_separation_m(&now),
-            clearance_m: node_clearance_m(&now, self.constraints.cylinders),
+            clearance_m: node_clearance_m(self.scenario, &now),
             change_m: change[0].max(change[1]),
             trust_region_m: self.schedule.trust_region()[0],
             solver_iterations: sum,

@@ -1,11 +1,12 @@
 //! Starts and goals of multirotors: on the map and clear of obstacles with the whole body, and at rest.
 
 use super::super::Model;
+use crate::validate::body::{too_near, too_near_obstacles};
 use crate::{Issue, Waypoint, World};
 
 pub(in crate::multirotor) fn issues(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let mut issues = too_near_edges(model, world, field, waypoint);
-    issues.extend(too_near_obstacles(model, world, field, waypoint));
+    issues.extend(too_near_obstacles(model.body_radius_m, world, field, waypoint));
     if field.ends_with(".start") {
         issues.extend(too_near_moving(model, world, field, waypoint));
     }
@@ -31,32 +32,12 @@ fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint
         .collect()
 }
 
-/// A point inside an obstacle is reported for every family; here the body is too close.
-fn too_near_obstacles(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
-    let [x_m, y_m, z_m] = waypoint.position_m();
-    let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
-    let flat = world.prism_obstacles();
-    let prisms = flat.iter().map(|it| (it.name.clone(), it.signed_distance_in_space_m([x_m, y_m, z_m])));
-    let is_near = |(_, distance_m): &(String, f64)| (0.0..model.body_radius_m).contains(distance_m);
-    cylinders
-        .chain(prisms)
-        .filter(is_near)
-        .map(|(name, distance_m)| too_near(model, field, &name, distance_m))
-        .collect()
-}
-
 fn too_near_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
     let with_path = world.moving.iter().filter(|moving| moving.has_path());
     with_path
         .filter_map(|moving| {
             let distance_m = moving.signed_distance_m(0.0, waypoint.position_m());
-            (distance_m < model.body_radius_m).then(|| too_near(model, field, &moving.name, distance_m))
+            (distance_m < model.body_radius_m).then(|| too_near(model.body_radius_m, field, &moving.name, distance_m))
         })
         .collect()
-}
-
-fn too_near(model: &Model, field: &str, obstacle: &str, distance_m: f64) -> Issue {
-    let found = format!("a point {distance_m:.3} m from `{obstacle}`");
-    let expected = format!("at least {} m, the body radius", model.body_radius_m);
-    Issue::new(field, found, expected).remedy("move the point or the obstacle")
 }

@@ -2,11 +2,12 @@
 //!
 //! Separated shapes: the point of their Minkowski difference closest to the origin, by the method of Gilbert, Johnson
 //! and Keerthi (1988). Every iteration bounds the distance, |v| from above and v·w/|v| from below. The lower bound is
-//! returned, so that the result is conservative. Overlapping shapes: the minimum overlap along the normals of the
-//! prism's faces and of its edges with the shape's, which is the penetration depth or more.
+//! returned, so that the result is conservative. Overlapping shapes: their penetration depth, with the sign of an overlap.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use scenarios::{Prism, Range};
+
+use super::penetration::smallest_overlap;
 
 /// Difference of the bounds at which the iteration ends, m.
 const TOLERANCE_M: f64 = 1e-10;
@@ -46,17 +47,10 @@ impl ConvexPart {
             }
         }
     }
-
-    /// Normal of a contact between the shape and an edge of this direction.
-    fn normals_against(&self, edge: &Vector3<f64>) -> Option<Vector3<f64>> {
-        match self {
-            Self::Disc { axis, .. } => edge.cross(&axis.cross(edge)).try_normalize(1e-9),
-            Self::Line { ends_m: [a, b] } => edge.cross(&(b - a)).try_normalize(1e-9),
-        }
-    }
 }
 
-/// A supporting plane of a prism: a point at distance d in front of the plane is at least d away from the prism.
+/// A supporting plane of a prism: a shape at signed distance d in front of the plane has at least the signed distance d from
+/// the prism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparatingPlane {
     /// Unit normal that points away from the prism, world frame.
@@ -70,20 +64,24 @@ pub(super) fn to_prism_m(shape: &ConvexPart, prism: &Prism) -> f64 {
     to_prism(shape, prism).0
 }
 
-/// Signed distance as [`to_prism_m`], and a supporting plane of the prism at that distance from the shape if they do
-/// not overlap. For an unbounded prism the plane is valid for shapes within [`OVERHANG_M`] of this one.
-pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, Option<SeparatingPlane>) {
+/// Signed distance as [`to_prism_m`], and a supporting plane of the prism at that signed distance from the shape. For an
+/// unbounded prism the plane is valid for shapes within [`OVERHANG_M`] of this one.
+pub(super) fn to_prism(shape: &ConvexPart, prism: &Prism) -> (f64, SeparatingPlane) {
     let z_m = prism.z_m.unwrap_or_else(|| {
         let [low, high] = [-1.0, 1.0].map(|sign| shape.support_m(&(Vector3::z() * sign)).z);
         Range::new(low - OVERHANG_M, high + OVERHANG_M)
     });
     let difference = |direction: &Vector3<f64>| shape.support_m(direction) - prism_support_m(prism, z_m, &-direction);
+    let plane = |normal: Vector3<f64>| {
+        let offset_m = prism_support_m(prism, z_m, &normal).dot(&normal);
+        SeparatingPlane { normal, offset_m }
+    };
     match separation(&difference) {
-        None => (-depth_m(&difference, &normals(shape, prism)), None),
-        Some((distance_m, normal)) => {
-            let offset_m = prism_support_m(prism, z_m, &normal).dot(&normal);
-            (distance_m, Some(SeparatingPlane { normal, offset_m }))
+        None => {
+            let (depth_m, into_prism) = smallest_overlap(shape, prism, &difference);
+            (-depth_m, plane(-into_prism))
         }
+        Some((distance_m, normal)) => (distance_m, plane(normal)),
     }
 }
 
@@ -102,33 +100,6 @@ fn prism_support_m(prism: &Prism, z_m: Range, direction: &Vector3<f64>) -> Vecto
     let support = prism.corners_m.iter().max_by(|a, b| along(a).total_cmp(&along(b)));
     let [x, y] = support.copied().expect("a prism has corners");
     Vector3::new(x, y, if direction.z >= 0.0 { z_m.max } else { z_m.min })
-}
-
-/// Candidate directions of separation of prism and shape.
-fn normals(shape: &ConvexPart, prism: &Prism) -> Vec<Vector3<f64>> {
-    let n = prism.corners_m.len();
-    let mut normals = Vec::new();
-    let edges = (0..n).map(|i| {
-        let ([x0, y0], [x1, y1]) = (prism.corners_m[i], prism.corners_m[(i + 1) % n]);
-        Vector3::new(x1 - x0, y1 - y0, 0.0)
-    });
-    for edge in edges {
-        normals.push(Vector3::new(edge.y, -edge.x, 0.0).normalize());
-        if prism.z_m.is_some() {
-            normals.extend(shape.normals_against(&edge));
-        }
-    }
-    if prism.z_m.is_some() {
-        normals.push(Vector3::z());
-    }
-    normals.extend(shape.normals_against(&Vector3::z()));
-    normals.iter().flat_map(|normal| [*normal, -normal]).collect()
-}
-
-/// The minimum overlap along these directions, m.
-fn depth_m(difference: &impl Fn(&Vector3<f64>) -> Vector3<f64>, normals: &[Vector3<f64>]) -> f64 {
-    let overlap_m = |normal: &Vector3<f64>| difference(normal).dot(normal);
-    normals.iter().map(overlap_m).fold(f64::INFINITY, |min_m, overlap_m| min_m.min(overlap_m.max(0.0)))
 }
 
 /// Distance of the origin from a convex set, given by its support function, m, and the direction in which the set is at

@@ -14,6 +14,7 @@ pub fn all() -> Vec<Fault> {
     all.extend(cables());
     all.extend(obstacles());
     all.extend(gates());
+    all.extend(rotors());
     all
 }
 
@@ -88,6 +89,28 @@ fn add_gate(it: &mut ReferenceCase, aside_m: f64) {
     let load = Window { x_m, y_m: Some(Range::new(y_m - HALF_GATE_M, y_m + HALF_GATE_M)), z_m: None };
     let gate = Gate { name: "gate".to_owned(), quadrotor: Window::default(), load };
     it.scenario.world.gates.push(gate);
+}
+
+fn rotors() -> Vec<Fault> {
+    vec![
+        Fault::new("nodes.rotor_clearance", "the load is in the rotors at one node", |it| {
+            let node = it.slung_load().planner_nodes()[9];
+            let state = &mut it.slung_load().states[node];
+            let [x_m, y_m, z_m] = state.position_m;
+            state.load_position_m = [x_m + 0.1, y_m, z_m - 0.01];
+        }),
+        Fault::new("plan.rotor_clearance", "the load is larger than the cable is long", |it| {
+            let model = it.slung_load_model();
+            model.load_radius_m = 1.01 * model.cable_length_m;
+        }),
+        Fault::new("flight.rotor_clearance", "the load falls through the rotors between two samples", |it| {
+            let middle = it.steps() / 2;
+            for (step, above_m) in [(middle, 0.2), (middle + 1, -0.2)] {
+                let [x_m, y_m, z_m] = it.samples(0)[step].position_m;
+                it.loads()[step].position_m = [x_m, y_m, z_m + above_m];
+            }
+        }),
+    ]
 }
 
 fn flights() -> Vec<Fault> {
