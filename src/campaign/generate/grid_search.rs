@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_leads_over_a_low_wall_only_in_space() {
+    fn a_path_leads_over_a_low_wall_only_in_space() {
         let mut world = with_gap(0.0);
         world.boxes.iter_mut().for_each(|wall| wall.z_m = Some(Range::new(0.0, 2.2)));
         assert_eq!(across(&world, Some(2.0)), None);

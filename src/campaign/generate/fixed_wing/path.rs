@@ -114,7 +114,7 @@ mod tests {
     const ORIGIN: Pose = Pose { position_m: [0.0; 2], heading_rad: 0.0 };
 
     #[test]
-    fn a_sidestep_ends_where_it_should() {
+    fn a_lane_change_ends_where_it_should() {
         for (along_m, aside_m) in [(4000.0, 300.0), (2000.0, -900.0), (2500.0, 5000.0), (3000.0, 0.0)] {
             let legs = lane_change(along_m, aside_m, 700.0).unwrap().to_vec();
             let goal = Path { start: ORIGIN, legs, speed_mps: 30.0 }.goal();
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_keeps_its_speed_and_direction() {
+    fn a_path_keeps_its_speed_and_direction() {
         let legs = vec![Leg::turn(FRAC_PI_2, 100.0), Leg::straight(50.0), Leg::turn(-PI, 80.0)];
         let path = Path { start: ORIGIN, legs, speed_mps: 10.0 };
         let at = |t_s: f64| path.at(t_s).position_m;
