@@ -178,12 +178,13 @@ fn cases_of(kind: &'static Kind, is_variant: bool) -> impl Iterator<Item = Reque
 
 /// Runs the suite.
 ///
-/// - `progress`: receives a line for each run that has ended
+/// - `progress`: receives a line at the beginning, and one for each run that has ended
 ///
 /// # Errors
 ///
 /// If a scenario cannot be generated, or a file cannot be written.
 pub fn run(plan: &Plan, progress: &mut (dyn FnMut(&str) + Send)) -> Result<Results, Error> {
+    progress(&format!("generating {} scenarios", plan.cases.len() as u64 * plan.seeds));
     let (runs, infeasible) = run::list(plan)?;
     let measured = run::all(plan, &runs, progress)?;
     let mut rows: Vec<Row> = Vec::new();

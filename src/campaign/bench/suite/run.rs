@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use rayon::prelude::*;
 use scenarios::Scenario;
 
 use super::entry::{self, Entry, Outcome};
@@ -35,26 +36,33 @@ pub struct Measured {
 pub fn list(plan: &Plan) -> Result<(Vec<Run>, Vec<String>), Error> {
     let (mut runs, mut infeasible) = (Vec::new(), Vec::new());
     for case in &plan.cases {
+        let seeds: Vec<u64> = (0..plan.seeds).map(|index| plan.first_seed + index).collect();
+        let results = seeds.into_par_iter().map(|seed| Request { seed, ..*case }).map(|it| (it, it.generate()));
         let mut generated: Vec<(Request, Generated)> = Vec::new();
-        for seed in (0..plan.seeds).map(|index| plan.first_seed + index) {
-            let request = Request { seed, ..*case };
-            match request.generate() {
+        for (request, result) in results.collect::<Vec<_>>() {
+            match result {
                 Ok(scenario) => generated.push((request, scenario)),
                 Err(GenerateError::NoRoom { .. }) => infeasible.push(request.command()),
                 Err(error) => return Err(error.into()),
             }
         }
-        let Some((_, first)) = generated.first() else { continue };
-        for planner in planners(plan, &first.scenario()) {
-            runs.extend(generated.iter().map(|(request, generated)| Run {
-                request: *request,
-                generated: generated.clone(),
-                scenario: generated.scenario(),
-                planner: planner.clone(),
-            }));
-        }
+        runs.extend(paired(plan, &generated));
     }
     Ok((runs, infeasible))
+}
+
+/// The scenarios of a case, with one planner after the other.
+fn paired(plan: &Plan, generated: &[(Request, Generated)]) -> Vec<Run> {
+    let planners = generated.first().map_or_else(Vec::new, |(_, first)| planners(plan, &first.scenario()));
+    let with = |planner: String| {
+        generated.iter().map(move |(request, generated)| Run {
+            request: *request,
+            generated: generated.clone(),
+            scenario: generated.scenario(),
+            planner: planner.clone(),
+        })
+    };
+    planners.into_iter().flat_map(with).collect()
 }
 
 /// The planners of the plan that support the scenarios like `example`.

@@ -21,11 +21,11 @@ const DOOR_PROBABILITY: f64 = 0.7;
 const OPENING_PROBABILITY: f64 = 0.35;
 /// Cell of the grid, m.
 const STEP_M: f64 = 0.25;
-/// Altitude of start and goal above their floors, and distance without furniture around them, m.
+/// Altitude of start and goal above their floors, and distance without furniture around them and around doors, m.
 const ABOVE_FLOOR_M: f64 = 1.3;
-const FREE_RADIUS_M: f64 = 1.5;
+const FREE_RADIUS_M: f64 = 1.3;
 /// Attempts to place one more piece of furniture.
-const MAX_ATTEMPTS: usize = 100;
+const MAX_ATTEMPTS: usize = 300;
 
 /// From the first column of rooms on the lower floor to the last one on the upper floor.
 pub fn draw(request: &Request) -> Option<Draft> {
@@ -36,22 +36,24 @@ pub fn draw(request: &Request) -> Option<Draft> {
     (0..MAX_MAPS).find_map(|_| {
         let height_m = HEIGHT_M * FLOORS as f64;
         let mut world = World::empty(Map { x_m: side, y_m: side, z_m: Range::new(0.0, height_m) });
-        walls(&mut rng, &mut world, rooms);
+        let doors_m = walls(&mut rng, &mut world, rooms);
         floors(&mut rng, &mut world, rooms);
         let endpoints_m = [(0, 0), (rooms - 1, FLOORS - 1)].map(|(column, floor)| {
             let middle_m = |room: usize| ROOM_M * (room as f64 + 0.5);
             let row = rng.index(rooms);
             [middle_m(column), middle_m(row), round_to(HEIGHT_M * floor as f64 + ABOVE_FLOOR_M, 0.1)]
         });
-        furnish(&mut rng, &mut world, request.density, endpoints_m)?;
+        let free_m = [doors_m, endpoints_m.to_vec()].concat();
+        furnish(&mut rng, &mut world, request.density, &free_m)?;
         let path_length_m =
             Grid::new(&world, None, STEP_M, CLEARANCE_M).path_length_m(endpoints_m[0], endpoints_m[1])?;
         Some(draft_of_one(request, world, endpoints_m, path_length_m))
     })
 }
 
-/// Walls between neighbouring rooms, most of them with a door.
-fn walls(rng: &mut RandomStream, world: &mut World, rooms: usize) {
+/// Walls between neighbouring rooms, most of them with a door. Returns the middles of the doors.
+fn walls(rng: &mut RandomStream, world: &mut World, rooms: usize) -> Vec<[f64; 3]> {
+    let mut doors_m = Vec::new();
     for floor in 0..FLOORS {
         for line in 1..rooms {
             for room in 0..rooms {
@@ -60,10 +62,12 @@ fn walls(rng: &mut RandomStream, world: &mut World, rooms: usize) {
                     let door_m = rng.rounded(0.3, ROOM_M - DOOR_M[0] - 0.3, 0.1);
                     let wall = Wall { floor, line, room, is_across };
                     world.boxes.extend(wall.parts(has_door.then_some(door_m)));
+                    doors_m.extend(has_door.then(|| wall.door_middle_m(door_m)));
                 }
             }
         }
     }
+    doors_m
 }
 
 /// A wall of the length of a room.
@@ -87,6 +91,14 @@ impl Wall {
             self.part("-b", [door_m + width_m, ROOM_M], 0.0),
             self.part("-lintel", [door_m, door_m + width_m], height_m),
         ]
+    }
+
+    /// Middle of a door at this distance from the beginning of the wall.
+    fn door_middle_m(&self, door_m: f64) -> [f64; 3] {
+        let along_m = ROOM_M * self.room as f64 + door_m + DOOR_M[0] / 2.0;
+        let line_m = ROOM_M * self.line as f64;
+        let [x_m, y_m] = if self.is_across { [line_m, along_m] } else { [along_m, line_m] };
+        [x_m, y_m, HEIGHT_M * self.floor as f64 + DOOR_M[1] / 2.0]
     }
 
     fn part(&self, suffix: &str, [from_m, to_m]: [f64; 2], from_z_m: f64) -> BoxObstacle {
@@ -126,7 +138,9 @@ fn floors(rng: &mut RandomStream, world: &mut World, rooms: usize) {
 }
 
 /// Furniture until the volume is filled to the density.
-fn furnish(rng: &mut RandomStream, world: &mut World, density: f64, endpoints_m: [[f64; 3]; 2]) -> Option<()> {
+///
+/// - `free_m`: points around which there is none
+fn furnish(rng: &mut RandomStream, world: &mut World, density: f64, free_m: &[[f64; 3]]) -> Option<()> {
     let volume_m3 = world.map.axes().map(|range| range.max - range.min).iter().product::<f64>();
     let volume = |it: &BoxObstacle| it.size_m[0] * it.size_m[1] * it.z_m.map_or(0.0, |z| z.max - z.min);
     let mut filled_m3: f64 = world.boxes.iter().map(volume).sum();
@@ -135,7 +149,7 @@ fn furnish(rng: &mut RandomStream, world: &mut World, density: f64, endpoints_m:
         let mut pieces = (0..MAX_ATTEMPTS).map(|_| piece(rng, world, number + 1));
         let is_away = |it: &BoxObstacle| {
             let prism = it.as_prism().counterclockwise();
-            endpoints_m.iter().all(|end_m| prism.signed_distance_in_space_m(*end_m) >= FREE_RADIUS_M)
+            free_m.iter().all(|point_m| prism.signed_distance_in_space_m(*point_m) >= FREE_RADIUS_M)
         };
         let fits =
             |it: &BoxObstacle| is_away(it) && stands(it, world) && !world.boxes.iter().any(|other| overlap(it, other));
