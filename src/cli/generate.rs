@@ -69,20 +69,14 @@ fn help() -> StyledStr {
 }
 
 fn description(kind: &Kind) -> String {
+    let Kind { name, summary, size, density, .. } = kind;
+    let size = format!("size: {}, {} to {} [{}]", size.meaning, size.min, size.max, size.default);
+    let density = match density.max > 0.0 {
+        true => format!("density: {}, up to {} [{}]", density.meaning, density.max, density.default),
+        false => format!("density: {}", density.meaning),
+    };
     let variant = kind.variant.map_or_else(String::new, |variant| format!("; --{}", variant.name()));
-    let (size, density) = (&kind.size, &kind.density);
-    format!(
-        "    {:<10} {}\n               size: {}, {} to {} [{}]; density: {}, up to {} [{}]{variant}\n",
-        kind.name,
-        kind.summary,
-        size.meaning,
-        size.min,
-        size.max,
-        size.default,
-        density.meaning,
-        density.max,
-        density.default
-    )
+    format!("    {name:<10} {summary}\n               {size}; {density}{variant}\n")
 }
 
 impl Generate {

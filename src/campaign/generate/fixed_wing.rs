@@ -72,7 +72,7 @@ fn draft(request: &Request, members: &[Member]) -> Option<Draft> {
     let is_used = |model: &&Aircraft| members.iter().any(|member| member.aircraft.name == model.name);
     Some(Draft {
         summary: summary(request, members),
-        certificate: certificate(simultaneous_arrival),
+        certificate: certificate(members, simultaneous_arrival),
         tags: vec!["fleet"],
         world,
         models: Aircraft::ALL.into_iter().filter(is_used).map(Aircraft::to_toml).collect(),
@@ -92,10 +92,12 @@ fn summary(request: &Request, members: &[Member]) -> String {
     }
 }
 
-fn certificate(simultaneous_arrival: bool) -> String {
+fn certificate(members: &[Member], simultaneous_arrival: bool) -> String {
+    let is_level = members.iter().all(|member| member.altitude_m[0] == member.altitude_m[1]);
+    let slope = if is_level { "level" } else { "with a slope of at most 2 %" };
     let arrival = if simultaneous_arrival { "all of the same duration" } else { "of any duration" };
     format!(
-        "the starts and goals are the ends of paths of straight lines and arcs, flown at constant speed, with at most 80 % of \
+        "the starts and goals are the ends of paths of straight lines and arcs, {slope}, flown at constant speed, with at most 80 % of \
          the planning limit of n_y, {arrival}. On them any two aircraft stay {} m apart at all times until one of them has \
          arrived, and every threat is {} m away. Planners do not know these paths.",
         fleet::APART_M,

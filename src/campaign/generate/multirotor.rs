@@ -54,7 +54,7 @@ pub const KINDS: &[Kind] = &[
         size: side(80, 40, [20, 40, 60]),
         density: Density { meaning: "fraction of the area that pillars cover", max: 0.08, default: 0.02 },
         variant: None,
-        ..kind("moving", "Carts cross a corridor, and one comes the other path.", moving::draw)
+        ..kind("moving", "Carts cross a corridor, and one comes the other way.", moving::draw)
     },
     Kind {
         size: Size { meaning: "vehicles", min: 1, max: 8, default: 4, suite: [2, 4, 8] },
