@@ -14,6 +14,7 @@ use crate::campaign::generate::{GenerateError, Generated, Request};
 use crate::error::Error;
 use crate::output;
 use crate::report::Report;
+use crate::statistics::quantile_index;
 use crate::verdict::Check;
 
 /// A scenario and a planner.
@@ -204,12 +205,13 @@ pub fn failure(plan: &Plan, run: &Run, measured: &Measured) -> Option<Failure> {
     })
 }
 
-/// The smallest values that are not exceeded by these fractions of all.
+/// Quantiles at these fractions.
 fn quantiles<const N: usize>(values: impl Iterator<Item = f64>, fractions: [f64; N]) -> Option<[f64; N]> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    let at = |fraction: f64| values[((fraction * values.len() as f64).ceil() as usize).clamp(1, values.len()) - 1];
-    (!values.is_empty()).then(|| fractions.map(at))
+    let at = |fraction: f64| quantile_index(values.len(), fraction).map(|index| values[index]);
+    let quantiles: Vec<f64> = fractions.into_iter().map_while(at).collect();
+    quantiles.try_into().ok()
 }
 
 #[cfg(test)]
