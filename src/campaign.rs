@@ -5,6 +5,7 @@ pub mod comparison;
 pub mod failure_threshold;
 #[cfg(feature = "parquet")]
 pub mod first_difference;
+pub mod generate;
 pub mod margin_budget;
 #[cfg(feature = "parquet")]
 pub mod monte_carlo;

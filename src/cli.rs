@@ -1,11 +1,13 @@
 //! The command line.
 
 mod bench;
+mod bench_suite;
 mod check;
 mod compare;
 mod completions;
 #[cfg(feature = "parquet")]
 mod diverge;
+mod generate;
 mod list;
 #[cfg(feature = "parquet")]
 mod merge;
@@ -39,6 +41,7 @@ Examples:
   harness check SCENARIO --plan my-plan.csv
                                      fly and judge an existing plan
   harness compare out/old out/new    show what got worse between two runs
+  harness generate forest            write a random scenario that is known to be feasible
 
 Exit codes:
   0    every verdict is a pass
@@ -56,6 +59,7 @@ enum Command {
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
     Bench(bench::Bench),
+    Generate(generate::Generate),
     #[cfg(feature = "parquet")]
     Diverge(diverge::Diverge),
     #[cfg(feature = "parquet")]
@@ -87,6 +91,7 @@ impl Cli {
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),
             Command::Bench(bench) => bench.execute(),
+            Command::Generate(generate) => generate.execute(),
             #[cfg(feature = "parquet")]
             Command::Diverge(diverge) => diverge.execute(),
             #[cfg(feature = "parquet")]

@@ -11,6 +11,8 @@ use scenarios::plan_input::PlanError;
 use scenarios::{FindError, LoadError};
 use thiserror::Error;
 
+use crate::campaign::generate::GenerateError;
+
 /// Result of a command that was carried out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -142,6 +144,35 @@ pub enum Error {
         jobs: usize,
         /// Why.
         reason: String,
+    },
+    /// A scenario cannot be generated.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Generate(#[from] GenerateError),
+    /// `harness generate` was given a kind and `--kind`.
+    #[error("--kind {second}: `{first}` is a kind already, and --kind selects kinds of a family")]
+    #[diagnostic(help("`harness generate {first}`, or name the family and both kinds with --kind"))]
+    KindTwice {
+        /// The positional argument.
+        first: &'static str,
+        /// The option.
+        second: String,
+    },
+    /// Several scenarios were to be written to one file or to standard output.
+    #[error("--output {}: {count} scenarios do not fit into one file", path.display())]
+    #[diagnostic(help("name a folder, or one kind and `--count 1`"))]
+    OneScenario {
+        /// The file, or `-`.
+        path: PathBuf,
+        /// Their number.
+        count: usize,
+    },
+    /// An option of another benchmark was given.
+    #[error("{found} does not belong to this benchmark")]
+    #[diagnostic(help("`harness bench --help` lists the options of `suite`; PATH is for the other benchmarks"))]
+    BenchOption {
+        /// What was given.
+        found: String,
     },
     /// A benchmark could not be run.
     #[error("cannot {what}: {reason}")]

@@ -7,3 +7,4 @@ pub mod horizon;
 pub mod ipm;
 pub mod slung;
 pub mod subproblems;
+pub mod suite;

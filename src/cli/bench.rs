@@ -4,8 +4,10 @@ use clap::{Args, ValueEnum};
 use planners::Planner;
 use scenarios::Scenario;
 use serde::Serialize;
+use serde_json::json;
 
-use crate::campaign::bench::{cooperative, fleets, horizon, ipm, slung};
+use super::bench_suite::SuiteArgs;
+use crate::campaign::bench::{cooperative, fleets, horizon, ipm, slung, suite};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::output;
@@ -24,6 +26,9 @@ use crate::output;
 ///
 /// `horizon`: the experiments of the paper on receding-horizon control with particle swarms, flown and judged, and a
 /// comparison of samplers at equal budget.
+///
+/// `suite`: planners on random scenarios that are known to be feasible (`harness generate`): how many pass, why the others
+/// do not, and what planning costs.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct Bench {
@@ -36,15 +41,17 @@ pub struct Bench {
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
-    /// Smallest size and two repetitions only: a smoke test, not a measurement
+    /// Smallest size and two repetitions only (`suite`: four seeds): a smoke test, not a measurement
     #[arg(long)]
     quick: bool,
-    /// Time limit of one entry of `cooperative` and `fleets`, s
+    /// Time limit of one entry of `cooperative` and `fleets`, or of one run of `suite`, s
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     limit_s: f64,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    suite: SuiteArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -55,6 +62,9 @@ Examples:
   harness bench fleets         takes several minutes: some entries reach their time limit
   harness bench slung          takes about ten seconds
   harness bench horizon        takes several minutes
+  harness bench suite          takes about half an hour
+  harness bench suite --family multirotor --seeds 5
+  harness bench suite --kind forest --density 0.25 -p rhc -p sparse-astar
 
 Results:
   out/bench/ipm.json           one row per subproblem and backend
@@ -62,7 +72,9 @@ Results:
   out/bench/cooperative.json, .md  one row per mission, fleet and solver
   out/bench/fleets.json, .md   one row per mission, fleet and planner
   out/bench/slung.json, .md    one row per mesh and formulation
-  out/bench/horizon.json, .md  one row per case";
+  out/bench/horizon.json, .md  one row per case
+  out/bench/suite.json, .md    one row per kind, size and planner
+  out/bench/suite/*.toml       the scenarios that were not passed";
 
 /// The benchmarks.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -77,18 +89,32 @@ enum Name {
     Slung,
     /// Receding-horizon control in the loop
     Horizon,
+    /// Random scenarios
+    Suite,
 }
 
 impl Bench {
     /// Measures, prints and writes the results.
     pub fn execute(&self) -> Result<Exit, Error> {
+        self.check_options()?;
         match self.name {
             Name::Ipm => self.ipm(),
             Name::Cooperative => self.cooperative(),
             Name::Fleets => self.fleets(),
             Name::Slung => self.slung(),
             Name::Horizon => self.horizon(),
+            Name::Suite => self.suite(),
         }
+    }
+
+    /// `suite` and the other benchmarks have different options.
+    fn check_options(&self) -> Result<(), Error> {
+        let misplaced = match (self.name, &self.path) {
+            (Name::Suite, Some(path)) => Some(path.display().to_string()),
+            (Name::Suite, None) => None,
+            _ => self.suite.first_given().map(str::to_owned),
+        };
+        misplaced.map_or(Ok(()), |found| Err(Error::BenchOption { found }))
     }
 
     fn ipm(&self) -> Result<Exit, Error> {
@@ -138,6 +164,13 @@ impl Bench {
         };
         let results = fleets::run(&plan, &mut |entry| self.tell(entry))?;
         self.publish("fleets", &results, &fleets::markdown(&results), &fleets::text(&results))
+    }
+
+    fn suite(&self) -> Result<Exit, Error> {
+        let plan = self.suite.plan(self.quick, self.limit_s, &self.out.join("bench/suite"))?;
+        let results = suite::run(&plan, &mut |line| self.tell(line))?;
+        let text = if self.suite.json { format!("{:#}", json!(results)) } else { suite::text(&results) };
+        self.publish("suite", &results, &suite::markdown(&results), &text)
     }
 
     /// The scenario of a benchmark of one planner.
