@@ -20,6 +20,11 @@
 //! q e_θ + E^T y + F^T λ + v_u - v_l = 0
 //! ```
 //!
+//! μ stands for the weight μ u of each row, with the unit u in which its violation counts: the penalty is exact in SI
+//! units while the rows are scaled, so that weights range from 100 to 1e6. They are bounds of multipliers that are of
+//! order one. Between distant bounds a multiplier is kept apart from its distances to them (`complementarity`), and a
+//! violation that is only rounding counts as none (`RowScale`).
+//!
 //! This is the paper's P4 with the elastic slacks eliminated: there α = p + n with the two rows s_2 = 2 n, s_3 = 2 p
 //! and multipliers λ_2 = (μ + y)/2, λ_3 = (μ - y)/2, so that 4 D_2 D_3/(D_2 + D_3) = 1/(p/(μ - y) + n/(μ + y)); and
 //! s_4 = t, λ_4 = λ, s_5 = β, λ_5 = μ - λ. The products, and therefore the iterates, are the same; the linear system is
@@ -54,4 +59,4 @@ pub(crate) use self::clarabel::settings as clarabel_settings;
 pub use self::clarabel::solve as solve_with_clarabel;
 pub use batch_solver::{BatchSolver, InteriorPoint};
 pub use program::{DYNAMICS_ROWS, DynamicsConstraint, FixedVariable, HalfspaceConstraint, Program, STAGE_LEN};
-pub use solution::{Settings, Solution, Status};
+pub use solution::{Settings, Solution, Start, Status};

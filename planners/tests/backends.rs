@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
-use planners::convex::{Backend, InteriorPoint, Program, Settings, Status};
+use planners::convex::{Backend, InteriorPoint, Program, Settings, Start, Status};
 use planners::scp::parallel::plan_and_inspect;
 
 /// Largest relative difference of the objectives (relative to 1 s below 1 s): both are this close to the optimum.
@@ -45,6 +45,19 @@ fn assert_same_optimum(programs: &[Program], backend: Backend) {
         short += usize::from(reference.gap.is_nan() || reference.gap > MAX_GAP);
     }
     assert!(short as f64 <= MAX_SHORT_FRACTION * programs.len() as f64, "{backend:?}: {short} of {}", programs.len());
+}
+
+/// The paper's loop: its residuals vanish with the gap.
+#[test]
+fn infeasible_start_leads_to_the_same_optimum() {
+    for program in subproblems("scenarios/fixed-wing/rendezvous-3.toml", 12).iter().step_by(4) {
+        let block = InteriorPoint::new(Settings::default()).solve(program);
+        let settings = Settings { start: Start::Infeasible, ..Settings::default() };
+        let paper = InteriorPoint::with_backend(settings, Backend::SparseLdl).solve(program);
+        assert!(paper.gap < 1e-6, "{:?} at {:.1e}", paper.status, paper.gap);
+        let difference = (block.objective - paper.objective).abs() / block.objective.abs();
+        assert!(difference < 1e-5, "{} against {}", block.objective, paper.objective);
+    }
 }
 
 #[test]

@@ -46,6 +46,7 @@ fn program(rng: &mut impl Rng) -> Program {
         theta_cost: 1.0,
         offset: 0.0,
         penalty: 100.0,
+        row_units: [1.0; STAGE_LEN],
         dynamics,
         fixed_variables,
         halfspaces,
@@ -71,6 +72,17 @@ fn assert_agrees_with_clarabel(program: &Program, what: &str) {
 fn random_programmes_agree_with_clarabel() {
     for seed in 0..40 {
         assert_agrees_with_clarabel(&program(&mut scenarios::stream(seed, "programme")), &format!("seed {seed}"));
+    }
+}
+
+/// Weights of 100 to 1e6 in one program, as violations in SI units have them.
+#[test]
+fn random_programmes_with_large_weights_agree_with_clarabel() {
+    for seed in 0..40 {
+        let mut program = program(&mut scenarios::stream(seed, "large weights"));
+        program.penalty = 1000.0;
+        program.row_units = [1000.0, 1000.0, 100.0, 10.0, 1.0, 0.1, 0.1, 0.1, 0.1];
+        assert_agrees_with_clarabel(&program, &format!("seed {seed}"));
     }
 }
 

@@ -41,8 +41,8 @@ pub use issue::Issue;
 pub use load::{InvalidScenario, LoadError, LocatedIssue, ScenarioFile, load, parse};
 pub use plan::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
-    Collocation, Convergence, CostMap, Formulation, Horizon, Objective, PlannerSettings, PotentialField,
-    PotentialFieldForm, RepulsionForm, Sampler, Shape, Solver, Transcription, TrustRegion,
+    Collocation, Convergence, Coordination, CostMap, Formulation, Horizon, Objective, PlannerSettings, PotentialField,
+    PotentialFieldForm, RepulsionForm, Sampler, Shape, Solver, SolverStart, Transcription, TrustRegion,
 };
 pub use random::stream;
 pub use range::Range;

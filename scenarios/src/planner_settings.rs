@@ -1,4 +1,5 @@
 mod collocation;
+mod coordination;
 mod horizon;
 
 use std::collections::BTreeMap;
@@ -7,6 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use collocation::{Collocation, Formulation, Objective, Shape};
+pub use coordination::Coordination;
 pub use horizon::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler};
 
 /// The planner and its options. The default of an option depends on the planner, and is mostly the value of its paper
@@ -37,13 +39,17 @@ pub struct PlannerSettings {
     /// Solver of the convex subproblems.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<Solver>,
+    /// Where that solver starts. [default: feasible]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solver_start: Option<SolverStart>,
     /// Number of intervals K between the nodes, from 2 to 1000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intervals: Option<usize>,
     /// Distance that the planner adds to the separation and to every obstacle's surface, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin_m: Option<f64>,
-    /// Weight μ of the exact penalty on violated rows, in s of time step per scaled unit of violation.
+    /// Weight μ of the exact penalty on violated rows, in s of time step per unit of violation: per SI unit (m, m/s, rad) for
+    /// the papers' planners, per scaled unit (km, 100 m, 10 m/s, rad, 0.1 rad) for `fleet-scp`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty: Option<f64>,
     /// Fraction by which the common lower bound of the fleet's flight time decreases when it is active for all vehicles, in
@@ -59,6 +65,9 @@ pub struct PlannerSettings {
     /// Convergence tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub convergence: Option<Convergence>,
+    /// Thresholds of priorities and of the common arrival.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coordination: Option<Coordination>,
     /// Options of collocation planners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub collocation: Option<Collocation>,
@@ -83,8 +92,24 @@ pub enum Transcription {
 pub enum Solver {
     /// Interior-point method that exploits the block structure.
     Block,
+    /// The same, with the Newton direction by method I of Wang, Xu, Long (2020): sparse LDL^T of the reduced matrix.
+    SparseLdl,
+    /// The same, with the Newton direction by method II of Wang, Xu, Long (2020): the dense reduced matrix.
+    DenseReduced,
     /// Clarabel, a general interior-point method: the baseline.
     Clarabel,
+}
+
+/// Where the solver of the convex subproblems starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolverStart {
+    /// At a strictly feasible point; every iterate is feasible.
+    #[default]
+    Feasible,
+    /// At a point that violates the linear equations, as in the loop of Wang, Xu, Long (2020), section 4: the residuals vanish
+    /// with the gap. Only with the solvers `sparse-ldl` and `dense-reduced`.
+    Infeasible,
 }
 
 /// Half-widths ρ of the trust region, and their reduction.

@@ -201,6 +201,17 @@ fn options_of_the_planner_are_in_range() {
         let release = format!("penalty = 1000\ntime_bound_release = {share}");
         assert_issue("penalty = 1000", &release, ("planner.time_bound_release", 52, 22), share, "from 0 to below 1");
     }
+    let start = "penalty = 1000\nsolver_start = \"infeasible\"";
+    assert_issue("penalty = 1000", start, ("planner.solver_start", 52, 16), "infeasible", "sparse-ldl");
+    let with_method_1 = format!("{start}\nsolver = \"sparse-ldl\"");
+    assert!(load_changed("penalty = 1000", &with_method_1).is_ok(), "the paper's methods have an infeasible start");
+    for (key, column) in [("swap_threshold_s", 37), ("damped_change_s", 36), ("arrival_spread_s", 37)] {
+        let threshold = format!("penalty = 1000\ncoordination = {{ {key} = -1 }}");
+        let field = format!("planner.coordination.{key}");
+        assert_issue("penalty = 1000", &threshold, (&field, 52, column), "-1", "0 or more");
+    }
+    let no_round = "penalty = 1000\ncoordination = { max_rounds = 0 }";
+    assert_issue("penalty = 1000", no_round, ("planner.coordination.max_rounds", 52, 31), "0", "1 or more");
     assert_issue("max_iterations = 30", "max_iterations = 0", ("planner.max_iterations", 52, 18), "0", "1 or more");
     assert_issue(
         "shrink = 0.5",

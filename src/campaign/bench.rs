@@ -3,8 +3,10 @@
 pub mod cooperative;
 mod entry;
 pub mod fleets;
+mod geometry;
 pub mod horizon;
 pub mod ipm;
+mod log_log_chart;
 pub mod slung;
 pub mod subproblems;
 pub mod suite;

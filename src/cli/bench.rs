@@ -47,6 +47,9 @@ pub struct Bench {
     /// Time limit of one entry of `cooperative` and `fleets`, or of one run of `suite`, s
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     limit_s: f64,
+    /// Number of geometries of each fleet of `fleets`, each with a seed of its own
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    geometries: u32,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
@@ -60,6 +63,8 @@ Examples:
   harness bench ipm --quick
   harness bench cooperative    takes about a minute
   harness bench fleets         takes several minutes: some entries reach their time limit
+  harness bench fleets --geometries 10
+                               the same for ten geometries of each fleet, with means
   harness bench slung          takes about ten seconds
   harness bench horizon        takes several minutes
   harness bench suite          takes about half an hour
@@ -69,6 +74,7 @@ Examples:
 Results:
   out/bench/ipm.json           one row per subproblem and backend
   out/bench/ipm.md             the same as a page in Markdown
+  out/bench/ipm.svg            operation counts (the paper's figure 4) and measured times
   out/bench/cooperative.json, .md  one row per mission, fleet and solver
   out/bench/fleets.json, .md   one row per mission, fleet and planner
   out/bench/slung.json, .md    one row per mesh and formulation
@@ -121,7 +127,9 @@ impl Bench {
         let scenario = self.scenario("scenarios/fixed-wing/rendezvous-7.toml", &planners::scp::parallel::PLANNER)?;
         let plan = if self.quick { ipm::Plan::quick() } else { ipm::Plan::full() };
         let results = ipm::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
-        self.publish("ipm", &results, &ipm::markdown(&results), &ipm::text(&results))
+        self.publish("ipm", &results, &ipm::markdown(&results), &ipm::text(&results))?;
+        output::write_file(&self.out.join("bench/ipm.svg"), |writer| write!(writer, "{}", ipm::svg(&results)))?;
+        Ok(Exit::Passed)
     }
 
     fn slung(&self) -> Result<Exit, Error> {
@@ -155,12 +163,13 @@ impl Bench {
 
     fn fleets(&self) -> Result<Exit, Error> {
         let (rendezvous, limit_s) = (self.fleet("rendezvous-15")?, self.limit_s);
+        let geometries = self.geometries as usize;
         let plan = if self.quick {
-            fleets::Plan { missions: vec![(rendezvous, vec![2])], growth: None, limit_s }
+            fleets::Plan { missions: vec![(rendezvous, vec![2])], geometries, growth: None, limit_s }
         } else {
             let missions = vec![(rendezvous, vec![5, 7, 10, 15]), (self.fleet("exchange-100")?, vec![100])];
             let growth = Some((self.fleet("traffic-1000")?, vec![10, 30, 100, 300, 1000]));
-            fleets::Plan { missions, growth, limit_s }
+            fleets::Plan { missions, geometries, growth, limit_s }
         };
         let results = fleets::run(&plan, &mut |entry| self.tell(entry))?;
         self.publish("fleets", &results, &fleets::markdown(&results), &fleets::text(&results))

@@ -11,11 +11,12 @@ fn bench_ipm_measures_every_backend_on_every_subproblem() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let output = workplace.harness(&["bench", "ipm", "pair.toml", "--quick"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert_eq!(workplace.files("out/bench"), ["ipm.json", "ipm.md"]);
+    assert_eq!(workplace.files("out/bench"), ["ipm.json", "ipm.md", "ipm.svg"]);
     let results = workplace.json("out/bench/ipm.json");
     assert_eq!(results["scenario"], "pair");
     let rows = results["rows"].as_array().unwrap();
-    let backends = ["clarabel", "block x4", "block", "sparse-ldl", "dense-reduced", "dense-kkt"];
+    let backends =
+        ["clarabel", "block x4", "block", "sparse-ldl", "sparse-ldl infeasible", "dense-reduced", "dense-kkt"];
     assert_eq!(rows.len(), 3 * backends.len());
     for of_one_shape in rows.chunks(backends.len()) {
         for (row, backend) in of_one_shape.iter().zip(backends) {

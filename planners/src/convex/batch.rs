@@ -14,6 +14,8 @@ pub struct Batch<S: Simd4> {
     pub theta_cost: Lanes<S>,
     /// μ.
     pub penalty: Lanes<S>,
+    /// Scales of the rows in each variable of a stage; halfspaces have that of the first.
+    pub row_scales: [RowScale<S>; STAGE_LEN],
     /// Dynamics constraints, length K.
     pub dynamics: Vec<DynamicsConstraint<S>>,
     /// Fixed variables: index into z, and value.
@@ -71,6 +73,25 @@ pub struct Bounds<S: Simd4> {
     pub soft_lower: Lanes<S>,
     /// Elastic upper bound.
     pub soft_upper: Lanes<S>,
+    /// Scale of the elastic bounds.
+    pub row_scale: RowScale<S>,
+}
+
+/// How a violation of a row counts.
+#[derive(Clone, Copy, Debug)]
+pub struct RowScale<S: Simd4> {
+    /// Its unit u.
+    pub unit: Lanes<S>,
+    /// The violation up to which it is rounding and counts as none; 0 unless the weight is large.
+    pub resolution: Lanes<S>,
+}
+
+impl<S: Simd4> RowScale<S> {
+    /// Lanes in which the weight of the row is large.
+    #[inline(always)]
+    pub fn is_stiff(&self) -> Mask<S> {
+        self.resolution.is_above(self.resolution.like(0.0))
+    }
 }
 
 impl<S: Simd4> Batch<S> {
@@ -81,6 +102,7 @@ impl<S: Simd4> Batch<S> {
             simd,
             theta_cost: zero,
             penalty: zero,
+            row_scales: [RowScale { unit: zero, resolution: zero }; STAGE_LEN],
             dynamics: Vec::new(),
             fixed_variables: Vec::new(),
             halfspaces: Vec::new(),
@@ -100,12 +122,29 @@ impl<S: Simd4> Batch<S> {
         self.bounds.len()
     }
 
+    /// Weight μ u of a row: its largest multiplier.
+    #[inline(always)]
+    pub fn weight(&self, scale: &RowScale<S>) -> Lanes<S> {
+        self.penalty * scale.unit
+    }
+
+    /// Has a lane rows of large weight?
+    pub fn is_stiff(&self, lane: usize) -> bool {
+        self.row_scales.iter().any(|scale| scale.resolution.lane(lane) > 0.0)
+    }
+
     /// Sets one program per lane; all must have the [same shape](Program::has_shape_of).
     pub fn set(&mut self, programs: [&Program; WIDTH]) {
         let simd = self.simd;
         let lanes = |value: &dyn Fn(&Program) -> f64| Lanes::new(simd, programs.map(value));
         self.theta_cost = lanes(&|program| program.theta_cost);
         self.penalty = lanes(&|program| program.penalty);
+        let resolutions = programs.map(Program::resolutions);
+        let row_scale = |component: usize, index: usize| RowScale {
+            unit: lanes(&|program| program.unit(index)),
+            resolution: Lanes::new(simd, resolutions.map(|resolutions| resolutions[component])),
+        };
+        self.row_scales = std::array::from_fn(|i| row_scale(i, i));
         self.pairs = lanes(&|program| 2.0 * (program.len() + program.equalities() + program.inequalities()) as f64);
         self.fixed_variables.clear();
         let fixed_variables = programs[0].fixed_variables.iter().enumerate();
@@ -118,6 +157,7 @@ impl<S: Simd4> Batch<S> {
             box_upper: lanes(&|program| program.box_upper[i]),
             soft_lower: lanes(&|program| program.soft_lower[i]),
             soft_upper: lanes(&|program| program.soft_upper[i]),
+            row_scale: row_scale(programs[0].component(i), i),
         }));
         self.set_dynamics(programs);
         self.set_halfspaces(programs);

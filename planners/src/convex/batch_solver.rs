@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use super::backend::Backend;
 use super::interior_point::Solver;
 use super::program::Program;
-use super::solution::{Settings, Solution};
+use super::reference_methods::InfeasibleLoop;
+use super::solution::{Settings, Solution, Start};
 use crate::simd::WIDTH;
 
 /// The customised interior-point method with its workspace, compiled for the vector instructions of the processor.
@@ -23,6 +24,8 @@ enum SimdDispatch {
     V3(Box<Solver<pulp::x86::V3>>),
     /// Any processor.
     Portable(Box<Solver<pulp::Scalar256b>>),
+    /// The paper's loop, which uses no vector instructions of its own.
+    Infeasible(Box<InfeasibleLoop>),
 }
 
 impl InteriorPoint {
@@ -31,8 +34,12 @@ impl InteriorPoint {
         Self::with_backend(settings, Backend::Block)
     }
 
-    /// A solver that computes the Newton direction by `backend`.
+    /// A solver that computes the Newton direction by `backend`. Panics for an infeasible start with the block
+    /// factorisation, which has none.
     pub fn with_backend(settings: Settings, backend: Backend) -> Self {
+        if settings.start == Start::Infeasible {
+            return Self { solver: SimdDispatch::Infeasible(Box::new(InfeasibleLoop::new(settings, backend))) };
+        }
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
             return Self { solver: SimdDispatch::V3(Box::new(Solver::new(simd, settings, backend))) };
@@ -56,6 +63,7 @@ impl InteriorPoint {
             #[cfg(target_arch = "x86_64")]
             SimdDispatch::V3(solver) => solver.solve(programs),
             SimdDispatch::Portable(solver) => solver.solve(programs),
+            SimdDispatch::Infeasible(solver) => programs.iter().map(|program| solver.solve(program)).collect(),
         }
     }
 }
@@ -64,26 +72,38 @@ impl InteriorPoint {
 #[derive(Debug)]
 pub struct BatchSolver {
     settings: Settings,
+    backend: Backend,
     idle: Mutex<Vec<InteriorPoint>>,
 }
 
 impl BatchSolver {
     /// Without solvers; they are created when needed.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, idle: Mutex::new(Vec::new()) }
+        Self::with_backend(settings, Backend::Block)
+    }
+
+    /// The same with solvers that compute the Newton direction by `backend`.
+    pub fn with_backend(settings: Settings, backend: Backend) -> Self {
+        Self { settings, backend, idle: Mutex::new(Vec::new()) }
+    }
+
+    /// Number of programs that are solved in one pass.
+    pub fn programs_per_pass(&self) -> usize {
+        if self.backend == Backend::Block { WIDTH } else { 1 }
     }
 
     /// Solves independent programs; returns their solutions in order. Each solution is bit-identical to the one that
     /// the program has on its own.
     pub fn solve_all(&self, programs: &[Program]) -> Vec<Solution> {
         let same_shape = programs.chunk_by(Program::has_shape_of);
-        let batches: Vec<&[Program]> = same_shape.flat_map(|run| run.chunks(WIDTH)).collect();
+        let batches: Vec<&[Program]> = same_shape.flat_map(|run| run.chunks(self.programs_per_pass())).collect();
         let solutions: Vec<Vec<Solution>> = batches.par_iter().map(|batch| self.solve_batch(batch)).collect();
         solutions.concat()
     }
 
     fn solve_batch(&self, batch: &[Program]) -> Vec<Solution> {
-        let mut solver = self.idle().pop().unwrap_or_else(|| InteriorPoint::new(self.settings.clone()));
+        let mut solver =
+            self.idle().pop().unwrap_or_else(|| InteriorPoint::with_backend(self.settings.clone(), self.backend));
         let solutions = solver.solve_batch(&batch.iter().collect::<Vec<_>>());
         self.idle().push(solver);
         solutions

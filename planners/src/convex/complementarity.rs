@@ -13,6 +13,7 @@
 //! restored to rounding after every step: the smaller of the two numbers is kept, the larger follows from it. Every
 //! iterate is therefore feasible, and the sum of the products a c + b d is its duality gap.
 
+use super::program::MAX_PLAIN_WEIGHT;
 use crate::simd::{Lanes, Mask, Simd4};
 
 /// The two complementarity conditions of one bounded quantity, with the coefficients of the current Newton step.
@@ -26,6 +27,8 @@ pub struct ComplementarityPair<S: Simd4> {
     pub dual_upper: Lanes<S>,
     /// d, the dual of the lower bound, > 0.
     pub dual_lower: Lanes<S>,
+    /// (b - a)/2 = x - (lo + hi)/2. Between bounds that are far apart it resolves an x that a and b would round.
+    pub offset: Lanes<S>,
     /// 1/a.
     inverse_upper: Lanes<S>,
     /// 1/b.
@@ -85,6 +88,7 @@ impl<S: Simd4> ComplementarityPair<S> {
             slack_lower,
             dual_upper,
             dual_lower,
+            offset: (slack_lower - slack_upper) * zero.like(0.5),
             inverse_upper,
             inverse_lower,
             target_upper,
@@ -166,9 +170,24 @@ impl<S: Simd4> ComplementarityPair<S> {
         self.dual_upper += α_dual * dc;
         self.dual_lower += α_dual * dd;
         let (upper, lower) = (self.slack_upper - α_slack * dx, self.slack_lower + α_slack * dx);
+        let offset = self.offset + α_slack * dx;
         let is_nearer_upper = lower.is_above(upper);
         self.slack_upper = is_nearer_upper.select(upper, width - lower);
         self.slack_lower = is_nearer_upper.select(width - upper, lower);
+        self.restore_offset(offset, width * offset.like(0.5));
+    }
+
+    /// Restores (b - a)/2 = offset with the bounds `half` away from 0: of a, b and |offset| the smallest is kept.
+    #[inline(always)]
+    fn restore_offset(&mut self, offset: Lanes<S>, half: Lanes<S>) {
+        let nearest = self.slack_upper.min(self.slack_lower);
+        // 0 where the bounds are near enough to resolve every x between them
+        let reach = half.is_above(half.like(MAX_PLAIN_WEIGHT)).select(nearest, half.like(0.0));
+        let is_central = reach.is_above(offset.abs());
+        self.slack_upper = is_central.select(half - offset, self.slack_upper);
+        self.slack_lower = is_central.select(half + offset, self.slack_lower);
+        let between = (self.slack_lower - self.slack_upper) * half.like(0.5);
+        self.offset = is_central.select(offset, between);
     }
 
     /// Restores c - d = `difference`; the smaller of the two is kept.
@@ -247,5 +266,28 @@ impl<S: Simd4> Accumulator<S> for AffineSummary<S> {
             first: mask.select(yes.first, no.first),
             second: mask.select(yes.second, no.second),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pulp::Scalar256b;
+
+    use super::{ComplementarityPair, Lanes};
+
+    /// Its distances to the bounds, 1e6 ± 1/3, would round it to 1e-10.
+    #[test]
+    fn a_small_multiplier_between_distant_bounds_keeps_its_digits() {
+        let lanes = |value| Lanes::splat(Scalar256b, value);
+        let half = 1e6;
+        let mut pair = ComplementarityPair::central(lanes(half), lanes(1.0));
+        pair.compute_weight();
+        pair.set_zero_target();
+        pair.advance(lanes(1.0 / 3.0), lanes(1.0), lanes(0.0), lanes(2.0 * half));
+        assert_eq!(pair.offset.lane(0), 1.0 / 3.0);
+        assert_eq!(pair.slack_lower.lane(0), half + 1.0 / 3.0);
+        // beyond the middle between 0 and a bound the distance to the bound counts
+        pair.advance(lanes(0.75 * half), lanes(1.0), lanes(0.0), lanes(2.0 * half));
+        assert!((pair.offset.lane(0) - (half - pair.slack_upper.lane(0))).abs() < 1e-9);
     }
 }

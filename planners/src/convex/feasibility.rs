@@ -1,6 +1,7 @@
 //! Restores the linear equations after a step, so that every iterate is feasible.
 
-use super::batch::Batch;
+use super::batch::{Batch, RowScale};
+use super::complementarity::ComplementarityPair;
 use super::iterate::{Iterate, Variable, dynamics_residuals};
 use crate::simd::{Lanes, Simd4};
 
@@ -9,7 +10,7 @@ use crate::simd::{Lanes, Simd4};
 pub struct Measures<S: Simd4> {
     /// Sum of all complementarity products: the duality gap.
     pub products: Lanes<S>,
-    /// q θ + μ (violations).
+    /// q θ + μ (u · violations).
     pub objective: Lanes<S>,
 }
 
@@ -22,30 +23,55 @@ pub fn restore_feasibility<S: Simd4>(batch: &Batch<S>, at: &mut Iterate<S>) -> M
     at.set_dual(batch);
     for k in 0..batch.intervals() {
         let values = dynamics_residuals(batch, &at.z, k);
-        for (pair, value) in at.dynamics[k].iter_mut().zip(values) {
-            pair.restore_dual_difference(value);
-            products += pair.products();
-            violations += pair.dual_upper + pair.dual_lower;
+        for ((pair, value), scale) in at.dynamics[k].iter_mut().zip(values).zip(&batch.row_scales) {
+            let row = settle(pair, value, scale);
+            products += row.products;
+            violations += (row.dual_upper + row.dual_lower) * scale.unit;
         }
     }
     for (pair, (index, value)) in at.fixed_variables.iter_mut().zip(&batch.fixed_variables) {
-        pair.restore_dual_difference(at.z[*index] - *value);
-        products += pair.products();
-        violations += pair.dual_upper + pair.dual_lower;
+        let scale = &batch.bounds[*index].row_scale;
+        let row = settle(pair, at.z[*index] - *value, scale);
+        products += row.products;
+        violations += (row.dual_upper + row.dual_lower) * scale.unit;
     }
     for (pair, halfspace) in at.halfspaces.iter_mut().zip(&batch.halfspaces) {
-        pair.restore_dual_difference(halfspace.value(&at.z) - halfspace.bound);
-        products += pair.products() * halfspace.present;
-        violations += pair.dual_upper * halfspace.present;
+        let scale = &batch.row_scales[0];
+        let row = settle(pair, halfspace.value(&at.z) - halfspace.bound, scale);
+        products += row.products * halfspace.present;
+        violations += row.dual_upper * halfspace.present * scale.unit;
     }
     let values = at.z.iter().zip(&at.dual).zip(&batch.bounds);
     for (variable, ((&z, &dual), bounds)) in at.variables.iter_mut().zip(values) {
         let Variable { trust_region, upper, lower } = variable;
         trust_region.restore_dual_difference(-dual);
-        upper.restore_dual_difference(z - bounds.soft_upper);
-        lower.restore_dual_difference(bounds.soft_lower - z);
-        products += trust_region.products() + (upper.products() + lower.products());
-        violations += upper.dual_upper + lower.dual_upper;
+        let scale = &bounds.row_scale;
+        let upper = settle(upper, z - bounds.soft_upper, scale);
+        let lower = settle(lower, bounds.soft_lower - z, scale);
+        products += trust_region.products() + (upper.products + lower.products);
+        violations += (upper.dual_upper + lower.dual_upper) * scale.unit;
     }
     Measures { products, objective: batch.theta_cost * at.z[at.z.len() - 1] + batch.penalty * violations }
+}
+
+/// A settled row, without the rounding of its value.
+struct SettledRow<S: Simd4> {
+    /// a c + b d.
+    products: Lanes<S>,
+    /// c: the violation from above.
+    dual_upper: Lanes<S>,
+    /// d: the violation of an equality from below.
+    dual_lower: Lanes<S>,
+}
+
+/// Restores c - d = `value` of an elastic row. The pair holds the whole value, so that the next step corrects it; what
+/// is only rounding counts neither as gap nor as violation.
+#[inline(always)]
+fn settle<S: Simd4>(pair: &mut ComplementarityPair<S>, value: Lanes<S>, scale: &RowScale<S>) -> SettledRow<S> {
+    pair.restore_dual_difference(value);
+    let (c, d) = (pair.dual_upper, pair.dual_lower);
+    let is_rounding = scale.resolution.is_above(value.abs());
+    let smaller = c.min(d);
+    let (dual_upper, dual_lower) = (is_rounding.select(smaller, c), is_rounding.select(smaller, d));
+    SettledRow { products: pair.slack_upper * dual_upper + pair.slack_lower * dual_lower, dual_upper, dual_lower }
 }

@@ -18,6 +18,9 @@ const MIN_TARGET_FRACTION: f64 = 0.4;
 /// Relative gap below which directions get a step of iterative refinement.
 const REFINE_BELOW: f64 = 1e-4;
 
+/// Number of steps of iterative refinement of every direction of a program with rows of large weight.
+const STIFF_REFINEMENTS: f64 = 3.0;
+
 /// The method and its workspace, which is kept from solve to solve.
 #[derive(Clone, Debug)]
 pub struct Solver<S: Simd4> {
@@ -29,8 +32,10 @@ pub struct Solver<S: Simd4> {
     measures: Measures<S>,
     /// 1 for lanes that are still iterating, 0 for those that have ended.
     active: Lanes<S>,
-    /// 1 for lanes whose directions are refined, 0 for the others.
-    refining: Lanes<S>,
+    /// Number of refinements of the directions of every lane.
+    refinements: Lanes<S>,
+    /// Those that are left for the current direction.
+    refinements_left: Lanes<S>,
     monitors: [ConvergenceMonitor; WIDTH],
     best: [Vec<f64>; WIDTH],
 }
@@ -56,7 +61,8 @@ impl<S: Simd4> Solver<S> {
             newton_solver: NewtonSolver::new(simd, backend),
             measures: Measures { products: zero, objective: zero },
             active: zero,
-            refining: zero,
+            refinements: zero,
+            refinements_left: zero,
             monitors: std::array::from_fn(|_| ConvergenceMonitor::new(&settings)),
             best: std::array::from_fn(|_| Vec::new()),
             batch,
@@ -87,7 +93,7 @@ impl<S: Simd4> Solver<S> {
         self.newton.resize(&self.batch);
         self.newton_solver.begin(&self.batch, programs[0]);
         self.active = Lanes::new(self.batch.simd, is_solved.map(f64::from));
-        self.refining = self.active.like(0.0);
+        self.refinements = self.active.like(0.0);
         self.monitors = std::array::from_fn(|_| ConvergenceMonitor::new(&self.settings));
         self.best.iter_mut().for_each(|best| best.resize(self.batch.len(), 0.0));
     }
@@ -102,7 +108,8 @@ impl<S: Simd4> Solver<S> {
             self.run(Step::Factor);
             self.run(Step::Predict);
             self.run(Step::Correct);
-            if self.refining.to_array() != [0.0; WIDTH] {
+            self.refinements_left = self.refinements;
+            while self.refinements_left.to_array() != [0.0; WIDTH] {
                 self.run(Step::Refine);
             }
             self.run(Step::Advance);
@@ -119,7 +126,8 @@ impl<S: Simd4> Solver<S> {
             }
             let monitor = &mut self.monitors[lane];
             let now = Progress::new(products[lane], objectives[lane], iteration);
-            self.refining.set_lane(lane, f64::from(now.gap < REFINE_BELOW));
+            let plain = f64::from(now.gap < REFINE_BELOW);
+            self.refinements.set_lane(lane, if self.batch.is_stiff(lane) { STIFF_REFINEMENTS } else { plain });
             if monitor.record(now) {
                 for (best, z) in self.best[lane].iter_mut().zip(&self.at.z) {
                     *best = z.lane(lane);
@@ -127,7 +135,7 @@ impl<S: Simd4> Solver<S> {
             }
             if monitor.status() != Status::IterationLimit {
                 self.active.set_lane(lane, 0.0);
-                self.refining.set_lane(lane, 0.0);
+                self.refinements.set_lane(lane, 0.0);
             }
         }
     }
@@ -184,8 +192,10 @@ impl<S: Simd4> Solver<S> {
 
     #[inline(always)]
     fn refine(&mut self) {
-        let mask = self.refining.is_above(self.refining.like(0.5));
+        let one = self.refinements_left.like(1.0);
+        let mask = self.refinements_left.is_above(one.like(0.5));
         self.newton_solver.refine(&self.batch, &self.at, &mut self.newton, mask);
+        self.refinements_left = (self.refinements_left - one).max(one.like(0.0));
     }
 
     /// Takes the longest step for which all slacks and duals stay positive, times the boundary fraction.

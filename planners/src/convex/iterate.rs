@@ -44,7 +44,8 @@ impl<S: Simd4> Iterate<S> {
     /// Sets a strictly feasible start: z at the centre of the trust region, elastic slacks on the central path with
     /// parameter τ, and trust-region duals that close the dual equation.
     ///
-    /// τ is `initial_barrier` times μ times the largest residual of an equality.
+    /// τ is `initial_barrier` times μ times the largest violation, in units u, of an equality or of a halfspace of large
+    /// weight.
     #[inline(always)]
     pub fn start(&mut self, batch: &Batch<S>, initial_barrier: f64) {
         let zero = Lanes::splat(batch.simd, 0.0);
@@ -52,27 +53,30 @@ impl<S: Simd4> Iterate<S> {
         for bounds in &batch.bounds {
             self.z.push(bounds.centre());
         }
-        let μ = batch.penalty;
-        let τ = μ * zero.like(initial_barrier) * self.max_equality_residual(batch);
+        let τ = batch.penalty * zero.like(initial_barrier) * self.max_violation(batch);
         self.dynamics.clear();
         for k in 0..batch.intervals() {
             let values = dynamics_residuals(batch, &self.z, k);
             let mut constraint = [ComplementarityPair::central(τ, τ); DYNAMICS_ROWS];
-            for (pair, value) in constraint.iter_mut().zip(values) {
+            for ((pair, value), scale) in constraint.iter_mut().zip(values).zip(&batch.row_scales) {
+                let μ = batch.weight(scale);
                 *pair = central(value, μ + μ, τ);
             }
             self.dynamics.push(constraint);
         }
         self.fixed_variables.clear();
         for (index, value) in &batch.fixed_variables {
+            let μ = batch.weight(&batch.bounds[*index].row_scale);
             self.fixed_variables.push(central(self.z[*index] - *value, μ + μ, τ));
         }
         self.halfspaces.clear();
+        let μ = batch.weight(&batch.row_scales[0]);
         for halfspace in &batch.halfspaces {
             self.halfspaces.push(central(halfspace.value(&self.z) - halfspace.bound, μ, τ));
         }
         self.variables.clear();
         for (&z, bounds) in self.z.iter().zip(&batch.bounds) {
+            let μ = batch.weight(&bounds.row_scale);
             self.variables.push(Variable {
                 trust_region: ComplementarityPair::central(bounds.width() * zero.like(0.5), τ),
                 upper: central(z - bounds.soft_upper, μ, τ),
@@ -103,7 +107,7 @@ impl<S: Simd4> Iterate<S> {
         let halfspaces =
             self.halfspaces.iter().zip(&batch.halfspaces).filter(|(_, halfspace)| halfspace.present.lane(lane) > 0.0);
         Multipliers {
-            equalities: dynamics.map(|pair| multiplier(pair).lane(lane)).collect(),
+            equalities: dynamics.map(|pair| pair.offset.lane(lane)).collect(),
             inequalities: bounds
                 .chain(halfspaces.map(|(pair, _)| pair))
                 .map(|pair| pair.slack_lower.lane(lane))
@@ -111,17 +115,22 @@ impl<S: Simd4> Iterate<S> {
         }
     }
 
-    /// Largest absolute residual of an equality, at least 1e-3.
+    /// Largest violation in units u of an equality, or of a halfspace of large weight; at least 1e-3.
     #[inline(always)]
-    fn max_equality_residual(&self, batch: &Batch<S>) -> Lanes<S> {
+    fn max_violation(&self, batch: &Batch<S>) -> Lanes<S> {
         let mut max = Lanes::splat(batch.simd, 1e-3);
         for k in 0..batch.intervals() {
-            for value in dynamics_residuals(batch, &self.z, k) {
-                max = value.abs().max(max);
+            for (value, scale) in dynamics_residuals(batch, &self.z, k).into_iter().zip(&batch.row_scales) {
+                max = (value.abs() * scale.unit).max(max);
             }
         }
         for (index, value) in &batch.fixed_variables {
-            max = (self.z[*index] - *value).abs().max(max);
+            max = ((self.z[*index] - *value).abs() * batch.bounds[*index].row_scale.unit).max(max);
+        }
+        let scale = &batch.row_scales[0];
+        let unit = scale.is_stiff().select(scale.unit, max.like(0.0));
+        for halfspace in &batch.halfspaces {
+            max = ((halfspace.value(&self.z) - halfspace.bound) * (unit * halfspace.present)).max(max);
         }
         max
     }
@@ -138,7 +147,7 @@ impl<S: Simd4> Iterate<S> {
         dual[last] += batch.theta_cost;
         for (k, (constraint, pair)) in batch.dynamics.iter().zip(&self.dynamics).enumerate() {
             for i in 0..DYNAMICS_ROWS {
-                let y = multiplier(&pair[i]);
+                let y = pair[i].offset;
                 for j in 0..STAGE_LEN {
                     dual[STAGE_LEN * k + j] = constraint.left[i][j].mul_add(y, dual[STAGE_LEN * k + j]);
                     dual[STAGE_LEN * (k + 1) + j] = constraint.right[i][j].mul_add(y, dual[STAGE_LEN * (k + 1) + j]);
@@ -147,7 +156,7 @@ impl<S: Simd4> Iterate<S> {
             }
         }
         for ((index, _), fixed) in batch.fixed_variables.iter().zip(&self.fixed_variables) {
-            dual[*index] += multiplier(fixed);
+            dual[*index] += fixed.offset;
         }
         for (halfspace, pair) in batch.halfspaces.iter().zip(&self.halfspaces) {
             halfspace.add(pair.slack_lower * halfspace.present, dual);
@@ -184,12 +193,6 @@ pub fn dynamics_residuals<S: Simd4>(batch: &Batch<S>, z: &[Lanes<S>], k: usize) 
         values[i] = value;
     }
     values
-}
-
-/// y in [-μ, μ] from its distances to both bounds.
-#[inline(always)]
-fn multiplier<S: Simd4>(pair: &ComplementarityPair<S>) -> Lanes<S> {
-    (pair.slack_lower - pair.slack_upper) * pair.slack_lower.like(0.5)
 }
 
 /// The pair of a multiplier on the central path with parameter τ, for bounds `width` apart and a row with residual `f`:

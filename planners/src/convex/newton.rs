@@ -253,15 +253,20 @@ impl<S: Simd4> NewtonSystem<S> {
     /// differences c - d are restored by [`restore_feasibility`](super::feasibility::restore_feasibility).
     #[inline(always)]
     pub fn advance(&self, batch: &Batch<S>, at: &mut Iterate<S>, α_p: Lanes<S>, α_d: Lanes<S>) {
-        let (μ, two_μ) = (batch.penalty, batch.penalty + batch.penalty);
-        for (pair, &dy) in at.fixed_variables.iter_mut().zip(&self.multipliers.fixed_variables) {
-            pair.advance(dy, α_d, α_p, two_μ);
+        let fixed_variables = at.fixed_variables.iter_mut().zip(&batch.fixed_variables);
+        for ((pair, (index, _)), &dy) in fixed_variables.zip(&self.multipliers.fixed_variables) {
+            let μ = batch.weight(&batch.bounds[*index].row_scale);
+            pair.advance(dy, α_d, α_p, μ + μ);
         }
+        let μ = batch.weight(&batch.row_scales[0]);
         for (pair, &dλ) in at.halfspaces.iter_mut().zip(&self.multipliers.halfspaces) {
             pair.advance(dλ, α_d, α_p, μ);
         }
-        for (pair, dy) in at.dynamics.as_flattened_mut().iter_mut().zip(&self.step.y) {
-            pair.advance(dy[0], α_d, α_p, two_μ);
+        for (constraint, dy) in at.dynamics.iter_mut().zip(self.step.y.as_chunks::<DYNAMICS_ROWS>().0) {
+            for ((pair, dy), scale) in constraint.iter_mut().zip(dy).zip(&batch.row_scales) {
+                let μ = batch.weight(scale);
+                pair.advance(dy[0], α_d, α_p, μ + μ);
+            }
         }
         let steps = self.step.z.iter().zip(&self.multipliers.bounds);
         let variables = at.variables.iter_mut().zip(&mut at.z).zip(&batch.bounds);
@@ -271,6 +276,7 @@ impl<S: Simd4> NewtonSystem<S> {
             let is_nearer_upper = trust_region.slack_lower.is_above(trust_region.slack_upper);
             *z = is_nearer_upper
                 .select(bounds.box_upper - trust_region.slack_upper, bounds.box_lower + trust_region.slack_lower);
+            let μ = batch.weight(&bounds.row_scale);
             upper.advance(dλ[0], α_d, α_p, μ);
             lower.advance(dλ[1], α_d, α_p, μ);
         }

@@ -8,6 +8,14 @@ pub const STAGE_LEN: usize = 9;
 /// Number of rows of one constraint between two stages.
 pub const DYNAMICS_ROWS: usize = 6;
 
+/// Largest weight μ u of a row that double precision resolves without further ado: its multiplier by its distances to
+/// ±μ u, and the penalty on a violation that is only rounding. A multiplier is of order one, so that its distances to
+/// bounds of this size resolve it to 1e-13.
+pub(super) const MAX_PLAIN_WEIGHT: f64 = 1e3;
+
+/// Rounding of a row relative to the sum of its terms.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// An elastic linear program over the stages 0..=K; see the [module](super) for its mathematics.
 ///
 /// Variables are z = (w_0, ..., w_K, θ), w_k of length [`STAGE_LEN`]; all vectors over z have length [`Program::len`].
@@ -19,6 +27,9 @@ pub struct Program {
     pub offset: f64,
     /// Penalty μ per unit of violation of an elastic row, > q.
     pub penalty: f64,
+    /// Units u in which violations are measured: a row in variable i of a stage is weighted with μ `row_units[i]`. The
+    /// rows of a dynamics constraint are in the first variables of a stage, halfspaces in the first; the unit of θ is 1.
+    pub row_units: [f64; STAGE_LEN],
     /// Dynamics constraints between neighbouring stages, length K.
     pub dynamics: Vec<DynamicsConstraint>,
     /// Elastically fixed variables.
@@ -139,6 +150,33 @@ impl Program {
             && [&self.box_lower, &self.box_upper, &self.soft_lower, &self.soft_upper].into_iter().all(|v| finite(v))
             && self.box_lower.iter().zip(&self.box_upper).all(|(lower, upper)| lower < upper)
             && finite(&[self.theta_cost, self.offset, self.penalty])
+            && finite(&self.row_units)
+    }
+
+    /// Rounding of any row for any z within the hard bounds.
+    fn rounding(&self) -> f64 {
+        let size = |index: usize| self.box_lower[index].abs().max(self.box_upper[index].abs());
+        let term = |index: usize, coefficient: f64| coefficient.abs() * size(index);
+        let θ = self.len() - 1;
+        let dynamics = self.dynamics.iter().enumerate().flat_map(|(k, constraint)| {
+            (0..DYNAMICS_ROWS).map(move |i| {
+                let stage = |first: usize, row: &SMatrix<f64, DYNAMICS_ROWS, STAGE_LEN>| {
+                    (0..STAGE_LEN).map(|j| term(STAGE_LEN * first + j, row[(i, j)])).sum::<f64>()
+                };
+                let stages = stage(k, &constraint.left) + stage(k + 1, &constraint.right);
+                stages + term(θ, constraint.theta[i]) + constraint.rhs[i].abs()
+            })
+        });
+        ROUNDING * dynamics.fold(0.0, f64::max)
+    }
+
+    /// Violations of a row in variable i of a stage, and last of a row in θ, that count as none: the rounding of rows
+    /// of large weight. They are violations of a program whose right-hand sides differ in the last digits; with their
+    /// weight they would bury the digits of the objective that matter.
+    pub(super) fn resolutions(&self) -> [f64; STAGE_LEN + 1] {
+        let rounding = self.rounding();
+        let resolution = |unit: f64| if self.penalty * unit > MAX_PLAIN_WEIGHT { rounding } else { 0.0 };
+        std::array::from_fn(|i| resolution(if i < STAGE_LEN { self.row_units[i] } else { 1.0 }))
     }
 
     /// Largest violation of an elastic row at `z`, in the units of the row.
@@ -146,9 +184,53 @@ impl Program {
         self.violations(z).into_iter().fold(0.0, f64::max)
     }
 
-    /// `q θ + μ (violations)` at `z`, plus the offset.
+    /// The same without the elastic bounds of θ.
+    pub fn max_stage_violation(&self, z: &[f64]) -> f64 {
+        let components = self.equality_components().chain(self.inequality_components());
+        let violations = self.violations(z).into_iter().zip(components);
+        violations.filter(|(_, component)| *component < STAGE_LEN).map(|(violation, _)| violation).fold(0.0, f64::max)
+    }
+
+    /// `q θ + μ (u · violations)` at `z`, plus the offset. Violations within the [resolution](Self::resolutions) of a row
+    /// count as none.
     pub fn objective(&self, z: &[f64]) -> f64 {
-        self.offset + self.theta_cost * z[z.len() - 1] + self.penalty * self.violations(z).into_iter().sum::<f64>()
+        let resolutions = self.resolutions();
+        let components = self.equality_components().chain(self.inequality_components());
+        let violations = self.violations(z).into_iter().zip(components);
+        let resolved = violations.filter(|(violation, component)| *violation >= resolutions[*component]);
+        let violation = resolved.map(|(violation, component)| self.unit_of(component) * violation).sum::<f64>();
+        self.offset + self.theta_cost * z[z.len() - 1] + self.penalty * violation
+    }
+
+    /// Unit of the rows in variable `index` of z.
+    pub(crate) fn unit(&self, index: usize) -> f64 {
+        self.unit_of(self.component(index))
+    }
+
+    /// The variable of a stage that variable `index` of z is; STAGE_LEN for θ.
+    pub(super) fn component(&self, index: usize) -> usize {
+        if index + 1 == self.len() { STAGE_LEN } else { index % STAGE_LEN }
+    }
+
+    fn unit_of(&self, component: usize) -> f64 {
+        self.row_units.get(component).copied().unwrap_or(1.0)
+    }
+
+    /// Units u of all rows, equalities first.
+    pub(super) fn units(&self) -> impl Iterator<Item = f64> + '_ {
+        self.equality_components().chain(self.inequality_components()).map(|component| self.unit_of(component))
+    }
+
+    /// Components that the equalities are in.
+    fn equality_components(&self) -> impl Iterator<Item = usize> + '_ {
+        let dynamics = self.dynamics.iter().flat_map(|_| 0..DYNAMICS_ROWS);
+        dynamics.chain(self.fixed_variables.iter().map(|fixed| self.component(fixed.index)))
+    }
+
+    /// Components that the inequalities are in; a halfspace counts as the first.
+    fn inequality_components(&self) -> impl Iterator<Item = usize> + '_ {
+        let bounds = || (0..self.len()).map(|index| self.component(index));
+        bounds().chain(bounds()).chain(self.halfspaces.iter().map(|_| 0))
     }
 
     /// Violations of all elastic rows at `z`, >= 0, equalities first.

@@ -3,11 +3,13 @@
 
 mod dense;
 mod inequality_form;
+mod infeasible_loop;
 mod kkt_system;
 mod kkt_vectors;
 mod sparse_ldl;
 
 pub use inequality_form::InequalityForm;
+pub use infeasible_loop::InfeasibleLoop;
 
 use self::kkt_system::{Elimination, KktSystem};
 use super::backend::Backend;
@@ -51,14 +53,7 @@ impl ReferenceSystem {
         let form = InequalityForm::new(program);
         match &mut self.kkt {
             Some(kkt) => kkt.set_form(form),
-            None => {
-                let elimination = match self.method {
-                    Backend::SparseLdl => Elimination::SparseLdl(SparseLdl::new(&form)),
-                    Backend::DenseKkt => Elimination::DenseKkt(DenseKkt::new()),
-                    Backend::DenseReduced | Backend::Block => Elimination::DenseReduced(DenseReduced::new()),
-                };
-                self.kkt = Some(KktSystem::new(form, elimination));
-            }
+            None => self.kkt = Some(new_system(self.method, form)),
         }
     }
 
@@ -105,6 +100,16 @@ impl ReferenceSystem {
             own.set_lane(LANE, *dλ);
         }
     }
+}
+
+/// The Newton system of `form`, for one of the paper's methods.
+fn new_system(method: Backend, form: InequalityForm) -> KktSystem {
+    let elimination = match method {
+        Backend::SparseLdl => Elimination::SparseLdl(SparseLdl::new(&form)),
+        Backend::DenseKkt => Elimination::DenseKkt(DenseKkt::new()),
+        Backend::DenseReduced | Backend::Block => Elimination::DenseReduced(DenseReduced::new()),
+    };
+    KktSystem::new(form, elimination)
 }
 
 /// The rows of P4 in order: trust region from above and below, equalities from above and below, inequalities, -β.

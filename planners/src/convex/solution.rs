@@ -14,11 +14,29 @@ pub struct Settings {
     /// Central-path parameter τ of the start, relative to the penalty times the largest initial residual of an
     /// equality, -.
     pub initial_barrier: f64,
+    /// Where the iteration starts.
+    pub start: Start,
+}
+
+/// Where the iteration starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Start {
+    /// At a strictly feasible point: every iterate satisfies the linear equations.
+    #[default]
+    Feasible,
+    /// At Mehrotra's start in the paper's form P4: the residuals vanish with the gap. For the paper's methods only.
+    Infeasible,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-8, max_iterations: 60, boundary_fraction: 0.995, initial_barrier: 1.0 }
+        Self {
+            tolerance: 1e-8,
+            max_iterations: 60,
+            boundary_fraction: 0.995,
+            initial_barrier: 1.0,
+            start: Start::Feasible,
+        }
     }
 }
 

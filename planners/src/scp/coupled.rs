@@ -45,7 +45,8 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         progress(&iteration);
         history.push(iteration);
     }
-    let status = plan::status(scenario, &history, converged, fleet.options.max_iterations);
+    let status =
+        plan::status(scenario, &history, converged, fleet.options.max_iterations, fleet.excess_spread_s(&last));
     plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
 }
 

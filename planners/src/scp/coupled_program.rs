@@ -121,13 +121,14 @@ impl CoupledProgram {
         for pair in &self.pairs {
             let [i, j] = pair.vehicles.map(|vehicle| self.column(vehicle, STAGE_LEN * pair.stage));
             let [x, y] = pair.normal;
-            rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.slack, self.penalty());
+            rows.append_elastic([(i, -x), (i + 1, -y), (j, x), (j + 1, y)], pair.slack, self.penalty(0));
         }
         rows
     }
 
-    fn penalty(&self) -> f64 {
-        self.vehicles[0].penalty
+    /// Penalty of the rows in variable `index` of a vehicle.
+    fn penalty(&self, index: usize) -> f64 {
+        self.vehicles[0].penalty * self.vehicles[0].unit(index)
     }
 
     fn append_equalities(&self, i: usize, rows: &mut Rows) {
@@ -138,11 +139,11 @@ impl CoupledProgram {
                 let right =
                     (0..STAGE_LEN).map(|c| (self.column(i, STAGE_LEN * (k + 1) + c), constraint.right[(row, c)]));
                 let time = std::iter::once((self.column(i, program.len() - 1), constraint.theta[row]));
-                rows.append_elastic_equality(left.chain(right).chain(time), constraint.rhs[row], self.penalty());
+                rows.append_elastic_equality(left.chain(right).chain(time), constraint.rhs[row], self.penalty(row));
             }
         }
         for fixed in &program.fixed_variables {
-            rows.append_elastic_equality([(self.column(i, fixed.index), 1.0)], fixed.value, self.penalty());
+            rows.append_elastic_equality([(self.column(i, fixed.index), 1.0)], fixed.value, self.penalty(fixed.index));
         }
     }
 
@@ -153,10 +154,10 @@ impl CoupledProgram {
             rows.append([(column, 1.0)], program.box_upper[index]);
             rows.append([(column, -1.0)], -program.box_lower[index]);
             if program.soft_upper[index] < program.box_upper[index] {
-                rows.append_elastic([(column, 1.0)], program.soft_upper[index], self.penalty());
+                rows.append_elastic([(column, 1.0)], program.soft_upper[index], self.penalty(index));
             }
             if program.soft_lower[index] > program.box_lower[index] {
-                rows.append_elastic([(column, -1.0)], -program.soft_lower[index], self.penalty());
+                rows.append_elastic([(column, -1.0)], -program.soft_lower[index], self.penalty(index));
             }
         }
     }
@@ -167,7 +168,7 @@ impl CoupledProgram {
             rows.append_elastic(
                 [(here, halfspace.current[0]), (here + 1, halfspace.current[1])],
                 halfspace.bound,
-                self.penalty(),
+                self.penalty(0),
             );
         }
     }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use rand::RngExt;
 use rayon::prelude::*;
-use scenarios::{Iteration, Range, Scenario, Solver};
+use scenarios::{Iteration, Range, Scenario};
 
 use super::avoidance::{KeepOut, append_halfspaces};
 use super::dynamics::State;
@@ -14,7 +14,9 @@ use super::iterate::Iterate;
 use super::options::Options;
 use super::plan;
 use super::subproblem::{self, Context};
-use crate::convex::{self, HalfspaceConstraint, InteriorPoint, Program, STAGE_LEN, Settings, Solution, Status};
+use super::subproblem_solver::SubproblemSolver;
+use super::time_bound::flight_time_spread_s;
+use crate::convex::{HalfspaceConstraint, Program, STAGE_LEN, Solution, Status};
 
 /// Relative gap and residuals to which the subproblems are solved.
 pub const TOLERANCE: f64 = 1e-8;
@@ -41,6 +43,8 @@ pub struct FleetProblem<'a> {
     pub bounds: Vec<Vec<[Range; STAGE_LEN]>>,
     /// Initial and final state of every vehicle.
     pub boundary: Vec<[State; 2]>,
+    /// Solver of the subproblems.
+    solver: SubproblemSolver,
     /// Unit normal of every pair (i < j) for nodes at which the two coincide: for i; that of j is its opposite.
     tie_breaks: Vec<[f64; 2]>,
 }
@@ -54,10 +58,24 @@ pub struct SubproblemResult {
     pub solver_iterations: usize,
     /// Did the solver reach its tolerance?
     pub is_solved: bool,
-    /// Largest remaining violation, in scaled units.
+    /// Largest remaining violation, in scaled units, without that of the bound on dt: the arrival is measured by the spread
+    /// of the flight times.
     pub slack: f64,
     /// Wall time, s.
     pub wall_s: f64,
+}
+
+impl SubproblemResult {
+    /// The result of a `solution` of `program` about `last`, which took `wall_s`.
+    fn new(last: &Iterate, program: &Program, solution: &Solution, wall_s: f64) -> Self {
+        Self {
+            trajectory: subproblem::updated(last, &solution.z),
+            solver_iterations: solution.iterations,
+            is_solved: solution.status == Status::Solved,
+            slack: program.max_stage_violation(&solution.z),
+            wall_s,
+        }
+    }
 }
 
 impl<'a> FleetProblem<'a> {
@@ -76,6 +94,7 @@ impl<'a> FleetProblem<'a> {
         Self {
             scenario,
             bounds: scenario.vehicles.iter().map(bounds).collect(),
+            solver: SubproblemSolver::new(options.solver, options.solver_start, TOLERANCE),
             options,
             boundary: scenario.vehicles.iter().map(boundary_states).collect(),
             tie_breaks: (0..n * n).map(|_| unit()).collect(),
@@ -96,8 +115,19 @@ impl<'a> FleetProblem<'a> {
         dt_bound_s: f64,
         inspect: &(dyn Fn(&Program, &Solution) + Sync),
     ) -> Vec<SubproblemResult> {
-        let result = |i| self.solve(i, last, avoidance, trust_region, dt_bound_s, inspect);
-        (0..last.len()).into_par_iter().map(result).collect()
+        let program = |i| {
+            let started = Instant::now();
+            let halfspaces = self.halfspaces(i, last, avoidance, trust_region[0]);
+            (self.program(i, last, halfspaces, trust_region, dt_bound_s), started.elapsed().as_secs_f64())
+        };
+        let (programs, assembly_s): (Vec<Program>, Vec<f64>) = (0..last.len()).into_par_iter().map(program).unzip();
+        let solutions = self.solver.solve_timed(&programs);
+        let results = programs.par_iter().zip(solutions).zip(assembly_s).zip(last);
+        let result = |(((program, (solution, solve_s)), assembly_s), last): (_, &Iterate)| {
+            inspect(program, &solution);
+            SubproblemResult::new(last, program, &solution, assembly_s + solve_s)
+        };
+        results.map(result).collect()
     }
 
     /// Solves the subproblem of one vehicle.
@@ -108,20 +138,12 @@ impl<'a> FleetProblem<'a> {
         avoidance: Avoidance,
         trust_region: State,
         dt_bound_s: f64,
-        inspect: &(dyn Fn(&Program, &Solution) + Sync),
     ) -> SubproblemResult {
         let started = Instant::now();
         let halfspaces = self.halfspaces(i, last, avoidance, trust_region[0]);
         let program = self.program(i, last, halfspaces, trust_region, dt_bound_s);
-        let solution = self.solve_program(&program);
-        inspect(&program, &solution);
-        SubproblemResult {
-            trajectory: subproblem::updated(&last[i], &solution.z),
-            solver_iterations: solution.iterations,
-            is_solved: solution.status == Status::Solved,
-            slack: program.max_violation(&solution.z),
-            wall_s: started.elapsed().as_secs_f64(),
-        }
+        let solution = self.solver.solve(std::slice::from_ref(&program)).remove(0);
+        SubproblemResult::new(&last[i], &program, &solution, started.elapsed().as_secs_f64())
     }
 
     /// The subproblem of a vehicle.
@@ -142,16 +164,6 @@ impl<'a> FleetProblem<'a> {
             dt_change: MAX_TIME_CHANGE,
         };
         subproblem::assemble(&context, &last[i], halfspaces)
-    }
-
-    fn solve_program(&self, program: &Program) -> Solution {
-        match self.options.solver {
-            Solver::Block => {
-                let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
-                InteriorPoint::new(settings).solve(program)
-            }
-            Solver::Clarabel => convex::solve_with_clarabel(program, TOLERANCE),
-        }
     }
 
     /// Avoidance rows of vehicle i.
@@ -198,6 +210,18 @@ impl<'a> FleetProblem<'a> {
             let change = now.change(last);
             change.iter().zip(self.options.convergence.iter()).all(|(change, eps)| change <= eps)
         })
+    }
+
+    /// The spread of the flight times, s, if the vehicles have to arrive at one time and do not.
+    pub fn excess_spread_s(&self, trajectories: &[Iterate]) -> Option<f64> {
+        let spread_s = flight_time_spread_s(trajectories);
+        let is_excess = spread_s > self.options.coordination.arrival_spread_s;
+        (self.scenario.fleet.simultaneous_arrival && is_excess).then_some(spread_s)
+    }
+
+    /// Do all vehicles arrive at one time, if they have to?
+    pub fn arrives_together(&self, trajectories: &[Iterate]) -> bool {
+        self.excess_spread_s(trajectories).is_none()
     }
 
     /// The record of an iteration for the plan history.

@@ -9,12 +9,8 @@ use super::decoupled::{Avoidance, FleetProblem, trajectories};
 use super::iterate::Iterate;
 use super::plan;
 use super::priority::Priority;
-use super::time_bound::{DampedTimeBound, FLIGHT_TIME_SPREAD_S, flight_time_spread_s};
+use super::time_bound::DampedTimeBound;
 use crate::planner::{Planner, PlanningMode, Progress};
-
-/// Difference of two flight times beyond which two vehicles swap ranks, s. The paper's value is not given; this one is
-/// ours.
-const SWAP_THRESHOLD_S: f64 = 0.5;
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -36,7 +32,7 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let mut history = Vec::new();
     solver.run(false, &mut history, progress);
     let converged = solver.run(true, &mut history, progress);
-    let status = plan::status(scenario, &history, converged, history.len());
+    let status = plan::status(scenario, &history, converged, history.len(), fleet.excess_spread_s(&solver.last));
     plan::assemble(scenario, NAME, seed, &solver.last, history, status, begin.elapsed())
 }
 
@@ -52,7 +48,8 @@ impl<'a> PriorityScp<'a> {
     fn new(fleet: &'a FleetProblem<'a>, seed: u64) -> Self {
         let last = fleet.straight_lines();
         let flight_times_s: Vec<f64> = last.iter().map(straight_flight_time_s).collect();
-        Self { fleet, priority: Priority::new(&flight_times_s, seed), time_bound: DampedTimeBound::new(&last), last }
+        let time_bound = DampedTimeBound::new(fleet.options.coordination.damped_change_s, &last);
+        Self { fleet, priority: Priority::new(&flight_times_s, seed), time_bound, last }
     }
 
     /// Runs one phase from the full trust region to convergence, without or with avoidance. Returns whether it
@@ -70,13 +67,12 @@ impl<'a> PriorityScp<'a> {
             let converged = self.fleet.has_converged(&self.last, results.iter().map(|result| &result.trajectory));
             self.last = trajectories(results);
             let flight_times_s: Vec<f64> = self.last.iter().map(Iterate::flight_time_s).collect();
-            self.priority.update(&flight_times_s, SWAP_THRESHOLD_S);
+            self.priority.update(&flight_times_s, self.fleet.options.coordination.swap_threshold_s);
             self.time_bound.update(&self.last);
             trust_region *= self.fleet.options.shrink;
             progress(&iteration);
             history.push(iteration);
-            let arrives_together = !simultaneous || flight_time_spread_s(&self.last) <= FLIGHT_TIME_SPREAD_S;
-            if converged && arrives_together {
+            if converged && self.fleet.arrives_together(&self.last) {
                 return true;
             }
         }

@@ -50,8 +50,9 @@ pub fn plan_and_inspect(
         let started = Instant::now();
         let results = fleet.solve_all(&last, avoidance, trust_region, time_bound.bound_s(), inspect);
         let iteration = fleet.summarise(&last, &results, trust_region, started);
-        converged = fleet.has_converged(&last, results.iter().map(|result| &result.trajectory));
+        let has_settled = fleet.has_converged(&last, results.iter().map(|result| &result.trajectory));
         last = trajectories(results);
+        converged = has_settled && fleet.arrives_together(&last);
         if scenario.fleet.simultaneous_arrival {
             if trust_region[0] < FREEZE_BELOW_M {
                 time_bound.freeze();
@@ -62,6 +63,7 @@ pub fn plan_and_inspect(
         progress(&iteration);
         history.push(iteration);
     }
-    let status = plan::status(scenario, &history, converged, fleet.options.max_iterations);
+    let status =
+        plan::status(scenario, &history, converged, fleet.options.max_iterations, fleet.excess_spread_s(&last));
     plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
 }

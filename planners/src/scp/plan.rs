@@ -75,12 +75,13 @@ fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
 }
 
 /// The status of a plan: solved only if the sequence has converged, all subproblems of the last iteration are solved,
-/// and the rows, the transcribed equations of motion and the constraints at the nodes hold.
+/// the vehicles arrive together where they have to (`excess_spread_s` is absent), and the rows, the transcribed equations of motion and the constraints at the nodes hold.
 pub fn status(
     scenario: &Scenario,
     history: &[Iteration],
     converged: bool,
     limit: usize,
+    excess_spread_s: Option<f64>,
 ) -> (PlanStatus, Option<String>) {
     let Some(last) = history.last() else {
         return (PlanStatus::NotConverged, Some("no iteration was allowed".to_string()));
@@ -90,6 +91,8 @@ pub fn status(
     let failure_reason = if last.unsolved > 0 {
         // a trajectory whose subproblem was not solved may be unchanged without having converged
         Some(format!("{} subproblems of the last iteration were not solved", last.unsolved))
+    } else if let Some(spread_s) = excess_spread_s {
+        Some(format!("the flight times differ by {spread_s:.3} s"))
     } else if !converged {
         Some(format!("the trajectories still moved by {:.3} m after {limit} iterations", last.change_m))
     } else if last.slack > SLACK_TOLERANCE {
@@ -164,9 +167,21 @@ mod tests {
     fn a_plan_with_an_unsolved_subproblem_is_not_solved() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-1.toml");
         let scenario = scenarios::load(&path).expect("a shipped scenario");
-        assert_eq!(status(&scenario, &[iteration(0)], true, 60), (PlanStatus::Solved, None));
-        let (unsolved, reason) = status(&scenario, &[iteration(1)], true, 60);
+        assert_eq!(status(&scenario, &[iteration(0)], true, 60, None), (PlanStatus::Solved, None));
+        let (unsolved, reason) = status(&scenario, &[iteration(1)], true, 60, None);
         assert_eq!(unsolved, PlanStatus::NotConverged);
         assert!(reason.is_some_and(|reason| reason.contains("not solved")));
+    }
+
+    /// The start is an elastic row: a trajectory may have converged with a start of its own.
+    #[test]
+    fn a_plan_off_its_start_or_of_different_flight_times_is_not_solved() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-1.toml");
+        let scenario = scenarios::load(&path).expect("a shipped scenario");
+        let off = Iteration { slack: 2e-6, ..iteration(0) };
+        assert_eq!(status(&scenario, &[off], true, 60, None).0, PlanStatus::NotConverged);
+        let (late, reason) = status(&scenario, &[iteration(0)], true, 60, Some(0.3));
+        assert_eq!(late, PlanStatus::NotConverged);
+        assert!(reason.is_some_and(|reason| reason.contains("differ by 0.300 s")));
     }
 }

@@ -12,11 +12,8 @@ use super::decoupled::{Avoidance, FleetProblem, SubproblemResult};
 use super::iterate::Iterate;
 use super::plan;
 use super::priority::Priority;
-use super::time_bound::{FLIGHT_TIME_SPREAD_S, TimeBound, flight_time_spread_s};
+use super::time_bound::TimeBound;
 use crate::planner::{Planner, PlanningMode, Progress};
-
-/// Maximum number of rounds of the outer loop; not given in the paper.
-const MAX_ROUNDS: usize = 20;
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -38,24 +35,23 @@ pub fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let lengths_m: Vec<f64> = last.iter().map(length_m).collect();
     let priority = Priority::new(&lengths_m, seed);
     let mut time_bound = TimeBound::new(fleet.options.time_bound_release);
+    let max_rounds = fleet.options.coordination.max_rounds;
     let mut history = Vec::new();
     let mut converged = false;
-    while !converged && history.len() < MAX_ROUNDS {
+    while !converged && history.len() < max_rounds {
         let started = Instant::now();
         let before = last.clone();
         let (results, all_converged) = round(&fleet, &priority, &mut last, time_bound.bound_s());
         let mut iteration = fleet.summarise(&before, &results, fleet.options.trust_region, started);
         iteration.distributed_s = results.iter().map(|result| result.wall_s).sum();
-        let arrives_together =
-            !scenario.fleet.simultaneous_arrival || flight_time_spread_s(&last) <= FLIGHT_TIME_SPREAD_S;
-        converged = all_converged && arrives_together;
+        converged = all_converged && fleet.arrives_together(&last);
         if scenario.fleet.simultaneous_arrival {
             time_bound.update(&last);
         }
         progress(&iteration);
         history.push(iteration);
     }
-    let status = plan::status(scenario, &history, converged, MAX_ROUNDS);
+    let status = plan::status(scenario, &history, converged, max_rounds, fleet.excess_spread_s(&last));
     plan::assemble(scenario, NAME, seed, &last, history, status, begin.elapsed())
 }
 
@@ -89,7 +85,7 @@ fn own_sequence(
     let avoidance = Avoidance { avoids: &|i, j| priority.avoids(i, j), obstacles: true };
     let mut last = others.to_vec();
     let mut trust_region = fleet.options.trust_region;
-    let mut result = fleet.solve(i, &last, avoidance, trust_region, bound_s, &|_, _| {});
+    let mut result = fleet.solve(i, &last, avoidance, trust_region, bound_s);
     for _ in 1..fleet.options.max_iterations {
         let converged = fleet.has_converged(&last[i..=i], std::iter::once(&result.trajectory));
         last[i] = result.trajectory.clone();
@@ -97,7 +93,7 @@ fn own_sequence(
             return (result, true);
         }
         trust_region *= fleet.options.shrink;
-        let next = fleet.solve(i, &last, avoidance, trust_region, bound_s, &|_, _| {});
+        let next = fleet.solve(i, &last, avoidance, trust_region, bound_s);
         result = SubproblemResult {
             solver_iterations: result.solver_iterations + next.solver_iterations,
             wall_s: result.wall_s + next.wall_s,

@@ -43,6 +43,7 @@ pub fn assemble(context: &Context, last: &Iterate, mut halfspaces: Vec<Halfspace
         theta_cost: 1.0,
         offset: last.dt_s,
         penalty: context.options.penalty,
+        row_units: context.options.row_units,
         dynamics: dynamics_constraints(context, last),
         fixed_variables: boundary_conditions(context, last),
         halfspaces,

@@ -45,15 +45,7 @@ impl TimeBound {
     }
 }
 
-/// Largest change of a damped step length between two iterations, s. The value of the paper is not given; this one is
-/// ours.
-const MAX_DAMPED_CHANGE_S: f64 = 0.05;
-
-/// Largest spread of the flight times of a fleet that arrives together (Xu et al. 2022, eq. 19), s. The value of the
-/// paper is not given; this one is ours.
-pub const FLIGHT_TIME_SPREAD_S: f64 = 0.1;
-
-/// Difference between the longest and the shortest flight time, s.
+/// Difference between the longest and the shortest flight time (Xu et al. 2022, eq. 19), s.
 pub fn flight_time_spread_s(trajectories: &[Iterate]) -> f64 {
     let times_s = trajectories.iter().map(Iterate::flight_time_s);
     max_flight_time_s(trajectories) - times_s.fold(f64::INFINITY, f64::min)
@@ -64,14 +56,17 @@ pub fn flight_time_spread_s(trajectories: &[Iterate]) -> f64 {
 /// is unchanged.
 #[derive(Clone, Debug)]
 pub struct DampedTimeBound {
+    max_change_s: f64,
     last_s: Vec<f64>,
     bound_s: f64,
 }
 
 impl DampedTimeBound {
-    /// The bound before the first iteration, 0. `trajectories` are the initial ones.
-    pub fn new(trajectories: &[Iterate]) -> Self {
-        Self { last_s: trajectories.iter().map(|trajectory| trajectory.dt_s).collect(), bound_s: 0.0 }
+    /// The bound before the first iteration, 0. A step length is damped if it has changed by at most `max_change_s`;
+    /// `trajectories` are the initial ones.
+    pub fn new(max_change_s: f64, trajectories: &[Iterate]) -> Self {
+        let last_s = trajectories.iter().map(|trajectory| trajectory.dt_s).collect();
+        Self { max_change_s, last_s, bound_s: 0.0 }
     }
 
     /// The bound, s.
@@ -82,7 +77,7 @@ impl DampedTimeBound {
     /// Updates the bound with the step lengths of an iteration.
     pub fn update(&mut self, trajectories: &[Iterate]) {
         let now_s: Vec<f64> = trajectories.iter().map(|trajectory| trajectory.dt_s).collect();
-        let damped = now_s.iter().zip(&self.last_s).filter(|(now, last)| (*now - *last).abs() <= MAX_DAMPED_CHANGE_S);
+        let damped = now_s.iter().zip(&self.last_s).filter(|(now, last)| (*now - *last).abs() <= self.max_change_s);
         if let Some(max_s) = damped.map(|(now, _)| *now).reduce(f64::max) {
             self.bound_s = max_s;
         }
@@ -122,7 +117,7 @@ mod tests {
 
     #[test]
     fn undamped_step_lengths_are_ignored() {
-        let mut bound = DampedTimeBound::new(&fleet(&[5.0, 5.0]));
+        let mut bound = DampedTimeBound::new(0.05, &fleet(&[5.0, 5.0]));
         bound.update(&fleet(&[5.01, 8.0]));
         assert_eq!(bound.bound_s(), 5.01);
         bound.update(&fleet(&[5.5, 6.0]));

@@ -2,7 +2,10 @@
 
 use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
-use crate::{Collocation, Convergence, Formulation, Horizon, Issue, Objective, PlannerSettings, Scenario, TrustRegion};
+use crate::{
+    Collocation, Convergence, Coordination, Formulation, Horizon, Issue, Objective, PlannerSettings, Scenario, Solver,
+    SolverStart, TrustRegion,
+};
 
 /// Allowed number of intervals between the nodes.
 const INTERVALS: std::ops::RangeInclusive<usize> = 2..=1000;
@@ -38,9 +41,11 @@ pub(super) fn issues(settings: &PlannerSettings) -> Vec<Issue> {
     }
     issues.extend(settings.margin_m.and_then(|margin_m| not_negative("planner.margin_m", margin_m)));
     issues.extend(positive_if_given("planner.penalty", settings.penalty));
+    issues.extend(solver_start(settings));
     issues.extend(settings.time_bound_release.and_then(time_bound_release));
     issues.extend(settings.trust_region.iter().flat_map(trust_region));
     issues.extend(settings.convergence.iter().flat_map(convergence));
+    issues.extend(settings.coordination.iter().flat_map(coordination));
     issues.extend(settings.collocation.iter().flat_map(collocation));
     issues.extend(settings.horizon.iter().flat_map(horizon));
     issues
@@ -73,6 +78,15 @@ fn command_issues(settings: &PlannerSettings) -> Vec<Issue> {
     issues
 }
 
+/// An infeasible start with a solver that has none.
+fn solver_start(settings: &PlannerSettings) -> Option<Issue> {
+    let has_infeasible_start = matches!(settings.solver, Some(Solver::SparseLdl | Solver::DenseReduced));
+    (settings.solver_start == Some(SolverStart::Infeasible) && !has_infeasible_start).then(|| {
+        let expected = "this start only with `solver = \"sparse-ldl\"` or `\"dense-reduced\"`";
+        Issue::new("planner.solver_start", "infeasible", expected)
+    })
+}
+
 fn time_bound_release(fraction: f64) -> Option<Issue> {
     let expected = "a fraction from 0 to below 1";
     (!(0.0..1.0).contains(&fraction) && fraction.is_finite())
@@ -100,6 +114,20 @@ fn convergence(tolerances: &Convergence) -> Vec<Issue> {
         positive("planner.convergence.flight_path_deg", tolerances.flight_path_deg),
     ];
     issues.into_iter().flatten().collect()
+}
+
+fn coordination(options: &Coordination) -> Vec<Issue> {
+    let not_negative_if_given = |key: &str, value: Option<f64>| {
+        value.and_then(|value| not_negative(&format!("planner.coordination.{key}"), value))
+    };
+    let thresholds = [
+        not_negative_if_given("swap_threshold_s", options.swap_threshold_s),
+        not_negative_if_given("damped_change_s", options.damped_change_s),
+        not_negative_if_given("arrival_spread_s", options.arrival_spread_s),
+    ];
+    let no_round =
+        (options.max_rounds == Some(0)).then(|| Issue::new("planner.coordination.max_rounds", "0", "1 or more"));
+    thresholds.into_iter().flatten().chain(no_round).collect()
 }
 
 fn collocation(options: &Collocation) -> Vec<Issue> {

@@ -1,13 +1,16 @@
 //! `harness bench fleets`: methods to decouple a fleet, over fleets of several sizes, and the growth of the cost of fleet-scp
 //! with the size of the fleet (Xu, Wang, Cao, Sun, Long 2022, figures 8 and 9, section 4).
 
+mod comparison;
 mod show;
 
 use scenarios::Scenario;
 use serde::Serialize;
 
 use super::entry::{self, Entry, Outcome};
+use super::geometry;
 use crate::error::Error;
+pub use comparison::Mean;
 pub use show::{markdown, text};
 
 /// The planners: those of the paper in its order, then fleet-scp.
@@ -21,6 +24,8 @@ const FLEET_SCP: &str = "fleet-scp";
 pub struct Plan {
     /// Scenarios and fleet sizes N: the first N vehicles of the scenario.
     pub missions: Vec<(Scenario, Vec<usize>)>,
+    /// Number of geometries of each fleet, each with a seed of its own.
+    pub geometries: usize,
     /// Scenario whose first n vehicles have the same density for every n, and the numbers n.
     pub growth: Option<(Scenario, Vec<usize>)>,
     /// Time limit of an entry, s.
@@ -36,9 +41,11 @@ pub struct Results {
     pub limit_s: f64,
     /// Number of worker threads.
     pub threads: usize,
-    /// One row per mission, size and planner.
+    /// One row per mission, size, geometry and planner.
     pub rows: Vec<Row>,
-    /// The same for fleet-scp at constant density.
+    /// Means over the geometries, one per mission, size and planner.
+    pub means: Vec<Mean>,
+    /// Rows of fleet-scp at constant density.
     pub growth: Vec<Row>,
 }
 
@@ -49,6 +56,8 @@ pub struct Row {
     pub scenario: String,
     /// Number of its vehicles.
     pub vehicles: usize,
+    /// Number of the geometry; 0 is that of the scenario.
+    pub geometry: usize,
     /// The planner.
     pub planner: &'static str,
     /// Its outcome.
@@ -84,6 +93,13 @@ pub struct Measured {
     pub flight_and_verdict_s: f64,
 }
 
+impl Row {
+    /// A planner that has reached its time limit in one geometry is not run in the others.
+    fn is_timeout_of(&self, planner: &str) -> bool {
+        self.planner == planner && self.outcome == Outcome::TimedOut
+    }
+}
+
 /// Runs the benchmark.
 ///
 /// - `progress`: receives a description of each entry
@@ -93,18 +109,26 @@ pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error
         limit_s: plan.limit_s,
         threads: rayon::current_num_threads(),
         rows: Vec::new(),
+        means: Vec::new(),
         growth: Vec::new(),
     };
     for (scenario, sizes) in &plan.missions {
         for &vehicles in sizes {
-            for planner in PLANNERS {
-                results.rows.push(row(scenario, vehicles, planner, plan.limit_s, progress)?);
+            let first = results.rows.len();
+            for number in 0..plan.geometries {
+                for planner in PLANNERS {
+                    let has_timed_out = results.rows[first..].iter().any(|row| row.is_timeout_of(planner));
+                    if !has_timed_out {
+                        results.rows.push(row(scenario, vehicles, number, planner, plan.limit_s, progress)?);
+                    }
+                }
             }
+            results.means.extend(PLANNERS.map(|planner| Mean::of(planner, &results.rows[first..])));
         }
     }
     if let Some((scenario, sizes)) = &plan.growth {
         for &vehicles in sizes {
-            results.growth.push(row(scenario, vehicles, FLEET_SCP, plan.limit_s, progress)?);
+            results.growth.push(row(scenario, vehicles, 0, FLEET_SCP, plan.limit_s, progress)?);
         }
     }
     Ok(results)
@@ -113,13 +137,15 @@ pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error
 fn row(
     scenario: &Scenario,
     vehicles: usize,
+    number: usize,
     planner: &'static str,
     limit_s: f64,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Row, Error> {
-    progress(&format!("{planner} on {vehicles} vehicles of {}", scenario.name));
+    progress(&format!("{planner} on {vehicles} vehicles of {}, geometry {number}", scenario.name));
     let mut fleet = scenario.clone();
     fleet.vehicles.truncate(vehicles);
+    let fleet = geometry::variant(&fleet, number);
     let Entry { outcome, report } = entry::run(&fleet, planner, limit_s)?;
     let measured = report.map(|report| {
         let check = |name: &str| report.checks.iter().find(|check| check.name == name).and_then(|check| check.value);
@@ -143,5 +169,5 @@ fn row(
             flight_and_verdict_s: report.timings.flying_s + report.timings.judging_s,
         }
     });
-    Ok(Row { scenario: scenario.name.clone(), vehicles, planner, outcome, measured })
+    Ok(Row { scenario: scenario.name.clone(), vehicles, geometry: number, planner, outcome, measured })
 }

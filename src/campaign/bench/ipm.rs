@@ -2,21 +2,26 @@
 //! Table 1), and a general interior-point solver, on the same subproblems to the same tolerance.
 
 mod cost;
+mod figure;
 mod measure;
 mod show;
 
-use planners::convex::{Backend, Program};
+use planners::convex::{Backend, Program, Start};
 use scenarios::Scenario;
 use serde::Serialize;
 
 use super::subproblems::{self, Subproblem};
 pub use cost::Sizes;
+pub use figure::svg;
 pub use measure::Measured;
 use measure::Stopwatch;
 pub use show::{markdown, text};
 
 /// Relative gap of all solvers.
 pub const TOLERANCE: f64 = 1e-8;
+
+/// Name of the paper's own loop, from an infeasible start, with its method I.
+const PAPER_LOOP: &str = "sparse-ldl infeasible";
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -61,7 +66,7 @@ pub struct Results {
 pub struct Row {
     /// The subproblem.
     pub shape: String,
-    /// The solver: a backend of the interior-point method, `block x4` (four subproblems in one pass, times per subproblem), or `clarabel`.
+    /// The solver: a backend of the interior-point method, `sparse-ldl infeasible` (the paper's loop), `block x4` (four subproblems in one pass, times per subproblem), or `clarabel`.
     #[serde(rename = "backend")]
     pub solver: &'static str,
     /// Number K of intervals.
@@ -73,7 +78,7 @@ pub struct Row {
     /// Sizes of the paper's form.
     #[serde(flatten)]
     pub sizes: Sizes,
-    /// Floating-point operations of one iteration by Table 1 of the paper; for method II the leading term only.
+    /// Floating-point operations of one iteration by Table 1 of the paper.
     pub paper_flops: Option<f64>,
     /// The figures; `None` if it was not run.
     #[serde(flatten)]
@@ -112,7 +117,12 @@ fn rows_of(subproblem: &Subproblem, stopwatch: &mut Stopwatch) -> Vec<Row> {
     ];
     for backend in Backend::ALL {
         let paper_flops = Sizes::of(program).paper_flops(backend);
-        rows.push(row(subproblem, backend.name(), paper_flops, stopwatch.backend(program, backend), baseline_us));
+        let measured = stopwatch.backend(program, backend, Start::Feasible);
+        rows.push(row(subproblem, backend.name(), paper_flops, measured, baseline_us));
+        if backend == Backend::SparseLdl {
+            let measured = stopwatch.backend(program, backend, Start::Infeasible);
+            rows.push(row(subproblem, PAPER_LOOP, paper_flops, measured, baseline_us));
+        }
     }
     rows
 }

@@ -35,9 +35,9 @@ impl InequalityForm {
     /// P4 of `program`; n_X = n_z + n_eq + n_in, n_A = 2 n_z + 2 n_eq + 2 n_in.
     pub fn new(program: &Program) -> Self {
         let (n_z, n_eq, n_in) = (program.len(), program.equalities(), program.inequalities());
-        let mut cost = vec![program.penalty; n_z + n_eq + n_in];
-        cost[..n_z].fill(0.0);
+        let mut cost = vec![0.0; n_z];
         cost[n_z - 1] = program.theta_cost;
+        cost.extend(program.units().map(|unit| program.penalty * unit));
         let mut form = Self { cost, rhs: Vec::new(), starts: vec![0], columns: Vec::new(), values: Vec::new() };
         for (sign, bounds) in [(1.0, &program.box_upper), (-1.0, &program.box_lower)] {
             for (j, bound) in bounds.iter().enumerate() {

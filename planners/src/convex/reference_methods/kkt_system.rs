@@ -92,6 +92,23 @@ impl KktSystem {
         }
     }
 
+    /// The program.
+    pub fn form(&self) -> &InequalityForm {
+        &self.form
+    }
+
+    /// Sets the residuals at `x` and [`KktSystem::at`]: g + A^T λ, s + A X - b, and S Λ e.
+    pub fn set_residuals(&mut self, x: &[f64]) {
+        let Self { form, at, residuals, .. } = self;
+        residuals.dual.copy_from_slice(&form.cost);
+        form.add_transposed_product(&at.multiplier, &mut residuals.dual);
+        for (i, primal) in residuals.primal.iter_mut().enumerate() {
+            *primal = at.slack[i] - form.rhs[i];
+            residuals.product[i] = at.slack[i] * at.multiplier[i];
+        }
+        form.add_product(x, &mut residuals.primal);
+    }
+
     /// Factors the matrix at [`KktSystem::at`].
     pub fn factor(&mut self) {
         let [min, max] = REGULARISATION_RANGE;
@@ -110,6 +127,16 @@ impl KktSystem {
     pub fn solve(&mut self) {
         let Self { form, elimination, at, residuals, direction, weights, .. } = self;
         elimination.solve(form, at, weights, residuals, direction);
+    }
+
+    /// The direction for the residuals r_d and r_p, with products on target.
+    pub fn direction_for(&mut self, dual: &[f64], primal: &[f64]) -> Direction {
+        self.residuals.dual.copy_from_slice(dual);
+        self.residuals.primal.copy_from_slice(primal);
+        self.residuals.product.fill(0.0);
+        self.solve();
+        self.refine();
+        self.direction.clone()
     }
 
     /// Refines the direction iteratively while the residuals fall.

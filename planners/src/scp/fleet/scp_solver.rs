@@ -55,7 +55,7 @@ impl<'a> ScpSolver<'a> {
             bounds: scenario.vehicles.iter().map(bounds).collect(),
             boundary,
             schedule: TrustRegionSchedule::new(options.trust_region, options.shrink, release, simultaneous_dt_s),
-            solvers: TOLERANCES.map(|tolerance| SubproblemSolver::new(options.solver, tolerance)),
+            solvers: TOLERANCES.map(|tolerance| SubproblemSolver::new(options.solver, options.solver_start, tolerance)),
             options,
             trajectories,
         }

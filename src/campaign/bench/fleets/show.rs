@@ -1,6 +1,6 @@
 //! The results as tables on the terminal and as a page in Markdown.
 
-use super::{Measured, Results, Row};
+use super::{Mean, Measured, Results, Row};
 use crate::output::report::table;
 
 const HEADER: [&str; 13] = [
@@ -19,6 +19,8 @@ const HEADER: [&str; 13] = [
     "rollout m",
 ];
 
+const MEANS: [&str; 9] = ["scenario", "N", "planner", "solved", "passed", "its", "distr. s", "wall s", "flight s"];
+
 const GROWTH: [&str; 7] =
     ["scenario", "N", "verdict", "its", "planning s", "µs per vehicle and iteration", "flight and verdict s"];
 
@@ -32,9 +34,14 @@ pub fn text(results: &Results) -> String {
     results.growth.iter().for_each(|row| {
         growth.add_row(growth_cells(row));
     });
-    let tables = [fleets.trim_fmt(), growth.trim_fmt()];
-    let shown = if results.growth.is_empty() { &tables[..1] } else { &tables[..] };
-    format!("{}\n\n{}", shown.join("\n\n"), notes(results).join("\n"))
+    let mut means = table::with_header(&MEANS, &[1, 3, 4, 5, 6, 7, 8]);
+    results.means.iter().for_each(|mean| {
+        means.add_row(mean_cells(mean));
+    });
+    let mut tables = vec![fleets.trim_fmt()];
+    tables.extend(has_geometries(results).then(|| means.trim_fmt()));
+    tables.extend((!results.growth.is_empty()).then(|| growth.trim_fmt()));
+    format!("{}\n\n{}", tables.join("\n\n"), notes(results).join("\n"))
 }
 
 /// The same as a page in Markdown.
@@ -45,6 +52,14 @@ pub fn markdown(results: &Results) -> String {
         "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
         results.rows.iter().map(cells),
     ));
+    if has_geometries(results) {
+        page.push_str("\n## Means over the geometries\n\n");
+        page.push_str(&grid(
+            &MEANS,
+            "|---|---:|---|---:|---:|---:|---:|---:|---:|",
+            results.means.iter().map(mean_cells),
+        ));
+    }
     if !results.growth.is_empty() {
         page.push_str("\n## Growth at constant density\n\n");
         page.push_str(&grid(&GROWTH, "|---|---:|---|---:|---:|---:|---:|", results.growth.iter().map(growth_cells)));
@@ -79,6 +94,27 @@ fn cells(row: &Row) -> [String; HEADER.len()] {
     ]
 }
 
+/// Has any fleet more than one geometry?
+fn has_geometries(results: &Results) -> bool {
+    results.means.iter().any(|mean| mean.geometries > 1)
+}
+
+fn mean_cells(mean: &Mean) -> [String; MEANS.len()] {
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
+    let of_all = |count: usize| format!("{count}/{}", mean.geometries);
+    [
+        mean.scenario.clone(),
+        mean.vehicles.to_string(),
+        mean.planner.to_owned(),
+        of_all(mean.solved),
+        of_all(mean.passed),
+        mean.iterations.map_or_else(String::new, |iterations| format!("{iterations:.1}")),
+        number(mean.distributed_s),
+        number(mean.wall_s),
+        number(mean.flight_time_s),
+    ]
+}
+
 fn growth_cells(row: &Row) -> [String; GROWTH.len()] {
     let measured = |form: fn(&Measured) -> String| row.measured.as_ref().map_or_else(String::new, form);
     [
@@ -96,7 +132,7 @@ fn metres(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| format!("{value:.2}"))
 }
 
-fn notes(results: &Results) -> [String; 5] {
+fn notes(results: &Results) -> [String; 6] {
     [
         format!(
             "N: the first N vehicles of the scenario. Each entry had {} s for planning, flight and verdict, and {} threads.",
@@ -105,6 +141,10 @@ fn notes(results: &Results) -> [String; 5] {
         "verdict: of the plan and of its flight, all checks. wall s: planning. distr. s: sum over the iterations of the slowest \
          vehicle's time, as if every vehicle had a computer of its own; for serial-scp of all vehicles, which wait for each \
          other; for fleet-scp, which solves many subproblems at a time, by its share of the iterations."
+            .to_owned(),
+        "solved, passed: geometries in which the planner calls its plan solved, and in which the judge passes plan and flight. \
+         The other means are over the solved ones. Geometry 0 is the scenario; in the others every start is displaced by up to \
+         100 m in x and in y, and the planner has another seed. A planner that reaches the time limit is not run again."
             .to_owned(),
         "nodes, plan, flight m: smallest horizontal distance of two vehicles at the planner's nodes, on the continuous plan, in \
          flight. defect, rollout m: how far the plan's controls lead from it over one interval, and over the whole flight."

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use planners::convex::{self, Backend, BatchSolver, InteriorPoint, Program, Settings, Solution, Status};
+use planners::convex::{self, Backend, BatchSolver, InteriorPoint, Program, Settings, Solution, Start, Status};
 use serde::Serialize;
 
 use super::TOLERANCE;
@@ -62,18 +62,18 @@ impl Stopwatch {
         self.fastest(programs.len(), || solvers.solve_all(programs).swap_remove(0))
     }
 
-    /// A backend on `program`.
+    /// A backend on `program`, from `start`.
     ///
     /// # Errors
     ///
     /// If a solve is expected to take longer than `max_solve_s`.
-    pub fn backend(&mut self, program: &Program, backend: Backend) -> Result<Measured, String> {
+    pub fn backend(&mut self, program: &Program, backend: Backend, start: Start) -> Result<Measured, String> {
         let cube = Sizes::of(program).dense_order(backend).map(|n| (n as f64).powi(3));
         let expected_s = cube.map_or(0.0, |cube| cube * self.cubic_s[backend as usize] * TYPICAL_ITERATIONS);
         if expected_s > self.max_solve_s {
             return Err(format!("not run: about {expected_s:.0} s"));
         }
-        let settings = Settings { tolerance: TOLERANCE, ..Settings::default() };
+        let settings = Settings { tolerance: TOLERANCE, start, ..Settings::default() };
         let mut solver = InteriorPoint::with_backend(settings, backend);
         let measured = self.fastest(1, || solver.solve(program));
         if let Some(cube) = cube {

@@ -74,13 +74,14 @@ fn notes(results: &Results) -> [String; 4] {
         format!(
             "ms: best of up to {} solves after one to warm up, on one thread; work memory and symbolic analysis are kept \
              from solve to solve. block x4: four subproblems of one iteration in one pass, time per subproblem; block: \
-             one alone, three lanes idle.",
+             one alone, three lanes idle. sparse-ldl infeasible: the paper's loop from Mehrotra's start, whose residuals \
+             vanish with the gap; the others keep every iterate feasible.",
             results.repetitions
         ),
         "speed: Clarabel's time over this one's.".to_owned(),
-        "paper Gflop/it: Table 1 of Wang, Xu, Long (2020). sparse-ldl is its method I, 0.33 n_X^3 + 3 n_A^3 + n_X^2 n_A + \
-         n_X n_A^2, a count for dense blocks, of which a sparse factorisation does a small part; dense-reduced is its \
-         method II, 2.67 n_X^3 (our copy of the table lacks the terms that follow); dense-kkt its method III, \
+        "paper Gflop/it: Table 1 of Wang, Xu, Long (2020), drawn in ipm.svg as its figure 4. sparse-ldl is its method I, \
+         0.33 n_X^3 + 3 n_A^3 + n_X^2 n_A + n_X n_A^2, a count for dense matrices, of which a sparse factorisation does a \
+         small part; dense-reduced is its method II, 2.67 n_X^3 and the same further terms; dense-kkt its method III, \
          2.67 (n_X + 2 n_A)^3. II and III invert in the paper; here they are factored, n^3/3 and 2 n^3/3."
             .to_owned(),
     ]
