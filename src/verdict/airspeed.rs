@@ -10,7 +10,7 @@ pub fn air_velocities<'a>(
     samples: &'a [Sample],
 ) -> impl Iterator<Item = (f64, [f64; 3])> + use<'a> {
     let wind = scenario.simulation.wind.as_ref();
-    let pulses: &[GustPulse] = wind.map_or(&[], |wind| &wind.pulses);
+    let pulses = wind.map_or(&[][..], |wind| wind.pulses.as_slice());
     let at_peaks = pulses.iter().filter_map(move |pulse| at_peak(wind, pulse, samples));
     samples.iter().map(|sample| (sample.t_s, sample.air_velocity_mps())).chain(at_peaks)
 }
