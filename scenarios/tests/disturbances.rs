@@ -25,8 +25,8 @@ fn a_single_gust_lasts_four_steps_or_more() {
         "0.039 s, at a time step of 0.01 s",
         "at least 4 time steps",
     );
-    let issue = &load_changed(GUSTS, &pulses(0.01)).unwrap_err().issues()[0].issue;
-    assert!(issue.remedy.contains("simulation.step_s to at most 0.0025 s"), "{}", issue.remedy);
+    let error = load_changed(GUSTS, &pulses(0.01)).unwrap_err();
+    assert!(error.issues()[0].issue.remedy.contains("simulation.step_s to at most 0.0025 s"), "{error}");
     for duration_s in [0.04, 0.1 * 0.4, 1.5] {
         assert!(load_changed(GUSTS, &pulses(duration_s)).is_ok(), "{duration_s}");
     }

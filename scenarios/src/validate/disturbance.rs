@@ -11,13 +11,9 @@ const ROUNDING: f64 = 1e-9;
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     let wind = scenario.simulation.wind.as_ref();
-    let mut issues: Vec<Issue> =
-        wind.filter(|wind| blows(wind)).and_then(|_| wind_without_effect(scenario)).into_iter().collect();
-    issues
-        .extend(wind.iter().flat_map(|wind| wind.pulses.iter().enumerate()).filter_map(|it| short_pulse(scenario, it)));
-    issues.extend(short_delay(scenario));
-    issues.extend(noise_without_effect(scenario));
-    issues
+    let useless_wind = wind.filter(|wind| blows(wind)).and_then(|_| wind_without_effect(scenario));
+    let single = [useless_wind, wind.and_then(|wind| short_pulse(scenario, wind)), short_delay(scenario)];
+    single.into_iter().flatten().chain(noise_without_effect(scenario)).collect()
 }
 
 /// The first vehicle on which wind cannot act, because its model has no drag.
@@ -36,11 +32,12 @@ fn blows(wind: &Wind) -> bool {
     wind.mean_mps != [0.0; 3] || wind.gusts.is_some() || !wind.pulses.is_empty()
 }
 
-/// A single gust that a flight log could not show, because it is over after a few steps.
-fn short_pulse(scenario: &Scenario, (index, pulse): (usize, &GustPulse)) -> Option<Issue> {
-    let (step_s, duration_s) = (scenario.simulation.step_s, pulse.duration_s);
-    let shortest_s = MIN_STEPS_PER_PULSE * step_s;
-    (duration_s > 0.0 && duration_s < shortest_s * (1.0 - ROUNDING)).then(|| {
+/// The shortest single gust, if it is over after so few steps that a flight log could not show it.
+fn short_pulse(scenario: &Scenario, wind: &Wind) -> Option<Issue> {
+    let pulses = wind.pulses.iter().enumerate().filter(|(_, pulse)| pulse.duration_s > 0.0);
+    let (index, GustPulse { duration_s, .. }) = pulses.min_by(|a, b| a.1.duration_s.total_cmp(&b.1.duration_s))?;
+    let step_s = scenario.simulation.step_s;
+    (*duration_s < MIN_STEPS_PER_PULSE * step_s * (1.0 - ROUNDING)).then(|| {
         let found = format!("{duration_s} s, at a time step of {step_s} s");
         let expected = format!("at least {MIN_STEPS_PER_PULSE} time steps, so that the log shows the gust");
         let needed_s = duration_s / MIN_STEPS_PER_PULSE;
