@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use miette::Diagnostic;
 use scenarios::plan_input::PlanError;
-use scenarios::{FindError, LoadError};
+use scenarios::{FindError, Issue, LoadError};
 use thiserror::Error;
 
 use crate::campaign::generate::GenerateError;
@@ -127,6 +127,17 @@ pub enum Error {
         planner: &'static str,
         /// Why.
         reason: String,
+    },
+    /// A disturbance from the command line cannot act on the vehicles.
+    #[error("{}: {option} has no effect: found {}, expected {}", file.display(), issue.found, issue.expected)]
+    #[diagnostic(help("add the drag area to the model, or vary another disturbance"))]
+    NoEffect {
+        /// The scenario's file.
+        file: PathBuf,
+        /// The option.
+        option: &'static str,
+        /// Why.
+        issue: Issue,
     },
     /// `--record` names a format that this build lacks.
     #[error("--record {format}: this harness was built without the {what}")]

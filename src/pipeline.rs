@@ -59,8 +59,8 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let log = log.map(|log| log());
     attribute_replanning(&mut timings, &answer.plan, flight.as_ref());
     let (plan, flight) = (&answer.plan, flight.as_ref());
-    let planned = flight.filter(|flight| outputs.refine_step && flight.planning.is_none());
-    let integration = timed(&mut timings.flying_s, || planned.map(|flight| refine_step(job, plan, flight)));
+    let refined = flight.filter(|_| outputs.refine_step);
+    let integration = timed(&mut timings.flying_s, || refined.map(|flight| refine_step(job, plan, flight)));
     progress.judging();
     let (verdict, metrics) = timed(&mut timings.judging_s, || {
         rayon::join(
@@ -115,9 +115,12 @@ fn attribute_replanning(timings: &mut Timings, followed: &Plan, flight: Option<&
     }
 }
 
-/// Repeats the flight with half and with a quarter of the plant's step, and measures the differences.
+/// Repeats the flight with half and with a quarter of the plant's step, and measures the differences. What was planned in
+/// the loop is not planned again: the vehicles follow the same references, so that only the integrator differs.
 fn refine_step(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
-    let finer = |halvings| sim::fly_with(&job.scenario, plan, job.seed, &FlightOptions::finer(halvings), &mut |_| {});
+    let guidance = || if flight.planning.is_some() { sim::Guidance::Recorded(flight) } else { plan.into() };
+    let finer =
+        |halvings| sim::fly_with(&job.scenario, guidance(), job.seed, &FlightOptions::finer(halvings), &mut |_| {});
     let (half, quarter) = rayon::join(|| finer(1), || finer(2));
     Integration::by_finer_steps(flight, [&half, &quarter])
 }

@@ -2,6 +2,7 @@
 //!
 //! It looks at the plan and at the flight, and never asks the planner whether it succeeded.
 
+mod airspeed;
 mod arrival;
 mod bernstein;
 mod broad_phase;

@@ -49,7 +49,7 @@ pub use range::Range;
 pub use scenario::Scenario;
 pub use simulation::{GustPulse, Gusts, Mismatch, Planning, PlanningClock, Sensors, Simulation, Tracker, Wind};
 pub use trajectory::{Interpolation, TrajectoryNodes};
-pub use validate::validate;
+pub use validate::{validate, wind_without_effect};
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
 pub use world::{BoxObstacle, Cylinder, Gate, Map, MovingCylinder, Prism, Window, World};

@@ -63,7 +63,8 @@ impl Default for Tracker {
     }
 }
 
-/// Wind: the mean and the pulses are the same for all vehicles; each vehicle has continuous gusts of its own.
+/// Wind: the mean and the pulses are the same for all vehicles; each vehicle has continuous gusts of its own. Wind acts on
+/// multirotors and slung loads by their drag areas, which their models must have.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wind {
@@ -83,7 +84,7 @@ pub struct Wind {
 pub struct GustPulse {
     /// Start time, s.
     pub start_s: f64,
-    /// Duration, s, > 0.
+    /// Duration, s, at least four time steps of the simulator.
     pub duration_s: f64,
     /// Peak velocity, added to all other wind, world frame, m/s.
     pub peak_mps: [f64; 3],
@@ -116,8 +117,8 @@ pub struct Sensors {
     pub load_position_noise_m: f64,
     /// Velocity of a slung load, m/s.
     pub load_velocity_noise_mps: f64,
-    /// Delay of the measurements of a vehicle's own state and of its load, s, rounded to time steps of the simulator. Tracker
-    /// and planner are not told, and take the measurements as current.
+    /// Delay of the measurements of a vehicle's own state and of its load, s, rounded to time steps of the simulator, but not
+    /// to none of them. Tracker and planner are not told, and take the measurements as current.
     pub delay_s: f64,
     /// Position of moving obstacles and of other vehicles, m.
     pub sighting_position_noise_m: f64,

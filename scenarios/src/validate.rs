@@ -1,6 +1,7 @@
 //! Validation of scenarios. Every rule is a pure function from a part of the scenario to issues.
 
 pub(crate) mod body;
+mod disturbance;
 mod fleet;
 mod identifier;
 mod model;
@@ -11,6 +12,7 @@ mod vehicle;
 mod verdict;
 mod world;
 
+pub use disturbance::wind_without_effect;
 pub(crate) use model::planning_inside_physical;
 pub(crate) use vehicle::{inside_obstacle, outside_map};
 
@@ -30,6 +32,7 @@ pub fn validate(scenario: &Scenario) -> Vec<Issue> {
     issues.extend(planner::issues(&scenario.planner));
     issues.extend(planner::flight_time(scenario));
     issues.extend(simulation::issues(&scenario.simulation));
+    issues.extend(disturbance::issues(scenario));
     issues.extend(verdict::issues(&scenario.verdict));
     issues
 }

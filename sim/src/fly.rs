@@ -15,6 +15,7 @@ use crate::request::{FlightOptions, FlightRequest, Guidance};
 ///   or until `max_duration_s`.
 /// - in-loop planners, one per vehicle, in the order of the scenario. They replan during the flight, until all vehicles
 ///   rest at their goals and `coast_s` more, or until `max_duration_s`.
+/// - an earlier flight that was planned in the loop: its references are followed again, for as long as it lasted.
 ///
 /// `seed` determines gusts, sensor noise, start offsets and planning times: the same seed gives the same flight.
 /// `progress` is called about once per simulated second with the simulated time, s.
@@ -88,7 +89,7 @@ pub fn fly_with<'a>(
     let guidance = guidance.into();
     assert_flyable(scenario, &guidance);
     let planned_end_s = planned_end_s(&guidance);
-    let request = FlightRequest { scenario, seed, options, steps: max_steps(scenario, planned_end_s) };
+    let request = FlightRequest { scenario, seed, options, steps: max_steps(scenario, &guidance) };
     let FleetLog { vehicles, mut events, in_loop } = families::simulate(&request, guidance, progress);
     events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     let (plan_end_s, planning) = match in_loop {
@@ -104,12 +105,16 @@ fn planned_end_s(guidance: &Guidance<'_>) -> Option<f64> {
     match guidance {
         Guidance::Plan(plan) => Some(plan.flight_time_s().expect("a flyable plan has trajectories")),
         Guidance::InLoop(_) => None,
+        Guidance::Recorded(flight) => Some(flight.plan_end_s),
     }
 }
 
-/// Number of steps to the end of the coast, or to the maximum duration.
-fn max_steps(scenario: &Scenario, planned_end_s: Option<f64>) -> usize {
-    let simulation = &scenario.simulation;
+/// Number of steps to the end of the coast, or to the maximum duration, or of an earlier flight.
+fn max_steps(scenario: &Scenario, guidance: &Guidance<'_>) -> usize {
+    if let Guidance::Recorded(flight) = guidance {
+        return flight.vehicles.iter().map(|log| log.samples.len().saturating_sub(1)).max().unwrap_or(0);
+    }
+    let (simulation, planned_end_s) = (&scenario.simulation, planned_end_s(guidance));
     let end_s = planned_end_s
         .map_or(simulation.max_duration_s, |end_s| (end_s + simulation.coast_s).min(simulation.max_duration_s));
     // A thousandth of a step is rounding, not time.
@@ -124,6 +129,10 @@ fn assert_flyable(scenario: &Scenario, guidance: &Guidance<'_>) {
         Guidance::InLoop(planners) => {
             assert_eq!(scenario.family(), Family::Multirotor, "only multirotors are planned for in the loop");
             assert_eq!(scenario.vehicles.len(), planners.len(), "every vehicle has a planner");
+        }
+        Guidance::Recorded(flight) => {
+            assert!(flight.planning.is_some(), "the earlier flight was planned in the loop");
+            assert_eq!(scenario.vehicles.len(), flight.vehicles.len(), "every vehicle has a log");
         }
     }
 }

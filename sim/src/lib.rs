@@ -17,6 +17,7 @@ mod fly;
 mod kinematics;
 pub mod multirotor;
 mod planning_log;
+mod plant_steps;
 mod quadrotor;
 mod rapier_world;
 mod request;
@@ -28,6 +29,7 @@ mod start;
 mod state_hash;
 
 pub use actuation::{Actuation, Commanded};
+pub use air::LoggedAir;
 pub use collision::GROUND;
 pub use flight::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 pub use fly::{fly, fly_with};

@@ -6,6 +6,7 @@ mod fleet;
 mod in_loop;
 mod multirotor_sim;
 mod obstacles;
+mod recorded;
 mod reference;
 mod replay;
 mod simulate;

@@ -14,7 +14,7 @@ const HALF_GROUND_M: f64 = 1000.0;
 /// Coefficient of friction between a ball and the ground: the ball stays where it lies.
 const FRICTION: f64 = 0.8;
 
-/// Point masses and rigid bodies under gravity and forces, at a fixed step.
+/// Point masses and rigid bodies under gravity and forces.
 ///
 /// Rapier integrates by the semi-implicit Euler method, of first order. With half of every impulse applied before its
 /// step and half after it, gravity's included, the position moves with the mean velocity of the step:
@@ -44,14 +44,13 @@ struct Body {
 }
 
 impl RapierWorld {
-    /// An empty world with gravity. `step_s` > 0; rapier clips speeds at `max_speed_mps`.
+    /// An empty world with gravity. Rapier clips speeds at `max_speed_mps`.
     ///
     /// With one solver iteration and no internal stabilisation, which dissipates energy, the impulse of a rope is
     /// applied in full and gives its tension.
-    pub fn new(step_s: f64, max_speed_mps: f64) -> Self {
+    pub fn new(max_speed_mps: f64) -> Self {
         let mut physics = PhysicsWorld::new();
         physics.gravity = Vector::new(0.0, 0.0, -GRAVITY_MPS2);
-        physics.integration_parameters.dt = step_s;
         physics.integration_parameters.num_solver_iterations = 1;
         physics.integration_parameters.num_internal_stabilization_iterations = 0;
         physics.integration_parameters.normalized_max_linear_velocity = max_speed_mps;
@@ -155,8 +154,9 @@ impl RapierWorld {
         self.bodies[body].force_n = force_n;
     }
 
-    /// Advances the world by one step.
-    pub fn step(&mut self) {
+    /// Advances the world by a step of `step_s` > 0, s.
+    pub fn step(&mut self, step_s: f64) {
+        self.physics.integration_parameters.dt = step_s;
         // Rapier applies all of gravity's impulse before it moves the bodies: half of it is taken back before the step,
         // and applied after it.
         self.apply_half_impulses(-1.0);

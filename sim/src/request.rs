@@ -4,12 +4,16 @@ use rand_chacha::ChaCha8Rng;
 use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario, Vehicle};
 
+use crate::flight::Flight;
+
 /// Where the references of a flight come from.
 pub enum Guidance<'a> {
     /// A plan that was made before the flight.
     Plan(&'a Plan),
     /// In-loop planners, one per vehicle, in the order of the scenario.
     InLoop(Vec<Box<dyn InLoopPlanner>>),
+    /// The references of an earlier flight that was planned in the loop, for as long as that flight lasted.
+    Recorded(&'a Flight),
 }
 
 impl<'a> Guidance<'a> {
@@ -21,7 +25,7 @@ impl<'a> Guidance<'a> {
     pub(crate) fn plan(&self) -> &'a Plan {
         match self {
             Self::Plan(plan) => plan,
-            Self::InLoop(_) => panic!("only multirotors are planned for in the loop"),
+            Self::InLoop(_) | Self::Recorded(_) => panic!("only multirotors are planned for in the loop"),
         }
     }
 }
@@ -58,8 +62,8 @@ pub struct FlightOptions {
     pub start_offset_m: [f64; 3],
     /// Initial velocity over ground of every vehicle relative to the first state of its plan, world frame, m/s.
     pub start_velocity_offset_mps: [f64; 3],
-    /// Number of times that the plant's step is halved. Commands are still held, and the log written, once per step of
-    /// the scenario.
+    /// Number of times that the plant's step is halved, and with it the distance between samples of the air. Commands
+    /// are still held, and the log written, once per step of the scenario.
     pub halvings: u32,
 }
 
@@ -67,11 +71,6 @@ impl FlightOptions {
     /// An ordinary flight whose plant step is halved `halvings` times.
     pub fn finer(halvings: u32) -> Self {
         Self { halvings, ..Self::default() }
-    }
-
-    /// Steps of the plant for each one of an ordinary flight.
-    pub(crate) fn substeps(&self) -> usize {
-        1 << self.halvings
     }
 }
 

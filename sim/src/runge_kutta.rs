@@ -33,15 +33,34 @@ pub(crate) fn advanced<const N: usize>(
     state + weighted_sum(&WEIGHTS, &rates) * step_s
 }
 
+/// The state after a step of `step_s`, s, that is made up of intervals in which the rate is smooth.
+///
+/// - `intervals`: their ends, as ascending fractions of the step, from 0 to 1
+/// - `rate`: as for [`advanced`]
+pub(crate) fn advanced_over_intervals<const N: usize>(
+    state: &SVector<f64, N>,
+    step_s: f64,
+    intervals: &[f64],
+    rate: impl Fn(&SVector<f64, N>, f64) -> SVector<f64, N>,
+) -> SVector<f64, N> {
+    intervals.windows(2).fold(*state, |state, ends| {
+        let length = ends[1] - ends[0];
+        advanced(&state, step_s * length, |state, fraction| rate(state, ends[0] + length * fraction))
+    })
+}
+
 /// The state of a point after a step of `step_s`, s.
 ///
+/// - `intervals`: in which the acceleration is smooth, as for [`advanced_over_intervals`]
 /// - `acceleration`: at a velocity, m/s, and a fraction of the step in [0, 1]; m/s²
 pub(crate) fn advanced_point(
     start: &PointState,
     step_s: f64,
+    intervals: &[f64],
     acceleration: impl Fn(&Vector3<f64>, f64) -> Vector3<f64>,
 ) -> PointState {
-    let end = advanced(&stacked(&start.position_m, &start.velocity_mps), step_s, |state, fraction| {
+    let stack = stacked(&start.position_m, &start.velocity_mps);
+    let end = advanced_over_intervals(&stack, step_s, intervals, |state, fraction| {
         let velocity_mps = state.fixed_rows::<3>(3).into_owned();
         stacked(&velocity_mps, &acceleration(&velocity_mps, fraction))
     });

@@ -7,7 +7,7 @@ use super::run::PlannerArgs;
 use crate::campaign::failure_threshold::{self, Disturbance, FailureBracket, FailureThreshold};
 use crate::console;
 use crate::error::{Error, Exit};
-use crate::jobs;
+use crate::jobs::{self, Job};
 use crate::number_format::quantity;
 use crate::output;
 use crate::pipeline;
@@ -43,7 +43,7 @@ pub struct StressCommand {
 const EXAMPLES: &str = "\
 Examples:
   harness stress scenarios/fixed-wing/rendezvous-7-wind.toml --over wind
-  harness stress scenarios/slung/rectangle.toml --over wind,mass,delay,noise
+  harness stress scenarios/slung/rectangle-wind.toml --over wind,mass,delay,noise
 
 Results:
   out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and the bracket of the first failure
@@ -55,6 +55,7 @@ impl StressCommand {
     pub fn execute(&self) -> Result<Exit, Error> {
         let plan_sources = self.planners.sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
+        self.refuse_without_effect(job)?;
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let system = pipeline::plan_once(job, &mut progress);
         progress.finish();
@@ -76,6 +77,13 @@ impl StressCommand {
             }
         }
         Ok(exit)
+    }
+
+    /// A disturbance that cannot act would seem to be harmless at every level.
+    fn refuse_without_effect(&self, job: &Job) -> Result<(), Error> {
+        let useless = self.over.iter().find_map(|over| over.without_effect(&job.scenario));
+        let error = |issue| Error::NoEffect { file: self.scenario.clone(), option: "--over wind", issue };
+        useless.map_or(Ok(()), |issue| Err(error(issue)))
     }
 }
 

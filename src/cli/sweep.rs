@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::plan::has_no_plan;
 use super::run::PlannerArgs;
 use super::session::start_threads;
+use crate::campaign::failure_threshold::Disturbance;
 use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
 use crate::console;
 use crate::error::{Error, Exit};
@@ -19,8 +20,8 @@ use crate::progress::Progress;
 /// Fly one plan many times under random perturbations (Monte Carlo)
 ///
 /// The scenario is planned once, and the plan is flown in randomly perturbed worlds; in-loop planners plan anew in every
-/// flight. Without any of --wind, --mass, --noise and --start, all four are perturbed by typical amounts; with some of them,
-/// the others stay as in the scenario. Every sample has its own seed, and gives the same flight on any machine. The exit
+/// flight. Without any of --wind, --mass, --noise and --start, all four are perturbed by typical amounts (wind only if the
+/// vehicles have drag); with some of them, the others stay as in the scenario. Every sample has its own seed, and gives the same flight on any machine. The exit
 /// code is 1 if fewer samples pass than --at-least demands.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -101,6 +102,14 @@ impl SweepCommand {
         start_threads(self.jobs)?;
         let plan_sources = self.planners.sources()?;
         let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
+        if let Some(issue) = self
+            .dispersions
+            .wind
+            .filter(|wind_mps| *wind_mps > 0.0)
+            .and_then(|_| Disturbance::Wind.without_effect(&job.scenario))
+        {
+            return Err(Error::NoEffect { file: self.scenario.clone(), option: "--wind", issue });
+        }
         let mut progress = Progress::new(job, 1, 1, self.results.quiet);
         let system = &pipeline::plan_once(job, &mut progress);
         if has_no_plan(system) {

@@ -1,7 +1,8 @@
 //! How far would the flight be somewhere else if another integrator had flown it?
 //!
 //! Cheap: the replay of `flight.dynamics`. Full: the whole flight again, feedback, wind and noise included, with the
-//! plant's steps halved and quartered. A margin that is smaller than what two integrators disagree on decides nothing.
+//! plant's steps halved and quartered, and the turbulence sampled as much more often. What was planned in the loop is
+//! followed again. A margin that is smaller than what two integrators disagree on decides nothing.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,7 @@ pub struct Integration {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub disagreement_m: Option<f64>,
     /// Of the full form: largest distance between the flights with half and with a quarter of the plant's step, m. For an
-    /// integrator of second order it is a fifth of the above.
+    /// integrator of second order it is a fifth of the above; in turbulence, which is rough at every scale, it is more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_to_quarter_m: Option<f64>,
 }
@@ -32,7 +33,8 @@ pub struct Integration {
 pub enum Method {
     /// Logged controls and air, through an integrator of order 6, restarted in windows.
     Replay,
-    /// The flight repeated with half and a quarter of the plant's step.
+    /// The flight repeated with half and a quarter of the plant's step; of one that was planned in the loop, with the same
+    /// references.
     FinerSteps,
 }
 

@@ -84,6 +84,65 @@ fn the_second_integrator_is_told_in_either_form() {
     }
 }
 
+const HOP: &str = r#"name = "hop"
+description = "A multirotor flies 4 m east in a breeze."
+
+[world]
+map = { x_m = [-5, 10], y_m = [-5, 5], z_m = [0, 6] }
+
+[models.multirotor.quad]
+mass_kg = 1.5
+body_radius_m = 0.35
+sensor_range_m = 8
+drag_area_m2 = 0.05
+limits = { speed_mps = 9, acceleration_mps2 = 6 }
+planning_limits = { speed_mps = 3, acceleration_mps2 = 3 }
+
+[[vehicles]]
+name = "uav-1"
+model = "quad"
+start = { x_m = 0, y_m = 0, z_m = 3 }
+goal = { x_m = 4, y_m = 0, z_m = 3 }
+
+[planner]
+name = "rhc"
+
+[simulation]
+max_duration_s = 30
+tracker = { natural_frequency_radps = 2.5 }
+wind = { mean_mps = [0, 1, 0], gusts = { wind_at_20ft_mps = 3, sigma_aloft_mps = 1 } }
+"#;
+
+#[test]
+fn a_flight_that_is_planned_in_the_loop_is_flown_with_finer_steps_as_well() {
+    let workplace = Workplace::new(&[("hop.toml", HOP)]);
+    let output = workplace.harness(&["run", "hop.toml", "--record", "none", "-q", "--second-integrator", "full"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    let integration = &workplace.json("out/hop/rhc/report.json")["integration"];
+    assert_eq!(integration["method"], "finer-steps");
+    let [whole_m, half_m] = ["disagreement_m", "half_to_quarter_m"].map(|key| integration[key].as_f64().unwrap());
+    assert!(1e-7 < whole_m && whole_m < 1e-2 && half_m < whole_m, "{integration}");
+}
+
+#[test]
+fn wind_that_cannot_act_is_refused_and_not_drawn() {
+    let still = HOP.replace("drag_area_m2 = 0.05\n", "");
+    let still = &still[..still.find("wind = ").unwrap()];
+    let workplace = Workplace::new(&[("hop.toml", still)]);
+    for (arguments, option) in [
+        (&["stress", "hop.toml", "--over", "mass,wind"][..], "--over wind"),
+        (&["sweep", "hop.toml", "-n", "2", "--wind", "2"][..], "--wind"),
+    ] {
+        let output = workplace.harness(arguments);
+        let said = stderr(&output);
+        assert!(code(&output) == 2 && stdout(&output).is_empty(), "{said}");
+        assert!(said.contains(&format!("{option} has no effect")) && said.contains("drag_area_m2"), "{said}");
+    }
+    let output = workplace.harness(&["sweep", "hop.toml", "-n", "2"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    assert_eq!(workplace.json("out/hop/rhc/sweep.json")["dispersions"]["wind_mps"], 0.0);
+}
+
 #[test]
 fn stress_tells_where_the_verdict_turns() {
     let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);

@@ -2,5 +2,6 @@
 
 mod case;
 mod edges;
+mod gusts;
 mod in_loop;
 mod together;

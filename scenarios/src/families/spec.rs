@@ -26,6 +26,12 @@ pub trait VehicleModel {
     /// Radius of the sphere about the vehicle's centre that encloses it, without its load, m.
     fn body_radius_m(&self) -> f64;
 
+    /// The fields that would let moving air act on it; `None` if it does already.
+    fn missing_drag(&self) -> Option<&'static str>;
+
+    /// Whether it has rotors that tilt it, so that its attitude is measured.
+    fn has_attitude(&self) -> bool;
+
     /// Parameters that are out of range or inconsistent. `field` is the model's path in the file.
     fn issues(&self, field: &str) -> Vec<Issue>;
 

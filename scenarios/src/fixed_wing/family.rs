@@ -35,6 +35,14 @@ impl VehicleModel for Model {
         self.body_radius_m
     }
 
+    fn missing_drag(&self) -> Option<&'static str> {
+        None
+    }
+
+    fn has_attitude(&self) -> bool {
+        false
+    }
+
     fn issues(&self, field: &str) -> Vec<Issue> {
         super::validate::model(field, self)
     }

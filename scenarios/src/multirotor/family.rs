@@ -1,6 +1,6 @@
 //! The family's row in the table of families.
 
-use super::Model;
+use super::{Model, Plant};
 use crate::families::{FamilySpec, surplus};
 use crate::{AppliedLimits, Family, Issue, Scenario, Vehicle, VehicleModel, Waypoint, World};
 
@@ -33,6 +33,14 @@ impl VehicleModel for Model {
 
     fn body_radius_m(&self) -> f64 {
         self.body_radius_m
+    }
+
+    fn missing_drag(&self) -> Option<&'static str> {
+        (self.drag_area_m2 == 0.0).then_some("drag_area_m2")
+    }
+
+    fn has_attitude(&self) -> bool {
+        self.plant == Plant::Quadrotor
     }
 
     fn issues(&self, field: &str) -> Vec<Issue> {

@@ -35,6 +35,14 @@ impl VehicleModel for Model {
         Model::body_radius_m(self)
     }
 
+    fn missing_drag(&self) -> Option<&'static str> {
+        (self.drag_area_m2 == 0.0 && self.load_drag_area_m2 == 0.0).then_some("drag_area_m2 or load_drag_area_m2")
+    }
+
+    fn has_attitude(&self) -> bool {
+        true
+    }
+
     fn issues(&self, field: &str) -> Vec<Issue> {
         super::validate::model(field, self)
     }

@@ -8,11 +8,12 @@
 //! H_v(p) = (1 + sqrt(3) p) / (1 + p)²           autocorrelation e^-s (1 - s/2)   (transverse: v, w)
 //! ```
 
+use nalgebra::{Matrix2, Vector2};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// First-order filter of the component along the wind.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Longitudinal(f64);
 
 impl Longitudinal {
@@ -25,6 +26,17 @@ impl Longitudinal {
     pub fn advance(&mut self, s: f64, rng: &mut ChaCha8Rng) {
         let noise: f64 = StandardNormal.sample(rng);
         self.0 = (-s).exp() * self.0 + (-(-2.0 * s).exp_m1()).sqrt() * noise;
+    }
+
+    /// Draws the state in the middle of a step of `s` > 0 scale lengths between two known ones.
+    ///
+    /// ```text
+    /// mean (z_0 + z_1) e^-s/2 / (1 + e^-s),   variance (1 - e^-s) / (1 + e^-s)
+    /// ```
+    pub fn between([start, end]: [&Self; 2], s: f64, rng: &mut ChaCha8Rng) -> Self {
+        let noise: f64 = StandardNormal.sample(rng);
+        let weight = 1.0 / (1.0 + (-s).exp());
+        Self((start.0 + end.0) * (-s / 2.0).exp() * weight + (-(-s).exp_m1() * weight).sqrt() * noise)
     }
 
     /// Gust over its intensity, -.
@@ -40,7 +52,7 @@ impl Longitudinal {
 /// ```
 ///
 /// in which the stationary covariance of z is the identity.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Transverse([f64; 2]);
 
 impl Transverse {
@@ -56,6 +68,26 @@ impl Transverse {
         let [[φ11, φ12], [φ21, φ22]] = transition(s);
         let [l11, l21, l22] = noise_factor(s);
         self.0 = [φ11 * z1 + φ12 * z2 + l11 * noise[0], φ21 * z1 + φ22 * z2 + l21 * noise[0] + l22 * noise[1]];
+    }
+
+    /// Draws the state in the middle of a step of `s` > 0 scale lengths between two known ones.
+    ///
+    /// With Φ and Q of half the step, the state at its end is z_1 = Φ z_m + noise of covariance Q:
+    ///
+    /// ```text
+    /// K = Q Φᵀ (Φ Q Φᵀ + Q)⁻¹,   mean Φ z_0 + K (z_1 - Φ² z_0),   covariance Q - K Φ Q
+    /// ```
+    pub fn between([start, end]: [&Self; 2], s: f64, rng: &mut ChaCha8Rng) -> Self {
+        let noise = Vector2::new(StandardNormal.sample(rng), StandardNormal.sample(rng));
+        let [[φ11, φ12], [φ21, φ22]] = transition(s / 2.0);
+        let [l11, l21, l22] = noise_factor(s / 2.0);
+        let (φ, factor) = (Matrix2::new(φ11, φ12, φ21, φ22), Matrix2::new(l11, 0.0, l21, l22));
+        let q = factor * factor.transpose();
+        let Some(inverse) = (φ * q * φ.transpose() + q).try_inverse() else { return *start };
+        let gain = q * φ.transpose() * inverse;
+        let expected = φ * Vector2::from(start.0);
+        let mean = expected + gain * (Vector2::from(end.0) - φ * expected);
+        Self((mean + lower_factor(&(q - gain * φ * q)) * noise).into())
     }
 
     /// Gust over its intensity, -.
@@ -88,6 +120,13 @@ fn noise_factor(s: f64) -> [f64; 3] {
     [l11, l21, (q22 - l21 * l21).max(0.0).sqrt()]
 }
 
+/// Lower Cholesky factor of a covariance, in which rounding may have left a negative variance.
+fn lower_factor(covariance: &Matrix2<f64>) -> Matrix2<f64> {
+    let l11 = covariance.m11.max(0.0).sqrt();
+    let l21 = if l11 > 0.0 { covariance.m21 / l11 } else { 0.0 };
+    Matrix2::new(l11, 0.0, l21, (covariance.m22 - l21 * l21).max(0.0).sqrt())
+}
+
 /// e^x - 1 - x - x²/2, to full relative precision.
 fn exponential_tail(x: f64) -> f64 {
     if x > 0.5 {
@@ -100,8 +139,6 @@ fn exponential_tail(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix2, Vector2};
-
     use super::*;
 
     const A: Matrix2<f64> = Matrix2::new(0.0, 1.0, -1.0, -2.0);
@@ -187,6 +224,55 @@ mod tests {
                 assert!((found_v - (-x).exp() * (1.0 - x / 2.0)).abs() < FIVE_SIGMA, "v, lag {x}: {found_v}");
             }
         }
+    }
+
+    /// Steps of `s`, and the state in the middle of each.
+    #[test]
+    fn states_between_two_samples_have_drydens_autocorrelation() {
+        for s in [0.02, 0.5] {
+            let lags = [0, 1, 2, 3, (1.0 / s) as usize + 1];
+            let steps = (SCALE_LENGTHS / s) as usize;
+            let (mut rng, mut bridge) = (scenarios::stream(13, "dryden"), scenarios::stream(13, "bridge"));
+            let (mut u, mut v) = (Longitudinal::stationary(&mut rng), Transverse::stationary(&mut rng));
+            let (mut found_u, mut found_v) = (Vec::new(), Vec::new());
+            for _ in 0..steps {
+                let before = (u, v);
+                u.advance(s, &mut rng);
+                v.advance(s, &mut rng);
+                found_u.extend([Longitudinal::between([&before.0, &u], s, &mut bridge).output(), u.output()]);
+                found_v.extend([Transverse::between([&before.1, &v], s, &mut bridge).output(), v.output()]);
+            }
+            let mut outputs = found_u.into_iter();
+            let found_u = autocorrelation(|| outputs.next().unwrap(), 2 * steps, &lags);
+            let mut outputs = found_v.into_iter();
+            let found_v = autocorrelation(|| outputs.next().unwrap(), 2 * steps, &lags);
+            for ((lag, found_u), found_v) in lags.iter().zip(found_u).zip(found_v) {
+                let x = *lag as f64 * s / 2.0;
+                assert!((found_u - (-x).exp()).abs() < FIVE_SIGMA, "u, lag {x}: {found_u}");
+                assert!((found_v - (-x).exp() * (1.0 - x / 2.0)).abs() < FIVE_SIGMA, "v, lag {x}: {found_v}");
+            }
+        }
+    }
+
+    /// Mean square of the output in the middle of a short step, less the mean of its ends. Straight lines between samples
+    /// would leave 0; white noise through the filters leaves their variance: s/2 for u, 3/2 of that for v.
+    #[test]
+    fn the_middle_of_a_short_step_is_as_rough_as_the_filter() {
+        let s = 1e-3;
+        let (mut rng, mut bridge) = (scenarios::stream(14, "dryden"), scenarios::stream(14, "bridge"));
+        let (mut u, mut v) = (Longitudinal::stationary(&mut rng), Transverse::stationary(&mut rng));
+        let (mut sum_u, mut sum_v, steps) = (0.0, 0.0, 100_000);
+        for _ in 0..steps {
+            let before = (u, v);
+            u.advance(s, &mut rng);
+            v.advance(s, &mut rng);
+            let middle_u = Longitudinal::between([&before.0, &u], s, &mut bridge).output();
+            let middle_v = Transverse::between([&before.1, &v], s, &mut bridge).output();
+            sum_u += (middle_u - (before.0.output() + u.output()) / 2.0).powi(2) / f64::from(steps);
+            sum_v += (middle_v - (before.1.output() + v.output()) / 2.0).powi(2) / f64::from(steps);
+        }
+        assert!((sum_u / (s / 2.0) - 1.0).abs() < 0.03, "{sum_u}");
+        assert!((sum_v / (0.75 * s) - 1.0).abs() < 0.03, "{sum_v}");
     }
 
     /// Power spectral density of `next`, by averaged periodograms (Welch, Hann window), over eight neighbouring

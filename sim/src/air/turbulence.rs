@@ -23,42 +23,90 @@ const MIN_AIRSPEED_MPS: f64 = 1.0;
 #[derive(Clone, Debug)]
 pub(super) struct Turbulence {
     settings: scenarios::Gusts,
-    u: Longitudinal,
-    v: Transverse,
-    w: Transverse,
+    now: Filters,
     rng: ChaCha8Rng,
+    /// One for every halving of the distance between samples, so that a finer flight has the samples of a coarser one.
+    refinement: Vec<ChaCha8Rng>,
 }
 
 impl Turbulence {
     /// In the stationary distribution.
-    pub fn new(settings: &scenarios::Gusts, mut rng: ChaCha8Rng) -> Self {
-        Self {
-            settings: settings.clone(),
-            u: Longitudinal::stationary(&mut rng),
-            v: Transverse::stationary(&mut rng),
-            w: Transverse::stationary(&mut rng),
-            rng,
-        }
+    ///
+    /// - `rng`, `refinement`: for the samples at the end of every step, and for those between them: at its middle, at its
+    ///   quarters ...
+    pub fn new(settings: &scenarios::Gusts, mut rng: ChaCha8Rng, refinement: Vec<ChaCha8Rng>) -> Self {
+        Self { settings: settings.clone(), now: Filters::stationary(&mut rng), rng, refinement }
     }
 
-    /// Advances the gusts by `step_s` around a vehicle that flies at an airspeed, m/s.
-    pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) {
+    /// Advances the gusts by `step_s` around a vehicle that flies at an airspeed, m/s. Returns them, (u, v, w), m/s, at
+    /// equidistant instants, the last of which is the end of the step.
+    pub fn advance(&mut self, step_s: f64, altitude_m: f64, airspeed_mps: f64) -> Vec<Vector3<f64>> {
         let scales = Scales::at(&self.settings, altitude_m);
         let passed_m = airspeed_mps.max(MIN_AIRSPEED_MPS) * step_s;
-        self.u.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
-        self.v.advance(passed_m / scales.horizontal_length_m, &mut self.rng);
-        self.w.advance(passed_m / scales.vertical_length_m, &mut self.rng);
+        let mut passed = [passed_m / scales.horizontal_length_m, passed_m / scales.vertical_length_m];
+        let mut samples = vec![self.now];
+        self.now.advance(passed, &mut self.rng);
+        samples.push(self.now);
+        for rng in &mut self.refinement {
+            samples = refined(&samples, passed, rng);
+            passed = passed.map(|passed| passed / 2.0);
+        }
+        samples[1..].iter().map(|filters| filters.gust_mps(&scales)).collect()
     }
 
     /// (u, v, w), m/s.
     pub fn gust_mps(&self, altitude_m: f64) -> Vector3<f64> {
-        let Scales { horizontal_sigma_mps, vertical_sigma_mps, .. } = Scales::at(&self.settings, altitude_m);
+        self.now.gust_mps(&Scales::at(&self.settings, altitude_m))
+    }
+}
+
+/// States of the filters of all components.
+#[derive(Clone, Copy, Debug)]
+struct Filters {
+    u: Longitudinal,
+    v: Transverse,
+    w: Transverse,
+}
+
+impl Filters {
+    fn stationary(rng: &mut ChaCha8Rng) -> Self {
+        let u = Longitudinal::stationary(rng);
+        let v = Transverse::stationary(rng);
+        Self { u, v, w: Transverse::stationary(rng) }
+    }
+
+    /// Advances by so many scale lengths, horizontal and vertical.
+    fn advance(&mut self, [horizontal, vertical]: [f64; 2], rng: &mut ChaCha8Rng) {
+        self.u.advance(horizontal, rng);
+        self.v.advance(horizontal, rng);
+        self.w.advance(vertical, rng);
+    }
+
+    /// Draws the states in the middle between two known ones, so many scale lengths apart, horizontal and vertical.
+    fn between([start, end]: [&Self; 2], [horizontal, vertical]: [f64; 2], rng: &mut ChaCha8Rng) -> Self {
+        Self {
+            u: Longitudinal::between([&start.u, &end.u], horizontal, rng),
+            v: Transverse::between([&start.v, &end.v], horizontal, rng),
+            w: Transverse::between([&start.w, &end.w], vertical, rng),
+        }
+    }
+
+    /// (u, v, w), m/s.
+    fn gust_mps(&self, scales: &Scales) -> Vector3<f64> {
+        let Scales { horizontal_sigma_mps, vertical_sigma_mps, .. } = scales;
         Vector3::new(
             horizontal_sigma_mps * self.u.output(),
             horizontal_sigma_mps * self.v.output(),
             vertical_sigma_mps * self.w.output(),
         )
     }
+}
+
+/// Samples with another one in the middle between each two of them, which are `passed` scale lengths apart.
+fn refined(samples: &[Filters], passed: [f64; 2], rng: &mut ChaCha8Rng) -> Vec<Filters> {
+    let pairs = samples.windows(2);
+    let later = pairs.flat_map(|pair| [Filters::between([&pair[0], &pair[1]], passed, rng), pair[1]]);
+    std::iter::once(samples[0]).chain(later).collect()
 }
 
 /// Scale lengths L, m, and intensities σ, m/s; u and v have the same.
@@ -145,7 +193,7 @@ mod tests {
 
     /// Gusts at every `step_s` over `duration_s`.
     fn gusts_mps(altitude_m: f64, step_s: f64, duration_s: f64) -> Vec<Vector3<f64>> {
-        let mut turbulence = Turbulence::new(&GUSTS, scenarios::stream(5, "turbulence"));
+        let mut turbulence = Turbulence::new(&GUSTS, scenarios::stream(5, "turbulence"), Vec::new());
         let mut next = || {
             turbulence.advance(step_s, altitude_m, AIRSPEED_MPS);
             turbulence.gust_mps(altitude_m)
@@ -183,6 +231,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_refined_path_passes_through_the_samples_of_a_coarser_one() {
+        let path = |halvings: u64| {
+            let refinement = (0..halvings).map(|halving| scenarios::stream(halving, "refinement")).collect();
+            let mut turbulence = Turbulence::new(&GUSTS, scenarios::stream(5, "turbulence"), refinement);
+            (0..20).flat_map(|_| turbulence.advance(0.1, 150.0, 35.0)).collect::<Vec<_>>()
+        };
+        let [coarse, half, quarter] = [0, 1, 2].map(path);
+        assert_eq!([coarse.len(), half.len(), quarter.len()], [20, 40, 80]);
+        assert!((0..20).all(|step| coarse[step] == half[2 * step + 1] && coarse[step] == quarter[4 * step + 3]));
+        assert!((0..40).all(|step| half[step] == quarter[2 * step + 1]));
+        assert!((0..20).all(|step| half[2 * step] != half[2 * step + 1]));
     }
 
     #[test]

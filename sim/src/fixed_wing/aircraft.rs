@@ -26,17 +26,14 @@ pub(super) struct Aircraft {
     step_s: f64,
     /// Load factors that act during the coming step.
     control: Control,
-    /// Velocity of the air at the beginning of the coming step, m/s.
-    wind_mps: Vector3<f64>,
-    /// Velocity of the air at its end, m/s.
-    wind_ahead_mps: Vector3<f64>,
     saturation: SaturationDetector,
     is_flying: bool,
     log: VehicleLog,
 }
 
 impl Aircraft {
-    pub fn new(request: &FlightRequest<'_>, vehicle: &Vehicle, trajectory: &Trajectory) -> Self {
+    /// `start`: true state at time 0.
+    pub fn new(request: &FlightRequest<'_>, vehicle: &Vehicle, trajectory: &Trajectory, start: &PointState) -> Self {
         let settings = &request.scenario.simulation;
         Self {
             model: request.scenario.fixed_wing_model(vehicle).clone(),
@@ -45,11 +42,9 @@ impl Aircraft {
             tracker: Tracker::new(&settings.tracker, settings.step_s),
             sensors: Sensors::new(&settings.sensors, request.stream("sensors", vehicle)),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
-            air: Air::new(settings.wind.as_ref(), request.stream("gusts", vehicle)),
+            air: Air::new(request, vehicle, start),
             step_s: settings.step_s,
             control: Control::CRUISE,
-            wind_mps: Vector3::zeros(),
-            wind_ahead_mps: Vector3::zeros(),
             saturation: SaturationDetector::default(),
             is_flying: true,
             log: VehicleLog {
@@ -107,13 +102,13 @@ impl Aircraft {
         let reference = self.reference.at(t_s);
         let command = self.command(t_s, &measured, &reference);
         self.control = saturated(command, &self.model.limits);
-        self.wind_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
+        let wind_mps = self.air.velocity_mps(t_s);
         let sample = Sample {
             t_s,
             position_m: position_m.into(),
             velocity_mps: velocity_mps.into(),
-            wind_mps: self.wind_mps.into(),
-            world_from_body: world_from_body(&(velocity_mps - self.wind_mps), self.control),
+            wind_mps: wind_mps.into(),
+            world_from_body: world_from_body(&(velocity_mps - wind_mps), self.control),
             measured_position_m: measured.position_m.into(),
             measured_velocity_mps: measured.velocity_mps.into(),
             reference_position_m: reference.position_m.into(),
@@ -131,22 +126,18 @@ impl Aircraft {
         }
     }
 
-    /// Advances the air by the coming step. `truth`: at its beginning, as for [`decide`](Self::decide).
-    pub fn advance_wind(&mut self, truth: PointState) {
-        let PointState { position_m, velocity_mps } = truth;
-        self.air.advance(self.step_s, position_m.z, (velocity_mps - self.wind_mps).norm());
-        self.wind_ahead_mps = self.air.velocity_mps(position_m.z, &velocity_mps);
+    /// Continues the air over the step that begins at `t_s`. `truth`: as for [`decide`](Self::decide).
+    pub fn begin_step(&mut self, t_s: f64, truth: &PointState) {
+        self.air.begin_step(t_s, self.step_s, truth);
     }
 
     /// Force in the middle of a step of the plant, N.
     ///
     /// - `velocity_mps`, `mass_kg`: true velocity at its beginning, and true mass
-    /// - `middle`: its middle, as a fraction of the simulator's step
-    /// - `length`: its length, as a fraction of the simulator's step
-    pub fn force_n(&self, velocity_mps: Vector3<f64>, mass_kg: f64, middle: f64, length: f64) -> Vector3<f64> {
-        let wind_mps = self.wind_mps * (1.0 - middle) + self.wind_ahead_mps * middle;
-        let step_s = self.step_s * length;
-        mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, step_s)
+    /// - `began_s`, `plant_step_s`: its beginning and its length
+    pub fn force_n(&self, velocity_mps: Vector3<f64>, mass_kg: f64, began_s: f64, plant_step_s: f64) -> Vector3<f64> {
+        let wind_mps = self.air.velocity_mps(began_s + plant_step_s / 2.0);
+        mid_step_force_n(&velocity_mps, &wind_mps, self.control, self.model.mass_kg, mass_kg, plant_step_s)
     }
 
     /// Ends the flight. Returns the log, and an event with its time, s, if one was still pending.

@@ -2,7 +2,12 @@ use std::ops::Range;
 
 use super::aircraft::Aircraft;
 use crate::kinematics::PointState;
+use crate::plant_steps::PlantSteps;
 use crate::rapier_world::RapierWorld;
+use crate::request::FlightRequest;
+
+/// Maximum step of the plant, s.
+const MAX_PLANT_STEP_S: f64 = 0.01;
 
 /// Rapier clips faster bodies.
 const MAX_SPEED_MPS: f64 = 1000.0;
@@ -13,17 +18,21 @@ pub(super) struct AircraftBatch {
     world: RapierWorld,
     aircraft: Vec<Aircraft>,
     step_s: f64,
-    substeps: usize,
+    plant_steps: PlantSteps,
 }
 
 impl AircraftBatch {
     /// Maximum number of aircraft in a batch.
     pub const SIZE: usize = 10;
 
-    /// An empty batch. Controls are held for `step_s` > 0, which the world divides into `substeps` steps.
-    pub fn new(step_s: f64, substeps: usize) -> Self {
-        let world = RapierWorld::new(step_s / substeps as f64, MAX_SPEED_MPS);
-        Self { world, aircraft: Vec::with_capacity(Self::SIZE), step_s, substeps }
+    /// An empty batch.
+    pub fn new(request: &FlightRequest<'_>) -> Self {
+        Self {
+            world: RapierWorld::new(MAX_SPEED_MPS),
+            aircraft: Vec::with_capacity(Self::SIZE),
+            step_s: request.step_s(),
+            plant_steps: PlantSteps::new(request, MAX_PLANT_STEP_S),
+        }
     }
 
     pub fn is_full(&self) -> bool {
@@ -55,8 +64,11 @@ impl AircraftBatch {
     /// Simulates these steps, counted from 0.
     pub fn fly(&mut self, steps: Range<usize>) {
         for step in steps {
-            for substep in 0..self.substeps {
-                self.advance(substep);
+            let t_s = step as f64 * self.step_s;
+            self.begin_step(t_s);
+            let (plant_steps_s, plant_step_s) = self.plant_steps.within(t_s);
+            for began_s in plant_steps_s {
+                self.advance(began_s, plant_step_s);
             }
             self.decide((step + 1) as f64 * self.step_s);
         }
@@ -72,19 +84,23 @@ impl AircraftBatch {
         self.aircraft
     }
 
-    /// One step of the world under the forces of all aircraft.
-    fn advance(&mut self, substep: usize) {
-        let Self { world, aircraft, substeps, .. } = self;
-        let (middle, length) = ((substep as f64 + 0.5) / *substeps as f64, 1.0 / *substeps as f64);
+    /// Continues the air of all aircraft over the simulator's step that begins at `t_s`.
+    fn begin_step(&mut self, t_s: f64) {
+        let Self { world, aircraft, .. } = self;
         for (index, aircraft) in flying(aircraft) {
-            let truth = world.point_state(index);
-            if substep == 0 {
-                aircraft.advance_wind(truth);
-            }
-            let force_n = aircraft.force_n(truth.velocity_mps, world.mass_kg(index), middle, length);
+            aircraft.begin_step(t_s, &world.point_state(index));
+        }
+    }
+
+    /// One step of the world under the forces of all aircraft.
+    fn advance(&mut self, began_s: f64, plant_step_s: f64) {
+        let Self { world, aircraft, .. } = self;
+        for (index, aircraft) in flying(aircraft) {
+            let velocity_mps = world.point_state(index).velocity_mps;
+            let force_n = aircraft.force_n(velocity_mps, world.mass_kg(index), began_s, plant_step_s);
             world.set_force_n(index, force_n);
         }
-        world.step();
+        world.step(plant_step_s);
     }
 
     /// Measures, computes the controls of the coming step, and logs.

@@ -43,7 +43,7 @@ impl<'a> Fleet<'a> {
         let mut batches: Vec<AircraftBatch> = Vec::new();
         for (vehicle, trajectory) in scenario.vehicles.iter().zip(&plan.trajectories) {
             if batches.last().is_none_or(AircraftBatch::is_full) {
-                batches.push(AircraftBatch::new(step_s, request.options.substeps()));
+                batches.push(AircraftBatch::new(request));
             }
             let trajectory = trajectory.fixed_wing();
             let (first, offset) = (&trajectory.states[0], start::offset(request, vehicle));
@@ -51,7 +51,7 @@ impl<'a> Fleet<'a> {
                 position_m: Vector3::from(first.position_m()) + offset.position_m,
                 velocity_mps: Vector3::from(first.velocity_mps()) + offset.velocity_mps,
             };
-            let aircraft = Aircraft::new(request, vehicle, trajectory);
+            let aircraft = Aircraft::new(request, vehicle, trajectory, &start);
             let batch = batches.last_mut().expect("one was added");
             batch.add(aircraft, scenario.simulation.mismatch.mass_ratio, &start);
         }

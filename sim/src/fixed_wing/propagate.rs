@@ -73,7 +73,7 @@ fn extend(knots: &mut Vec<Knot>, controls: [Control; 2], end_s: f64, max_step_s:
     knots.reserve(steps as usize);
     for step in 0..steps as usize {
         let control = |fraction: f64| first_order_hold(controls, (step as f64 + fraction) / steps);
-        state = runge_kutta::advanced_point(&state, step_s, |velocity_mps, fraction| {
+        state = runge_kutta::advanced_point(&state, step_s, &[0.0, 1.0], |velocity_mps, fraction| {
             acceleration_mps2(velocity_mps, control(fraction))
         });
         let PointState { position_m, velocity_mps } = state;

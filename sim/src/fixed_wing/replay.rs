@@ -1,18 +1,18 @@
-use nalgebra::Vector3;
 use scenarios::fixed_wing::Control;
 
 use super::air_path::{AirPath, gravity_mps2};
 use super::propagate::Knot;
+use crate::air::LoggedAir;
 use crate::kinematics::PointState;
 use crate::runge_kutta;
 
 /// Controls and air of an aircraft over one step of the simulator.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AppliedControls {
+#[derive(Clone, Debug)]
+pub struct AppliedControls<'a> {
     /// Load factors, constant over the step.
     pub control: Control,
-    /// Velocity of the air at the two ends of the step, linear in time between them, world frame, m/s.
-    pub wind_mps: [Vector3<f64>; 2],
+    /// The air.
+    pub air: LoggedAir<'a>,
 }
 
 /// Replays a flight: load factors and air are taken from the log, the motion is integrated anew, by a method that shares
@@ -39,15 +39,13 @@ impl Replay {
     ///
     /// - `start`: at the beginning of the step
     /// - `applied`: over the step
-    /// - `end_s`: time at its end, later than that of `start`, s
-    pub fn advanced(&self, start: &Knot, applied: &AppliedControls, end_s: f64) -> Knot {
+    pub fn advanced(&self, start: &Knot, AppliedControls { control, air }: &AppliedControls<'_>) -> Knot {
+        let (step_s, intervals) = (air.step_s(), air.smooth_intervals());
         let PointState { position_m, velocity_mps } =
-            runge_kutta::advanced_point(&start.point_state(), end_s - start.t_s, |velocity_mps, fraction| {
-                let [from, to] = applied.wind_mps;
-                let air_velocity_mps = velocity_mps - (from + (to - from) * fraction);
-                let force = AirPath::new(&air_velocity_mps).specific_force_mps2(applied.control) / self.mass_ratio;
-                force + gravity_mps2()
+            runge_kutta::advanced_point(&start.point_state(), step_s, &intervals, |velocity_mps, fraction| {
+                let air_path = AirPath::new(&(velocity_mps - air.velocity_mps(fraction)));
+                air_path.specific_force_mps2(*control) / self.mass_ratio + gravity_mps2()
             });
-        Knot { t_s: end_s, position_m, velocity_mps }
+        Knot { t_s: start.t_s + step_s, position_m, velocity_mps }
     }
 }

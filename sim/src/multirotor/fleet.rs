@@ -6,13 +6,14 @@ use super::reference::Reference;
 use super::state::MultirotorState;
 use crate::collision::time_of_impact;
 use crate::flight::{Event, EventKind, VehicleLog};
+use crate::plant_steps::PlantSteps;
 use crate::rapier_world::RapierWorld;
 use crate::request::FlightRequest;
 use crate::sensors::Measurement;
 
-/// Maximum step of a quadrotor's plant, s. A step of the simulator, for which a command is held, is divided into plant
-/// steps.
-const MAX_PLANT_STEP_S: f64 = 5e-4;
+/// Maximum step of the plant of point masses, s, and of quadrotors.
+const MAX_POINT_MASS_STEP_S: f64 = 0.01;
+const MAX_QUADROTOR_STEP_S: f64 = 5e-4;
 /// Rapier clips faster bodies.
 const MAX_SPEED_MPS: f64 = 1000.0;
 
@@ -23,16 +24,15 @@ pub(super) struct Fleet {
     multirotors: Vec<MultirotorSim>,
     is_flying: Vec<bool>,
     pub events: Vec<Event>,
-    step_s: f64,
-    plant_steps: usize,
+    plant_steps: PlantSteps,
 }
 
 impl Fleet {
     pub fn new(request: &FlightRequest<'_>) -> Self {
-        let (scenario, step_s) = (request.scenario, request.step_s());
+        let scenario = request.scenario;
         let has_rotors = scenario.vehicles.iter().any(|it| scenario.multirotor_model(it).plant == Plant::Quadrotor);
-        let plant_steps = if has_rotors { (step_s / MAX_PLANT_STEP_S - 1e-6).ceil().max(1.0) as usize } else { 1 };
-        let mut world = RapierWorld::new(step_s / plant_steps as f64, MAX_SPEED_MPS);
+        let max_plant_step_s = if has_rotors { MAX_QUADROTOR_STEP_S } else { MAX_POINT_MASS_STEP_S };
+        let mut world = RapierWorld::new(MAX_SPEED_MPS);
         let vehicles = scenario.vehicles.iter();
         let multirotors: Vec<_> = vehicles.map(|vehicle| MultirotorSim::new(request, vehicle, &mut world)).collect();
         Self {
@@ -41,8 +41,7 @@ impl Fleet {
             is_flying: vec![true; multirotors.len()],
             multirotors,
             events: Vec::new(),
-            step_s,
-            plant_steps,
+            plant_steps: PlantSteps::new(request, max_plant_step_s),
         }
     }
 
@@ -80,15 +79,15 @@ impl Fleet {
 
     /// Advances the world by one step of the simulator, and removes the vehicles that collide.
     pub fn advance(&mut self, t_s: f64) {
-        let plant_step_s = self.step_s / self.plant_steps as f64;
-        for plant_step in 0..self.plant_steps {
-            let times_s = [plant_step, plant_step + 1].map(|count| t_s + count as f64 * plant_step_s);
+        let (plant_steps_s, plant_step_s) = self.plant_steps.within(t_s);
+        let Self { world, multirotors, is_flying, .. } = self;
+        flying(multirotors, is_flying).for_each(|multirotor| multirotor.begin_step(t_s, world));
+        for began_s in plant_steps_s {
             let before = self.states();
-            for (multirotor, _) in self.multirotors.iter_mut().zip(&self.is_flying).filter(|(_, is_flying)| **is_flying)
-            {
-                multirotor.apply_forces(&mut self.world, plant_step_s);
-            }
-            self.world.step();
+            let Self { world, multirotors, is_flying, .. } = self;
+            flying(multirotors, is_flying).for_each(|multirotor| multirotor.apply_forces(world, began_s, plant_step_s));
+            world.step(plant_step_s);
+            let times_s = [began_s, began_s + plant_step_s];
             self.collide_with_each_other(times_s, &before);
             self.collide_with_obstacles(times_s, &before);
         }
@@ -151,4 +150,11 @@ impl Fleet {
         }
         (logs, self.events)
     }
+}
+
+fn flying<'a>(
+    multirotors: &'a mut [MultirotorSim],
+    is_flying: &'a [bool],
+) -> impl Iterator<Item = &'a mut MultirotorSim> {
+    multirotors.iter_mut().zip(is_flying).filter(|(_, is_flying)| **is_flying).map(|(multirotor, _)| multirotor)
 }

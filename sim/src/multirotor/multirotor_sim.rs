@@ -6,7 +6,7 @@ use super::reference::{Reference, ReferencePoint};
 use super::state::MultirotorState;
 use super::tracker::{Autopilot, Tracker, jerk_limited_mps2, limited_mps2, upright_towards};
 use crate::actuation::{Actuation, Commanded};
-use crate::air::{Air, drag_n};
+use crate::air::{Air, DragBody};
 use crate::flight::{EventKind, Sample, VehicleLog};
 use crate::kinematics::{AttitudeState, PointState};
 use crate::quadrotor::{LaggedRotors, mid_step_wrench};
@@ -59,14 +59,15 @@ impl MultirotorSim {
         let delay_s = settings.sensors.delay_s;
         let quadrotor =
             (model.plant == Plant::Quadrotor).then(|| QuadrotorSim::new(&model, Delay::new(delay_s, settings.step_s)));
+        let start = start_state(request, vehicle);
         Self {
-            body: add_body(request, vehicle, quadrotor.as_ref(), world),
+            body: add_body(request, vehicle, quadrotor.as_ref(), &start, world),
             control_mode: request.options.control_mode,
             tracker: Tracker::new(&settings.tracker),
             quadrotor,
             sensors: Sensors::new(&settings.sensors, request.stream("sensors", vehicle)),
             delay: Delay::new(delay_s, settings.step_s),
-            air: Air::new(settings.wind.as_ref(), request.stream("gusts", vehicle)),
+            air: Air::new(request, vehicle, &start),
             step_s: settings.step_s,
             acceleration_mps2: Vector3::zeros(),
             saturation: SaturationDetector::default(),
@@ -145,21 +146,39 @@ impl MultirotorSim {
         Actuation::Thrusts(Commanded { command: control(desired_n), control: control(limited_n) })
     }
 
-    /// Applies force and torque in the middle of the coming step of the plant, over which rotors and air are advanced.
-    pub fn apply_forces(&mut self, world: &mut RapierWorld, plant_step_s: f64) {
+    /// Continues the air over the simulator's step that begins at `t_s`.
+    pub fn begin_step(&mut self, t_s: f64, world: &RapierWorld) {
+        self.air.begin_step(t_s, self.step_s, &world.point_state(self.body));
+    }
+
+    /// Applies force and torque in the middle of a step of the plant, over which the rotors are advanced.
+    ///
+    /// - `began_s`, `plant_step_s`: its beginning and its length
+    pub fn apply_forces(&mut self, world: &mut RapierWorld, began_s: f64, plant_step_s: f64) {
         let state = self.state(world);
-        let wind_mps = self.air.velocity_mps(state.position_m.z, &state.velocity_mps);
-        self.air.advance(plant_step_s, state.position_m.z, (state.velocity_mps - wind_mps).norm());
-        let drag_n = drag_n(&(wind_mps - state.velocity_mps), self.model.drag_area_m2);
         let Some(QuadrotorSim { autopilot, command_n, rotors, .. }) = &mut self.quadrotor else {
             let lift_n = (self.acceleration_mps2 + Vector3::z() * GRAVITY_MPS2) * self.model.mass_kg;
-            world.set_force_n(self.body, lift_n + drag_n);
+            let force_n = self.with_drag_n(lift_n, world, began_s, plant_step_s);
+            world.set_force_n(self.body, force_n);
             return;
         };
         let thrust_n = rotors.advance(command_n, plant_step_s);
         let [lift_n, torque_nm] = mid_step_wrench(&autopilot.rotors(), &thrust_n, &state.attitude_state, plant_step_s);
-        world.set_force_n(self.body, lift_n + drag_n);
+        let force_n = self.with_drag_n(lift_n, world, began_s, plant_step_s);
+        world.set_force_n(self.body, force_n);
         world.set_torque_nm(self.body, torque_nm);
+    }
+
+    /// Lift and drag in the middle of a step of the plant, N.
+    fn with_drag_n(&self, lift_n: Vector3<f64>, world: &RapierWorld, began_s: f64, plant_step_s: f64) -> Vector3<f64> {
+        let body = DragBody {
+            drag_area_m2: self.model.drag_area_m2,
+            mass_kg: world.mass_kg(self.body),
+            velocity_mps: world.point_state(self.body).velocity_mps,
+        };
+        let wind_mps = self.air.velocity_mps(began_s + plant_step_s / 2.0);
+        let weight_n = Vector3::z() * (-GRAVITY_MPS2 * body.mass_kg);
+        lift_n + body.mid_step_drag_n(&wind_mps, &(lift_n + weight_n), plant_step_s)
     }
 
     /// Ends the flight. Returns the log, and an event with its time, s, if one was still pending.
@@ -184,7 +203,7 @@ impl MultirotorSim {
             t_s,
             position_m: truth.position_m.into(),
             velocity_mps: truth.velocity_mps.into(),
-            wind_mps: self.air.velocity_mps(truth.position_m.z, &truth.velocity_mps).into(),
+            wind_mps: self.air.velocity_mps(t_s).into(),
             world_from_body: attitude.coords.into(),
             measured_position_m: measured.position_m.into(),
             measured_velocity_mps: measured.velocity_mps.into(),
@@ -195,24 +214,29 @@ impl MultirotorSim {
     }
 }
 
-/// Adds the body of a vehicle at its true start: level, and at rest about its axes. Returns its index.
+/// The true start of a vehicle.
+fn start_state(request: &FlightRequest<'_>, vehicle: &Vehicle) -> PointState {
+    let offset = start::offset(request, vehicle);
+    PointState {
+        position_m: Vector3::from(vehicle.start.position_m()) + offset.position_m,
+        velocity_mps: Vector3::from(vehicle.start.velocity_mps()) + offset.velocity_mps,
+    }
+}
+
+/// Adds the body of a vehicle: level, and at rest about its axes. Returns its index.
 fn add_body(
     request: &FlightRequest<'_>,
     vehicle: &Vehicle,
     quadrotor: Option<&QuadrotorSim>,
+    start: &PointState,
     world: &mut RapierWorld,
 ) -> usize {
-    let offset = start::offset(request, vehicle);
-    let start = PointState {
-        position_m: Vector3::from(vehicle.start.position_m()) + offset.position_m,
-        velocity_mps: Vector3::from(vehicle.start.velocity_mps()) + offset.velocity_mps,
-    };
     let mass_kg = request.scenario.multirotor_model(vehicle).mass_kg * request.scenario.simulation.mismatch.mass_ratio;
     match quadrotor {
-        None => world.add_point_mass(mass_kg, &start),
+        None => world.add_point_mass(mass_kg, start),
         Some(QuadrotorSim { autopilot, .. }) => {
             let inertia_kgm2 = autopilot.airframe().inertia_kgm2.into();
-            world.add_rigid_body(mass_kg, &inertia_kgm2, &start, &AttitudeState::level())
+            world.add_rigid_body(mass_kg, &inertia_kgm2, start, &AttitudeState::level())
         }
     }
 }

@@ -1,7 +1,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use scenarios::multirotor::{GRAVITY_MPS2, Model};
 
-use crate::air::drag_n;
+use crate::air::{LoggedAir, drag_n};
 use crate::kinematics::PointState;
 use crate::runge_kutta;
 
@@ -38,25 +38,23 @@ impl Replay {
         Self { nominal_mass_kg, mass_kg: nominal_mass_kg * mass_ratio, drag_area_m2: model.drag_area_m2 }
     }
 
-    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. Returns position, m, and velocity, m/s, at
-    /// its end.
+    /// Integrates a step by a Runge-Kutta method of order 6. Returns position, m, and velocity, m/s, at its end.
     ///
     /// - first argument: position, m, and velocity, m/s, at the beginning of the step, world frame
-    /// - `lift`: over the step
-    /// - `wind_mps`: velocity of the air at the two ends of the step, linear in time between them
+    /// - `lift`, `air`: over the step
     pub fn advanced(
         &self,
         [position_m, velocity_mps]: [Vector3<f64>; 2],
         lift: &AppliedControls,
-        wind_mps: [Vector3<f64>; 2],
-        step_s: f64,
+        air: &LoggedAir<'_>,
     ) -> [Vector3<f64>; 2] {
         let start = PointState { position_m, velocity_mps };
-        let end = runge_kutta::advanced_point(&start, step_s, |velocity_mps, fraction| {
-            let wind_mps = wind_mps[0] + (wind_mps[1] - wind_mps[0]) * fraction;
-            let force_n = self.lift_n(lift, fraction) + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
-            force_n / self.mass_kg - Vector3::z() * GRAVITY_MPS2
-        });
+        let end =
+            runge_kutta::advanced_point(&start, air.step_s(), &air.smooth_intervals(), |velocity_mps, fraction| {
+                let drag_n = drag_n(&(air.velocity_mps(fraction) - velocity_mps), self.drag_area_m2);
+                let force_n = self.lift_n(lift, fraction) + drag_n;
+                force_n / self.mass_kg - Vector3::z() * GRAVITY_MPS2
+            });
         [end.position_m, end.velocity_mps]
     }
 

@@ -3,10 +3,12 @@ use scenarios::{AppliedLimits, Scenario};
 
 use super::fleet::Fleet;
 use super::in_loop::PlanningLoop;
+use super::recorded::RecordedReferences;
 use super::reference::Reference;
 use super::state::MultirotorState;
 use crate::flight::{Event, EventKind, FleetLog, InLoopLog};
 use crate::request::{FlightRequest, Guidance};
+use crate::sensors::Measurement;
 
 /// Simulates multirotors that fly a plan, or replan in the loop until all have arrived and coasted.
 pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, progress: &mut dyn FnMut(f64)) -> FleetLog {
@@ -18,9 +20,7 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, prog
         let t_s = request.time_s(step);
         let truths = fleet.states();
         let measured = fleet.measure(&truths);
-        if let References::InLoop(planning) = &mut references {
-            fleet.events.extend(planning.advance(t_s, &truths, &measured));
-        }
+        fleet.events.extend(references.advance(t_s, &truths, &measured));
         fleet.decide(t_s, &truths, &measured, |index| references.of(index));
         if references.are_in_loop() && arrived_s.is_none() && have_arrived(request.scenario, &truths) {
             arrived_s = Some(t_s);
@@ -48,6 +48,8 @@ enum References {
     Planned(Vec<Reference>),
     /// Those that the planners give.
     InLoop(PlanningLoop),
+    /// Those that the planners gave in an earlier flight.
+    Recorded(RecordedReferences),
 }
 
 impl References {
@@ -58,6 +60,27 @@ impl References {
                 Self::Planned(trajectories.map(|it| Reference::new(it.multirotor().nodes())).collect())
             }
             Guidance::InLoop(planners) => Self::InLoop(PlanningLoop::new(request, planners)),
+            Guidance::Recorded(flight) => {
+                let planning = flight.planning.as_ref().expect("a flight that was planned in the loop");
+                Self::Recorded(RecordedReferences::new(request, planning))
+            }
+        }
+    }
+
+    /// Brings the references up to date at the beginning of a step. Returns what happened.
+    fn advance(
+        &mut self,
+        t_s: f64,
+        truths: &[Option<MultirotorState>],
+        measured: &[Option<Measurement>],
+    ) -> Vec<Event> {
+        match self {
+            Self::Planned(_) => Vec::new(),
+            Self::InLoop(planning) => planning.advance(t_s, truths, measured),
+            Self::Recorded(recorded) => {
+                recorded.update(t_s);
+                Vec::new()
+            }
         }
     }
 
@@ -65,6 +88,7 @@ impl References {
         match self {
             Self::Planned(references) => &references[index],
             Self::InLoop(planning) => planning.reference(index),
+            Self::Recorded(recorded) => recorded.of(index),
         }
     }
 
@@ -74,7 +98,7 @@ impl References {
 
     fn into_planning(self) -> Option<PlanningLoop> {
         match self {
-            Self::Planned(_) => None,
+            Self::Planned(_) | Self::Recorded(_) => None,
             Self::InLoop(planning) => Some(planning),
         }
     }

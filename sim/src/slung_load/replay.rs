@@ -3,20 +3,20 @@ use scenarios::slung_load::{GRAVITY_MPS2, Model};
 
 use super::dynamics::Plant;
 use super::state::SlungLoadState;
-use crate::air::drag_n;
+use crate::air::{LoggedAir, drag_n};
 use crate::runge_kutta;
 
 /// Thrust, tension and air of quadrotor and load over one step of the simulator.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AppliedControls {
+#[derive(Clone, Debug)]
+pub struct AppliedControls<'a> {
     /// Mean of the rotors' total thrust over the step, N.
     pub thrust_n: f64,
     /// World from body at the two ends of the step, with a constant angular velocity between them.
     pub attitude: [UnitQuaternion<f64>; 2],
     /// Mean tension of the cable over the step, N.
     pub tension_n: f64,
-    /// Velocity of the air at the two ends of the step, linear in time between them, world frame, m/s.
-    pub wind_mps: [Vector3<f64>; 2],
+    /// The air.
+    pub air: LoggedAir<'a>,
 }
 
 /// Replays a flight by the momentum of its two bodies: the forces are taken from the log, the motion is integrated
@@ -43,14 +43,16 @@ impl Replay {
         Self { plant: *plant, drag_area_m2: model.drag_area_m2, load_drag_area_m2: model.load_drag_area_m2 }
     }
 
-    /// Integrates a step of `step_s`, s, by a Runge-Kutta method of order 6. The attitude is the logged one at its end.
-    pub fn advanced(&self, start: &SlungLoadState, applied: &AppliedControls, step_s: f64) -> SlungLoadState {
+    /// Integrates a step by a Runge-Kutta method of order 6. The attitude is the logged one at its end.
+    pub fn advanced(&self, start: &SlungLoadState, applied: &AppliedControls<'_>) -> SlungLoadState {
         let mut motion = Motion::zeros();
         let parts = [start.position_m, start.velocity_mps, start.load_position_m, start.load_velocity_mps];
         for (index, part) in parts.iter().enumerate() {
             motion.fixed_rows_mut::<3>(3 * index).copy_from(part);
         }
-        let motion = runge_kutta::advanced(&motion, step_s, |motion, fraction| self.rate(motion, applied, fraction));
+        let rate = |motion: &Motion, fraction: f64| self.rate(motion, applied, fraction);
+        let (step_s, intervals) = (applied.air.step_s(), applied.air.smooth_intervals());
+        let motion = runge_kutta::advanced_over_intervals(&motion, step_s, &intervals, rate);
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
         SlungLoadState {
             position_m: part(0),
@@ -62,13 +64,13 @@ impl Replay {
         }
     }
 
-    fn rate(&self, motion: &Motion, applied: &AppliedControls, fraction: f64) -> Motion {
+    fn rate(&self, motion: &Motion, applied: &AppliedControls<'_>, fraction: f64) -> Motion {
         let part = |index: usize| motion.fixed_rows::<3>(3 * index).into_owned();
         let (velocity_mps, load_velocity_mps) = (part(1), part(3));
         let rotation_vector = (applied.attitude[0].inverse() * applied.attitude[1]).scaled_axis() * fraction;
         let axis = applied.attitude[0] * UnitQuaternion::from_scaled_axis(rotation_vector) * Vector3::z();
         let pull_n = (part(2) - part(0)).try_normalize(0.0).unwrap_or_else(Vector3::zeros) * applied.tension_n;
-        let wind_mps = applied.wind_mps[0] + (applied.wind_mps[1] - applied.wind_mps[0]) * fraction;
+        let wind_mps = applied.air.velocity_mps(fraction);
         let force_n = axis * applied.thrust_n + pull_n + drag_n(&(wind_mps - velocity_mps), self.drag_area_m2);
         let load_force_n = drag_n(&(wind_mps - load_velocity_mps), self.load_drag_area_m2) - pull_n;
         let gravity = Vector3::z() * GRAVITY_MPS2;

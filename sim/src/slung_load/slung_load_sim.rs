@@ -1,4 +1,4 @@
-use nalgebra::Vector4;
+use nalgebra::{Vector3, Vector4};
 use scenarios::slung_load::{Cable, Control, Model, Trajectory};
 use scenarios::{Plan, Prism, Vehicle};
 
@@ -14,13 +14,14 @@ use crate::air::{Air, drag_n};
 use crate::collision::GROUND;
 use crate::flight::{Event, EventKind, FleetLog, LoadSample, Sample, VehicleLog};
 use crate::kinematics::PointState;
+use crate::plant_steps::PlantSteps;
 use crate::quadrotor::{LaggedRotors, mid_step_wrench};
 use crate::request::{ControlMode, FlightRequest};
 use crate::saturation::SaturationDetector;
 use crate::sensors::{Delay, Sensors};
 use crate::start;
 
-/// Maximum step of the plant, s. A step of the simulator, for which a command is held, is divided into plant steps.
+/// Maximum step of the plant, s.
 const MAX_PLANT_STEP_S: f64 = 5e-4;
 
 /// Simulates quadrotors with slung loads that fly a plan, one after the other.
@@ -51,7 +52,9 @@ struct SlungLoadSim {
     parts: Parts,
     ground_m: Option<f64>,
     step_s: f64,
-    plant_steps: usize,
+    plant_steps: PlantSteps,
+    /// Length of the last step of the plant, s, and the velocities of quadrotor and load at its beginning, m/s.
+    last_plant_step: Option<(f64, [Vector3<f64>; 2])>,
     saturation: SaturationDetector,
     cable: CableDetector,
     /// Mean tension over the last step, N.
@@ -73,19 +76,19 @@ impl SlungLoadSim {
         let reference = Reference::new(trajectory, &nominal);
         let first = reference.at(0.0);
         let start = start_state(request, vehicle, &first.state);
-        let plant_steps = (settings.step_s / MAX_PLANT_STEP_S).ceil().max(1.0) as usize * request.options.substeps();
         Self {
-            pair: TetheredPair::new(&plant, model.load_radius_m, &start, settings.step_s / plant_steps as f64),
+            pair: TetheredPair::new(&plant, model.load_radius_m, &start),
             rotors: LaggedRotors::new(first.thrust_n, model.rotor_time_constant_s),
             tracker: Tracker::new(&reference, &nominal, model.limits.thrust_n, settings.step_s),
             sensors: Sensors::new(&settings.sensors, request.stream("sensors", vehicle)),
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
-            air: Air::new(settings.wind.as_ref(), request.stream("gusts", vehicle)),
+            air: Air::new(request, vehicle, &start.quadrotor()),
             obstacles: scenario.world.prism_obstacles(),
             parts: Parts::new(&model),
             ground_m: scenario.world.ground_m,
             step_s: settings.step_s,
-            plant_steps,
+            plant_steps: PlantSteps::new(request, MAX_PLANT_STEP_S),
+            last_plant_step: None,
             saturation: SaturationDetector::default(),
             cable: CableDetector::new(first.cable),
             tension_n: match first.cable {
@@ -107,15 +110,16 @@ impl SlungLoadSim {
         request: &FlightRequest<'_>,
         progress: &mut dyn FnMut(f64),
     ) -> (VehicleLog, Vec<(f64, EventKind)>) {
+        let mut crash = self.collision().map(|obstacle| (0.0, obstacle));
         for step in 0..=request.steps {
             let t_s = request.time_s(step);
             let command_n = self.decide(t_s);
-            if let Some(obstacle) = self.collision() {
+            if step < request.steps && crash.is_none() {
+                crash = self.advance(t_s, &command_n);
+            }
+            if let Some((t_s, obstacle)) = crash {
                 self.events.push((t_s, EventKind::Crash { obstacle: Some(obstacle) }));
                 break;
-            }
-            if step < request.steps {
-                self.advance(t_s, &command_n);
             }
             request.report_second(t_s, progress);
         }
@@ -153,7 +157,7 @@ impl SlungLoadSim {
             t_s,
             position_m: truth.position_m.into(),
             velocity_mps: truth.velocity_mps.into(),
-            wind_mps: self.air.velocity_mps(truth.position_m.z, &truth.velocity_mps).into(),
+            wind_mps: self.air.velocity_mps(t_s).into(),
             world_from_body: truth.attitude.coords.into(),
             measured_position_m: measured.position_m.into(),
             measured_velocity_mps: measured.velocity_mps.into(),
@@ -191,34 +195,47 @@ impl SlungLoadSim {
         ground.or_else(|| self.obstacles.iter().find(touches).map(|obstacle| obstacle.name.clone()))
     }
 
-    /// Advances the plant by one step under commanded thrusts, N.
-    fn advance(&mut self, t_s: f64, command_n: &Vector4<f64>) {
-        let plant_step_s = self.step_s / self.plant_steps as f64;
+    /// Advances the plant by one step under commanded thrusts, N, or until it touches something: returns the time, s, and
+    /// the name of the obstacle.
+    fn advance(&mut self, t_s: f64, command_n: &Vector4<f64>) -> Option<(f64, String)> {
+        self.air.begin_step(t_s, self.step_s, &self.pair.state().quadrotor());
+        let (plant_steps_s, plant_step_s) = self.plant_steps.within(t_s);
         let mut impulse_ns = 0.0;
-        for plant_step in 0..self.plant_steps {
-            let forces = self.mid_step_forces(command_n, plant_step_s);
-            self.pair.step(&forces);
+        for began_s in plant_steps_s {
+            let forces = self.mid_step_forces(command_n, began_s, plant_step_s);
+            self.pair.step(&forces, plant_step_s);
             impulse_ns += self.pair.impulse_ns();
-            let began_s = t_s + plant_step as f64 * plant_step_s;
             let (cable, step_ns) = (self.pair.cable(), self.pair.impulse_ns());
             self.events.extend(self.cable.observe(began_s, plant_step_s, cable, step_ns));
+            if let Some(obstacle) = self.collision() {
+                return Some((began_s + plant_step_s, obstacle));
+            }
         }
         self.tension_n = impulse_ns / self.step_s;
+        None
     }
 
-    /// Forces in the middle of the coming step of the plant, over which rotors and air are advanced.
-    fn mid_step_forces(&mut self, command_n: &Vector4<f64>, plant_step_s: f64) -> AppliedForces {
+    /// Forces in the middle of a step of the plant, over which the rotors are advanced.
+    fn mid_step_forces(&mut self, command_n: &Vector4<f64>, began_s: f64, plant_step_s: f64) -> AppliedForces {
         let state = self.pair.state();
         let thrust_n = self.rotors.advance(command_n, plant_step_s);
         let [lift_n, torque_nm] =
             mid_step_wrench(&self.plant.rotors(), &thrust_n, &state.attitude_state(), plant_step_s);
-        let wind_mps = self.air.velocity_mps(state.position_m.z, &state.velocity_mps);
-        self.air.advance(plant_step_s, state.position_m.z, (state.velocity_mps - wind_mps).norm());
+        let wind_mps = self.air.velocity_mps(began_s + plant_step_s / 2.0);
+        let [velocity_mps, load_velocity_mps] = self.mid_step_velocities_mps(&state, plant_step_s);
         AppliedForces {
-            force_n: lift_n + drag_n(&(wind_mps - state.velocity_mps), self.model.drag_area_m2),
+            force_n: lift_n + drag_n(&(wind_mps - velocity_mps), self.model.drag_area_m2),
             torque_nm,
-            load_force_n: drag_n(&(wind_mps - state.load_velocity_mps), self.model.load_drag_area_m2),
+            load_force_n: drag_n(&(wind_mps - load_velocity_mps), self.model.load_drag_area_m2),
         }
+    }
+
+    /// Velocities of quadrotor and load in the middle of a step of the plant, extrapolated from the step before it.
+    fn mid_step_velocities_mps(&mut self, state: &SlungLoadState, plant_step_s: f64) -> [Vector3<f64>; 2] {
+        let now_mps = [state.velocity_mps, state.load_velocity_mps];
+        let (last_step_s, before_mps) = self.last_plant_step.replace((plant_step_s, now_mps)).unwrap_or((1.0, now_mps));
+        let ahead = plant_step_s / (2.0 * last_step_s);
+        std::array::from_fn(|body| now_mps[body] + (now_mps[body] - before_mps[body]) * ahead)
     }
 }
 

@@ -1,7 +1,7 @@
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 use scenarios::slung_load::State;
 
-use crate::kinematics::AttitudeState;
+use crate::kinematics::{AttitudeState, PointState};
 use crate::sensors::Sensors;
 
 /// State of quadrotor and load: the plan's [`State`] with the attitude as a rotation. World frame ENU; body axes x
@@ -45,6 +45,11 @@ impl SlungLoadState {
     pub fn cable_angles_rad(&self) -> [f64; 2] {
         let d = self.cable_m().normalize();
         [d.y.clamp(-1.0, 1.0).asin(), (-d.x).atan2(-d.z)]
+    }
+
+    /// Position and velocity of the quadrotor.
+    pub(super) fn quadrotor(&self) -> PointState {
+        PointState { position_m: self.position_m, velocity_mps: self.velocity_mps }
     }
 
     /// Attitude and angular velocity of the quadrotor.

@@ -9,7 +9,7 @@ use crate::rapier_world::{RapierWorld, Rope};
 /// Rapier clips faster bodies.
 const MAX_SPEED_MPS: f64 = 400.0;
 
-/// A quadrotor, a load, and a rope between them as rapier bodies, at a fixed step.
+/// A quadrotor, a load, and a rope between them as rapier bodies.
 ///
 /// The rope keeps the distance by an impulse inside rapier's step, where the velocities along it are those of the
 /// middle of the step (see [`RapierWorld`]).
@@ -38,8 +38,8 @@ pub(super) struct AppliedForces {
 impl TetheredPair {
     /// The pair in a state. `load_radius_m`: the load rests on the ground, if the plant has one, with its centre this
     /// high.
-    pub fn new(plant: &Plant, load_radius_m: f64, start: &SlungLoadState, step_s: f64) -> Self {
-        let mut world = RapierWorld::new(step_s, MAX_SPEED_MPS);
+    pub fn new(plant: &Plant, load_radius_m: f64, start: &SlungLoadState) -> Self {
+        let mut world = RapierWorld::new(MAX_SPEED_MPS);
         let quadrotor = world.add_rigid_body(
             plant.mass_kg,
             &plant.inertia_kgm2,
@@ -84,12 +84,12 @@ impl TetheredPair {
         state
     }
 
-    /// Advances the pair by one step under the forces in its middle.
-    pub fn step(&mut self, forces: &AppliedForces) {
+    /// Advances the pair by a step of `step_s`, s, under the forces in its middle.
+    pub fn step(&mut self, forces: &AppliedForces, step_s: f64) {
         self.world.set_force_n(self.quadrotor, forces.force_n);
         self.world.set_torque_nm(self.quadrotor, forces.torque_nm);
         self.world.set_force_n(self.load, forces.load_force_n);
-        self.world.step();
+        self.world.step(step_s);
         self.impulse_ns = self.world.rope_impulse_ns(self.rope);
         self.was_taut = [self.impulse_ns > 0.0, self.was_taut[0]];
     }

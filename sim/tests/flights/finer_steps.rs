@@ -1,9 +1,8 @@
 //! The same flight with finer steps, and replayed by another integrator.
 
-use nalgebra::Vector3;
 use scenarios::{Scenario, Sensors, Wind};
 use sim::fixed_wing::{AppliedControls, Knot, Replay};
-use sim::{Flight, FlightOptions, fly_with};
+use sim::{Flight, FlightOptions, LoggedAir, fly_with};
 
 use crate::arena;
 
@@ -49,9 +48,8 @@ fn a_replay_agrees_with_the_flight_and_detects_a_wrong_mass() {
             velocity_mps: arena::velocity(&samples[index]),
         };
         let follow = |motion: Knot, index: usize| {
-            let wind_mps = [index, index + 1].map(|index| Vector3::from(samples[index].wind_mps));
-            let applied = AppliedControls { control: samples[index].load_factors().control, wind_mps };
-            replay.advanced(&motion, &applied, samples[index + 1].t_s)
+            let air = LoggedAir::new(scenario.simulation.wind.as_ref(), [&samples[index], &samples[index + 1]]);
+            replay.advanced(&motion, &AppliedControls { control: samples[index].load_factors().control, air })
         };
         ((4000..4250).fold(knot(4000), follow).position_m - knot(4250).position_m).norm()
     };

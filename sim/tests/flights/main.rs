@@ -7,6 +7,7 @@ mod finer_steps;
 mod open_loop;
 mod polar;
 mod propagate;
+mod pulses;
 mod reference;
 mod repeatability;
 mod tracking;

@@ -2,4 +2,5 @@
 
 mod arena;
 mod plant;
+mod pulses;
 mod schedule;

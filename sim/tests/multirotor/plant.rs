@@ -19,7 +19,7 @@ fn drag_mps2(velocity_mps: Vector3<f64>) -> Vector3<f64> {
     relative * (relative.norm() * 0.5 * 1.225 * DRAG_AREA_M2 / MASS_KG)
 }
 
-fn rk4<const N: usize>(
+pub fn rk4<const N: usize>(
     state: SVector<f64, N>,
     h: f64,
     rate: impl Fn(&SVector<f64, N>) -> SVector<f64, N>,

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult, ReplanStatus};
 use scenarios::{Cylinder, PlanningClock, Scenario};
-use sim::{Flight, fly};
+use sim::{Flight, FlightOptions, Guidance, fly, fly_with};
 
 use crate::arena::scenario;
 
@@ -125,4 +125,34 @@ fn an_obstacle_is_known_once_its_surface_is_within_range() {
     assert_eq!(observed.iter().filter(|observed| !observed.discovered.is_empty()).count(), 2);
     let found: Vec<f64> = flight.events.iter().map(|event| event.t_s).collect();
     assert_eq!(found.len(), 2, "{:?}", flight.events);
+}
+
+/// Late, rejected, superseded and missed results included.
+#[test]
+fn a_recorded_flight_is_followed_again_exactly_and_with_finer_steps() {
+    let mut scenario = scenario("point-mass");
+    scenario.simulation.max_duration_s = 3.0;
+    scenario.simulation.planning.period_s = 0.3;
+    scenario.simulation.planning.deadline_s = 0.5;
+    scenario.simulation.planning.time = PlanningClock::Recorded;
+    scenario.simulation.planning.recorded_s = vec![0.01, 0.7, 0.2];
+    let planner: Box<dyn InLoopPlanner> = Box::new(RecordingPlanner { observed: Arc::default() });
+    let flight = fly(&scenario, vec![planner], 1, &mut |_| {});
+    let again =
+        |halvings| fly_with(&scenario, Guidance::Recorded(&flight), 1, &FlightOptions::finer(halvings), &mut |_| {});
+    assert!(
+        flight
+            .planning
+            .as_ref()
+            .is_some_and(|it| it.replans.iter().any(|replan| replan.takes_effect_s > replan.asked_s + 0.6))
+    );
+    assert_eq!(again(0).vehicles, flight.vehicles);
+    let finer = again(1);
+    let pairs = finer.vehicles[0].samples.iter().zip(&flight.vehicles[0].samples);
+    let apart_m = |(a, b): (&sim::Sample, &sim::Sample)| {
+        (0..3).map(|axis| (a.position_m[axis] - b.position_m[axis]).abs()).fold(0.0, f64::max)
+    };
+    let largest_m = pairs.map(apart_m).fold(0.0, f64::max);
+    assert!(finer.vehicles[0].samples.len() == flight.vehicles[0].samples.len());
+    assert!(largest_m > 1e-12 && largest_m < 1e-3, "{largest_m} m");
 }

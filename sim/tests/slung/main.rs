@@ -4,5 +4,6 @@
 mod arena;
 mod flatness;
 mod plant;
+mod pulses;
 mod reference_flight;
 mod tracking;

@@ -6,7 +6,7 @@ use sim::{ControlMode, EventKind, Flight, FlightOptions, LoadSample, Sample, fly
 use crate::arena::{plan, scenario, silent, trajectory};
 use crate::reference_flight::{self, L_0, M_L, M_Q, Pair};
 
-const OPEN_LOOP: FlightOptions = FlightOptions {
+pub const OPEN_LOOP: FlightOptions = FlightOptions {
     control_mode: ControlMode::OpenLoop,
     start_offset_m: [0.0; 3],
     start_velocity_offset_mps: [0.0; 3],

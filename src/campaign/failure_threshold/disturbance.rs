@@ -1,5 +1,5 @@
 use clap::ValueEnum;
-use scenarios::{Scenario, Wind};
+use scenarios::{Family, Issue, Scenario, Wind, wind_without_effect};
 use serde::Serialize;
 
 use crate::families;
@@ -34,6 +34,14 @@ impl Disturbance {
             Self::Mass => "-",
             Self::Delay => "s",
             Self::Noise => "m",
+        }
+    }
+
+    /// Why it cannot act on the vehicles of a scenario; `None` if it can.
+    pub fn without_effect(self, scenario: &Scenario) -> Option<Issue> {
+        match self {
+            Self::Wind => wind_without_effect(scenario),
+            Self::Mass | Self::Delay | Self::Noise => None,
         }
     }
 
@@ -90,8 +98,10 @@ impl Disturbance {
                 scenario.simulation.wind = (level > 0.0).then(|| scaled(asked, level));
             }
             Self::Mass => {
-                let mismatch = &mut scenario.simulation.mismatch;
-                (mismatch.mass_ratio, mismatch.load_mass_ratio) = (1.0 + level, 1.0 + level);
+                scenario.simulation.mismatch.mass_ratio = 1.0 + level;
+                if scenario.family() == Family::SlungLoad {
+                    scenario.simulation.mismatch.load_mass_ratio = 1.0 + level;
+                }
             }
             Self::Delay => scenario.simulation.sensors.delay_s = level,
             Self::Noise => {

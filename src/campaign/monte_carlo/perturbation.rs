@@ -1,5 +1,5 @@
 use rand_distr::{Distribution, Uniform, UnitDisc};
-use scenarios::{Scenario, Wind};
+use scenarios::{Family, Scenario, Wind};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::failure_threshold::Disturbance;
@@ -34,12 +34,13 @@ pub struct Perturbation {
 }
 
 impl Dispersions {
-    /// The default: a light breeze, 3 % of mass, typical position noise (of a satellite receiver or a motion capture system,
+    /// The default: a light breeze if wind can act on the vehicles, 3 % of mass, typical position noise (of a satellite receiver or a motion capture system,
     /// by vehicle family), and a start error of a tenth of the largest tracking error allowed.
     pub fn usual(scenario: &Scenario) -> Self {
         let own_m = scenario.simulation.sensors.position_noise_m;
         let noise_m = if own_m > 0.0 { own_m } else { Disturbance::Noise.first_step(scenario) };
-        let wind_mps = families::of(scenario.family()).typical_disturbances.wind_mps;
+        let breeze_mps = families::of(scenario.family()).typical_disturbances.wind_mps;
+        let wind_mps = if Disturbance::Wind.without_effect(scenario).is_some() { 0.0 } else { breeze_mps };
         Self { wind_mps, mass: 0.03, noise_m, start_m: scenario.limits().tracking_max_m / 10.0 }
     }
 
@@ -66,6 +67,7 @@ impl Perturbation {
         if self.noise_m > 0.0 {
             Disturbance::Noise.set(scenario, self.noise_m);
         }
+        let carries_load = scenario.family() == Family::SlungLoad;
         let simulation = &mut scenario.simulation;
         if self.wind_mps != [0.0; 2] {
             let still = Wind { mean_mps: [0.0; 3], gusts: None, pulses: Vec::new() };
@@ -74,7 +76,9 @@ impl Perturbation {
             mean_mps[1] += self.wind_mps[1];
         }
         simulation.mismatch.mass_ratio *= self.mass_ratios[0];
-        simulation.mismatch.load_mass_ratio *= self.mass_ratios[1];
+        if carries_load {
+            simulation.mismatch.load_mass_ratio *= self.mass_ratios[1];
+        }
         if self.start_m > 0.0 {
             simulation.mismatch.start_radius_m = self.start_m;
         }

@@ -5,12 +5,13 @@
 //! The map's limits are state limits in all three.
 //!
 //! Positions are judged over continuous time; speed and flight-path angle at every knot (50 ms apart at most) of the
-//! plan and at every step of the flight, where they are those of the velocity through the air. Controls run linearly
+//! plan and at every step of the flight and at the peaks of gusts, where they are those of the velocity through the air. Controls run linearly
 //! between nodes, so that they are extreme at the nodes; in flight the controls that acted are judged.
 
 use scenarios::fixed_wing::{Control, Limits, Model};
 use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
 
+use crate::verdict::airspeed::air_velocities;
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::fixed_wing::between_rows::Tube;
 use crate::verdict::flown::FlownMotions;
@@ -68,8 +69,8 @@ pub fn check_flown_states(
         let logs = motions.iter().zip(&flown.vehicles).zip(tubes);
         for (limited, ((motion, vehicle), tube)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);
-            for sample in vehicle.judged {
-                limited.velocity_vector(worst, sample.air_velocity_mps(), error_mps(tube, sample.t_s), sample.t_s);
+            for (t_s, air_velocity_mps) in air_velocities(scenario, vehicle.judged) {
+                limited.velocity_vector(worst, air_velocity_mps, error_mps(tube, t_s), t_s);
             }
         }
     })

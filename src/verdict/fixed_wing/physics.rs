@@ -1,8 +1,8 @@
 //! Replay of a fixed wing's log: its controls and air determine its motion.
 
-use scenarios::{CheckSpec, Scenario};
+use scenarios::{CheckSpec, Scenario, Wind};
 use sim::fixed_wing::{AppliedControls, Knot, Replay};
-use sim::{Flight, Sample, VehicleLog};
+use sim::{Flight, LoggedAir, Sample, VehicleLog};
 
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::physics::{Defect, check_largest, difference_m};
@@ -16,11 +16,12 @@ use crate::verdict::physics::{Defect, check_largest, difference_m};
 pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: &Flight) -> CheckResult {
     let window_s = 2.0 / scenario.simulation.tracker.natural_frequency_radps;
     let replay = Replay::new(scenario.simulation.mismatch.mass_ratio);
-    check_largest(spec, scenario, flight, |_, log| Ok(largest_defect(log, window_s, &replay)))
+    let wind = scenario.simulation.wind.as_ref();
+    check_largest(spec, scenario, flight, |_, log| Ok(largest_defect(log, wind, window_s, &replay)))
 }
 
 /// Of one aircraft. `None` if its log has no step.
-fn largest_defect(log: &VehicleLog, window_s: f64, replay: &Replay) -> Option<Defect> {
+fn largest_defect(log: &VehicleLog, wind: Option<&Wind>, window_s: f64, replay: &Replay) -> Option<Defect> {
     let mut worst: Option<Defect> = None;
     let mut began_s = f64::NEG_INFINITY;
     let mut motion = knot(log.samples.first()?);
@@ -30,9 +31,9 @@ fn largest_defect(log: &VehicleLog, window_s: f64, replay: &Replay) -> Option<De
         }
         let applied = AppliedControls {
             control: pair[0].load_factors().control,
-            wind_mps: [pair[0].wind_mps.into(), pair[1].wind_mps.into()],
+            air: LoggedAir::new(wind, [&pair[0], &pair[1]]),
         };
-        motion = replay.advanced(&motion, &applied, pair[1].t_s);
+        motion = replay.advanced(&motion, &applied);
         let logged = knot(&pair[1]);
         let defect_m = difference_m(
             &(motion.position_m - logged.position_m),

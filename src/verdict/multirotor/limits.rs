@@ -2,7 +2,7 @@
 //!
 //! As for the other families: the planning limits at the planner's nodes, the physical ones between them and in flight, the
 //! map in all three. Positions and planned speeds are judged over continuous time; in flight the speed is that through the
-//! air, at every step. Of a point mass the acceleration that acted is judged, of a quadrotor its tilt and the thrusts.
+//! air, at every step and at the peaks of gusts. Of a point mass the acceleration that acted is judged, of a quadrotor its tilt and the thrusts.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use scenarios::multirotor::{Airframe, Limits, Model, Plant};
@@ -11,6 +11,7 @@ use sim::{Actuation, Commanded, Sample};
 
 use super::rest::RECORD;
 use crate::number_format::quantity;
+use crate::verdict::airspeed::air_velocities;
 use crate::verdict::bernstein;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::CheckResult;
@@ -59,8 +60,10 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMo
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
             limited.map.path(worst, motion);
             for sample in vehicle.judged {
-                limited.speed(worst, norm(sample.air_velocity_mps()), limited.physical().speed_mps, sample.t_s);
                 limited.tilt(worst, sample);
+            }
+            for (t_s, air_velocity_mps) in air_velocities(scenario, vehicle.judged) {
+                limited.speed(worst, norm(air_velocity_mps), limited.physical().speed_mps, t_s);
             }
         }
     })

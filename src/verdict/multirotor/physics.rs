@@ -2,9 +2,9 @@
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use scenarios::multirotor::Model;
-use scenarios::{CheckSpec, GRAVITY_MPS2, Scenario};
+use scenarios::{CheckSpec, GRAVITY_MPS2, Scenario, Simulation};
 use sim::multirotor::{AppliedControls, Replay};
-use sim::{Actuation, Flight, Sample, VehicleLog};
+use sim::{Actuation, Flight, LoggedAir, Sample, VehicleLog};
 
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::physics::{Defect, check_largest, difference_m};
@@ -16,13 +16,13 @@ const WINDOW_S: f64 = 0.2;
 /// Largest distance between a log and the motion that results from its forces, restarted at the beginning of every window.
 pub fn check(spec: &CheckSpec, scenario: &Scenario, flight: &Flight) -> CheckResult {
     check_largest(spec, scenario, flight, |vehicle, log| {
-        Ok(largest_defect(scenario.multirotor_model(vehicle), scenario.simulation.mismatch.mass_ratio, log))
+        Ok(largest_defect(scenario.multirotor_model(vehicle), &scenario.simulation, log))
     })
 }
 
 /// Of one vehicle. `None` if its log has no step.
-fn largest_defect(model: &Model, mass_ratio: f64, log: &VehicleLog) -> Option<Defect> {
-    let replay = Replay::new(model, mass_ratio);
+fn largest_defect(model: &Model, simulation: &Simulation, log: &VehicleLog) -> Option<Defect> {
+    let replay = Replay::new(model, simulation.mismatch.mass_ratio);
     let mut rotors = hovering(model);
     let (mut motion, mut began_s) = (motion(log.samples.first()?), f64::NEG_INFINITY);
     let mut worst: Option<Defect> = None;
@@ -31,9 +31,8 @@ fn largest_defect(model: &Model, mass_ratio: f64, log: &VehicleLog) -> Option<De
         if from.t_s - began_s >= WINDOW_S {
             (motion, began_s) = (self::motion(from), from.t_s);
         }
-        let step_s = to.t_s - from.t_s;
-        let wind_mps = [from.wind_mps.into(), to.wind_mps.into()];
-        motion = replay.advanced(motion, &lift(&mut rotors, [from, to], step_s), wind_mps, step_s);
+        let air = LoggedAir::new(simulation.wind.as_ref(), [from, to]);
+        motion = replay.advanced(motion, &lift(&mut rotors, [from, to], air.step_s()), &air);
         let logged = self::motion(to);
         let defect_m = difference_m(&(motion[0] - logged[0]), &((motion[1] - logged[1]) * WINDOW_S));
         let defect = Defect { defect_m, t_s: to.t_s };

@@ -4,9 +4,9 @@
 //! is never longer than its length, never pushes, and pulls only at its full length.
 
 use scenarios::slung_load::Trajectory;
-use scenarios::{CheckSpec, Plan, Scenario, Vehicle};
+use scenarios::{CheckSpec, Plan, Scenario, Vehicle, Wind};
 use sim::slung_load::{AppliedControls, Plant, Replay, SlungLoadState};
-use sim::{Actuation, Flight, VehicleLog};
+use sim::{Actuation, Flight, LoggedAir, VehicleLog};
 
 use super::flown::motion_sample;
 use crate::verdict::compare::is_larger;
@@ -36,12 +36,13 @@ struct LogReplay<'a> {
     plant: Plant,
     /// At the beginning of the flight: with the first thrust of the plan.
     rotors: Rotors,
+    wind: Option<&'a Wind>,
     vehicle: &'a str,
 }
 
 impl<'a> LogReplay<'a> {
     /// A vehicle of the scenario on a trajectory.
-    fn new(scenario: &Scenario, vehicle: &'a Vehicle, trajectory: &Trajectory) -> Self {
+    fn new(scenario: &'a Scenario, vehicle: &'a Vehicle, trajectory: &Trajectory) -> Self {
         let (model, mismatch) = (scenario.slung_load_model(vehicle), &scenario.simulation.mismatch);
         let nominal = Plant::nominal(model, scenario.world.ground_m);
         let plant = Plant {
@@ -54,6 +55,7 @@ impl<'a> LogReplay<'a> {
             replay: Replay::new(model, &plant),
             plant,
             rotors: Rotors::new(first_n, model.rotor_time_constant_s),
+            wind: scenario.simulation.wind.as_ref(),
             vehicle: &vehicle.name,
         }
     }
@@ -83,9 +85,9 @@ impl<'a> LogReplay<'a> {
                 thrust_n: rotors.mean_n(commanded_n(&from.actuation), step_s),
                 attitude: [bodies[step - 1].attitude, bodies[step].attitude],
                 tension_n,
-                wind_mps: [from.wind_mps.into(), to.wind_mps.into()],
+                air: LoggedAir::new(self.wind, [from, to]),
             };
-            let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &applied, step_s);
+            let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &applied);
             motion = Some(flown);
             let change_ns = (tension_n - log.loads[step - 1].tension_n).abs() * step_s;
             allowance_m += 0.5 * step_s * change_ns / self.plant.load_mass_kg;
