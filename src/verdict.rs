@@ -15,6 +15,7 @@ pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
+mod in_loop_planner;
 mod in_loop_planning;
 mod integration;
 mod integrity;

@@ -107,6 +107,8 @@ fn amount(kind: &EventKind) -> Option<f64> {
         | EventKind::CableSlack
         | EventKind::Discovered { .. }
         | EventKind::ReplanRejected { .. }
+        | EventKind::ReplanFailed { .. }
+        | EventKind::PlannerRemark { .. }
         | EventKind::Arrived => None,
     }
 }
@@ -122,6 +124,8 @@ fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
         | EventKind::Discovered { .. }
         | EventKind::ReplanLate { .. }
         | EventKind::ReplanRejected { .. }
+        | EventKind::ReplanFailed { .. }
+        | EventKind::PlannerRemark { .. }
         | EventKind::Arrived => None,
     }
 }

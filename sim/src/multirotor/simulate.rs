@@ -19,7 +19,8 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, prog
         let truths = fleet.states();
         let measured = fleet.measure(&truths);
         if let References::InLoop(planning) = &mut references {
-            fleet.events.extend(planning.advance(t_s, &truths, &measured));
+            let events = planning.advance(t_s, &truths, &fleet.navigation(&measured));
+            fleet.events.extend(events);
         }
         fleet.decide(t_s, &truths, &measured, |index| references.of(index));
         if references.are_in_loop() && arrived_s.is_none() && have_arrived(request.scenario, &truths) {
@@ -37,7 +38,11 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, prog
         step += 1;
     }
     let end_s = arrived_s.unwrap_or(request.time_s(step.min(last_step)));
-    let in_loop = references.into_planning().map(|planning| InLoopLog { end_s, planning: planning.finish(end_s) });
+    let in_loop = references.into_planning().map(|planning| {
+        let (planning, events) = planning.finish(end_s);
+        fleet.events.extend(events);
+        InLoopLog { end_s, planning }
+    });
     let (vehicles, events) = fleet.finish();
     FleetLog { vehicles, events, in_loop }
 }
