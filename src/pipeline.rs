@@ -57,7 +57,7 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let PlannerOutput { guidance, log } = timed(&mut timings.planning_s, || prepare(job, progress));
     let Flown { answer, flight } = timed(&mut timings.flying_s, || fly(job, guidance, progress));
     let log = log.map(|log| log());
-    attribute_replanning(&mut timings, &answer.plan, flight.as_ref());
+    attribute_replanning(&mut timings, job, &answer.plan, flight.as_ref());
     let (plan, flight) = (&answer.plan, flight.as_ref());
     let refined = flight.filter(|_| outputs.refine_step);
     let integration = timed(&mut timings.flying_s, || refined.map(|flight| refine_step(job, plan, flight)));
@@ -107,11 +107,11 @@ fn fly(job: &Job, guidance: Guidance, progress: &mut Progress) -> Flown {
 }
 
 /// Counts the planning time of in-loop planners, which passes during the flight, as planning.
-fn attribute_replanning(timings: &mut Timings, followed: &Plan, flight: Option<&Flight>) {
+fn attribute_replanning(timings: &mut Timings, job: &Job, followed: &Plan, flight: Option<&Flight>) {
     if let Some(planning) = flight.and_then(|flight| flight.planning.as_ref()) {
         timings.planning_s += followed.timings.wall_s;
         timings.flying_s = (timings.flying_s - followed.timings.wall_s).max(0.0);
-        timings.replans = ReplanTimes::of(planning);
+        timings.replans = ReplanTimes::of(planning, job.scenario.simulation.planning.deadline_s);
     }
 }
 

@@ -154,16 +154,21 @@ pub struct ReplanTimes {
     pub median_s: f64,
     /// Longest, s.
     pub max_s: f64,
+    /// Number of replans that took longer than the scenario's deadline. They are flown late only if the scenario takes
+    /// planning times from the clock.
+    #[serde(default)]
+    pub over_deadline: usize,
 }
 
 impl ReplanTimes {
     /// Of all replans of a flight; `None` if there were none.
-    pub fn of(log: &PlanningLog) -> Option<Self> {
+    pub fn of(log: &PlanningLog, deadline_s: f64) -> Option<Self> {
         let mut walls_s: Vec<f64> = log.replans.iter().map(|replan| replan.wall_s).collect();
         walls_s.sort_by(f64::total_cmp);
         let (min_s, max_s) = (*walls_s.first()?, *walls_s.last()?);
         let mean_s = statistics::mean(walls_s.iter().copied())?;
-        Some(Self { mean_s, min_s, median_s: statistics::median(&walls_s)?, max_s })
+        let over_deadline = walls_s.iter().filter(|wall_s| **wall_s > deadline_s).count();
+        Some(Self { mean_s, min_s, median_s: statistics::median(&walls_s)?, max_s, over_deadline })
     }
 }
 

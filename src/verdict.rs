@@ -17,6 +17,7 @@ mod flight_integrity;
 mod flown;
 mod flown_reference;
 mod goal;
+mod in_loop_planner;
 mod in_loop_planning;
 mod integration;
 mod integrity;

@@ -69,5 +69,5 @@ def plan(request):
 
 request = json.load(sys.stdin)
 trajectory = plan(request)
-reply = {"protocol": 1, "status": "solved" if trajectory else "no-plan", "trajectories": [trajectory] if trajectory else []}
+reply = {"protocol": 2, "status": "solved" if trajectory else "no-plan", "trajectories": [trajectory] if trajectory else []}
 json.dump(reply, sys.stdout)

@@ -52,6 +52,7 @@ pub struct CheckSpec {
 const ALL: &[Family] = &Family::ALL;
 const HOVERING: &[Family] = &[SlungLoad, Multirotor];
 const LOADS: &[Family] = &[SlungLoad];
+const MULTIROTORS: &[Family] = &[Multirotor];
 /// Skipped, with the reason, for fixed wings.
 const LOADS_NAMED: &[Family] = &[FixedWing, SlungLoad];
 
@@ -132,6 +133,7 @@ pub const CHECKS: &[CheckSpec] = {
         flight("flight.complete", "vehicles", None, ALL, "Number of vehicles whose log is missing, has gaps, or follows another plan."),
         flight("flight.crash", "crashes", Obstacles, ALL, "Number of contacts with obstacles, the ground or other vehicles."),
         flight("flight.conditions", "vehicles", None, ALL, "Number of vehicles whose logged wind and noise are not those of the scenario."),
+        flight("flight.planner", "failures", None, MULTIROTORS, "Number of requests to an in-loop planner without a usable reply, and of references that jump or are flown to an end in motion."),
         flight("flight.separation", "m", SEPARATION, ALL, "Smallest distance between two vehicles in flight, over continuous time."),
         flight("flight.clearance", "m", Obstacles, ALL, "Smallest distance to an obstacle in flight, over continuous time."),
         flight("flight.envelope", "m", ENVELOPE, LOADS, "Smallest distance of the envelope circle to an obstacle in flight."),

@@ -31,6 +31,8 @@
 //!     takes_effect_s: 1.1,
 //!     position_m: [1.0, 1.0, 2.0],
 //!     velocity_mps: [0.0; 3],
+//!     acceleration_mps2: [0.0; 3],
+//!     world_from_body: [0.0, 0.0, 0.0, 1.0],
 //!     in_force: &[],
 //!     last: &ReplanStatus::None,
 //!     known: &World::empty(Map { x_m: axis, y_m: axis, z_m: axis }),
@@ -56,10 +58,25 @@ pub trait InLoopPlanner: Send {
     /// The same observations in the same order must give the same results: a planner does not read a clock, and draws random
     /// numbers only from the seed that it was created with.
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult;
+
+    /// Ends the planning: called once, after the last call of [`replan`](Self::replan). Returns what is to be said of the
+    /// planner beyond its results.
+    fn finish(&mut self) -> PlannerRemarks {
+        PlannerRemarks::default()
+    }
+}
+
+/// What is to be said of a planner beyond its results, once the flight is over.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlannerRemarks {
+    /// What is told, one sentence each, and does not decide.
+    pub notes: Vec<String>,
+    /// Why its results cannot be trusted, if they cannot.
+    pub failure: Option<String>,
 }
 
 /// What a vehicle knows at one instant. World frame.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
 pub struct Observation<'a> {
     /// Time of the measurement, s.
     pub t_s: f64,
@@ -69,6 +86,11 @@ pub struct Observation<'a> {
     pub position_m: [f64; 3],
     /// Own velocity as measured, m/s.
     pub velocity_mps: [f64; 3],
+    /// Acceleration that its controller commanded for the previous step, m/s²; gravity is compensated.
+    pub acceleration_mps2: [f64; 3],
+    /// Own attitude as measured, as a unit quaternion (x, y, z, w), world from body (x forward, y left, z up). That of a
+    /// point mass points its thrust.
+    pub world_from_body: [f64; 4],
     /// The reference being flown, from `t_s` or before to its end, after which the vehicle hovers.
     pub in_force: &'a [Node],
     /// Status of the previous result.
@@ -156,6 +178,11 @@ pub enum ReplanStatus {
         /// The reason.
         reason: String,
     },
+    /// The planner gave no result that can be used; the reference in force was kept.
+    Failed {
+        /// The reason.
+        reason: String,
+    },
 }
 
 /// The result of replanning for one observation.
@@ -172,10 +199,16 @@ pub struct ReplanResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Decision {
     /// A new reference: at least two nodes with finite numbers and increasing times, the first not after the time at which
-    /// the result takes effect. After the last node the vehicle hovers there.
+    /// the result takes effect. It continues the reference in force or the measured state, within the limits of the vehicle.
+    /// After the last node the vehicle hovers there.
     Fly(Vec<Node>),
     /// Keep flying the reference in force to its end.
     Keep {
+        /// The reason.
+        reason: String,
+    },
+    /// The planner gave no result that can be used: it crashed, fell silent, or replied something else.
+    Failed {
         /// The reason.
         reason: String,
     },
@@ -208,6 +241,11 @@ impl ReplanResult {
     /// To fly through `nodes`.
     pub fn fly(nodes: Vec<Node>) -> Self {
         Self { decision: Decision::Fly(nodes), diagnostics: ReplanDiagnostics::default() }
+    }
+
+    /// No result that can be used.
+    pub fn failed(reason: impl Into<String>) -> Self {
+        Self { decision: Decision::Failed { reason: reason.into() }, diagnostics: ReplanDiagnostics::default() }
     }
 
     /// To keep the reference in force.

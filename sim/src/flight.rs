@@ -199,6 +199,16 @@ pub enum EventKind {
         /// Why.
         reason: String,
     },
+    /// A planner gave no result that can be used. Equal failures in a row are one event.
+    ReplanFailed {
+        /// Why.
+        reason: String,
+    },
+    /// What is to be said of the planners beyond their results.
+    PlannerRemark {
+        /// One sentence.
+        text: String,
+    },
     /// All vehicles rest at their goals.
     Arrived,
 }

@@ -1,6 +1,6 @@
 //! The log of what was planned during a flight.
 
-use scenarios::in_loop::{Node, ReplanDiagnostics, ReplanStatus};
+use scenarios::in_loop::{Node, PlannerRemarks, ReplanDiagnostics, ReplanStatus};
 use scenarios::multirotor::Trajectory;
 
 /// Everything that was planned in the loop during a flight.
@@ -10,6 +10,8 @@ pub struct PlanningLog {
     pub replans: Vec<Replan>,
     /// The reference that each vehicle followed, from the start to its arrival or to the end of the flight.
     pub followed: Vec<Trajectory>,
+    /// What is to be said of the planners beyond their results.
+    pub remarks: PlannerRemarks,
 }
 
 /// One call of an in-loop planner and its result.

@@ -1,11 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use scenarios::PlanningClock;
 
 use super::selection::Selection;
 use super::session::Session;
 use crate::error::{Error, Exit};
-use crate::jobs;
+use crate::jobs::{self, Job};
 use crate::plan_source::PlanSource;
 use crate::plan_source::external::ExternalPlanner;
 
@@ -21,6 +22,8 @@ pub struct Run {
     selection: Selection,
     #[command(flatten)]
     planners: PlannerArgs,
+    #[command(flatten)]
+    clock: ClockArgs,
     /// Seed of all random numbers, in place of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -45,6 +48,37 @@ pub struct PlannerArgs {
     time_limit: Option<f64>,
 }
 
+/// The clock of in-loop planners.
+#[derive(Args, Debug)]
+pub struct ClockArgs {
+    /// Planning times of in-loop planners during the flight, in place of the scenario's `simulation.planning.time`
+    /// [default there: modelled]
+    #[arg(long, value_enum, value_name = "CLOCK")]
+    planner_clock: Option<PlannerClock>,
+}
+
+/// Clocks that need no recorded times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PlannerClock {
+    /// The scenario's model of planning times: the same flight on every machine
+    Modelled,
+    /// The wall clock: a slow answer is flown late, and the flight depends on the machine
+    Measured,
+}
+
+impl ClockArgs {
+    /// The job with this clock.
+    pub fn applied_to(&self, mut job: Job) -> Job {
+        if let Some(clock) = self.planner_clock {
+            job.scenario.simulation.planning.time = match clock {
+                PlannerClock::Modelled => PlanningClock::Modelled,
+                PlannerClock::Measured => PlanningClock::Measured,
+            };
+        }
+        job
+    }
+}
+
 const EXAMPLES: &str = "\
 Examples:
   harness run scenarios/fixed-wing/rendezvous-7.toml    one scenario
@@ -66,10 +100,11 @@ impl Run {
     pub fn execute(&self) -> Result<Exit, Error> {
         let plan_sources = self.planners.sources()?;
         let files = self.selection.files()?;
-        let jobs = jobs::load(&files, &plan_sources, self.seed, |scenario| self.selection.is_wanted(scenario));
+        let mut jobs = jobs::load(&files, &plan_sources, self.seed, |scenario| self.selection.is_wanted(scenario));
         if jobs.runnable.is_empty() && jobs.rejected.is_empty() {
             return Err(self.selection.nothing());
         }
+        jobs.runnable = jobs.runnable.into_iter().map(|job| self.clock.applied_to(job)).collect();
         self.session.run(jobs)
     }
 }

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::plan::has_no_plan;
-use super::run::PlannerArgs;
+use super::run::{ClockArgs, PlannerArgs};
 use crate::campaign::failure_threshold::{self, Disturbance, FailureBracket, FailureThreshold};
 use crate::console;
 use crate::error::{Error, Exit};
@@ -29,6 +29,8 @@ pub struct StressCommand {
     over: Vec<Disturbance>,
     #[command(flatten)]
     planners: PlannerArgs,
+    #[command(flatten)]
+    clock: ClockArgs,
     /// Seed of all random numbers, in place of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -54,7 +56,7 @@ impl StressCommand {
     /// Plans, searches, prints and writes.
     pub fn execute(&self) -> Result<Exit, Error> {
         let plan_sources = self.planners.sources()?;
-        let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
+        let job = &self.clock.applied_to(jobs::load_one(&self.scenario, &plan_sources, self.seed)?);
         self.refuse_without_effect(job)?;
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let system = pipeline::plan_once(job, &mut progress);

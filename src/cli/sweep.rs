@@ -5,7 +5,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::plan::has_no_plan;
-use super::run::PlannerArgs;
+use super::run::{ClockArgs, PlannerArgs};
 use super::session::start_threads;
 use crate::campaign::failure_threshold::Disturbance;
 use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
@@ -39,6 +39,8 @@ pub struct SweepCommand {
     partition: Option<Partition>,
     #[command(flatten)]
     planners: PlannerArgs,
+    #[command(flatten)]
+    clock: ClockArgs,
     /// Seed of the first sample, in place of the scenario's; it grows by one from sample to sample
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -101,7 +103,7 @@ impl SweepCommand {
     pub fn execute(&self) -> Result<Exit, Error> {
         start_threads(self.jobs)?;
         let plan_sources = self.planners.sources()?;
-        let job = &jobs::load_one(&self.scenario, &plan_sources, self.seed)?;
+        let job = &self.clock.applied_to(jobs::load_one(&self.scenario, &plan_sources, self.seed)?);
         if let Some(issue) = self
             .dispersions
             .wind

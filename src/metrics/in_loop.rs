@@ -19,6 +19,12 @@ pub struct InLoopMetrics {
     pub kept: usize,
     /// Answers that could not be flown.
     pub rejected: usize,
+    /// Requests without an answer that can be used.
+    #[serde(default)]
+    pub failed: usize,
+    /// What is to be said of the planners beyond their answers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// Iterations per answer, mean.
     pub iterations: Option<f64>,
     /// First iteration with a feasible candidate, mean over the answers that tell.
@@ -43,6 +49,8 @@ pub fn measure(flight: &Flight, log: &PlanningLog) -> InLoopMetrics {
         latest_s: late_s.fold(0.0, f64::max),
         kept: count(|replan| matches!(replan.outcome, ReplanStatus::Kept { .. })),
         rejected: count(|replan| matches!(replan.outcome, ReplanStatus::Rejected { .. })),
+        failed: count(|replan| matches!(replan.outcome, ReplanStatus::Failed { .. })),
+        remarks: log.remarks.notes.iter().chain(&log.remarks.failure).cloned().collect(),
         iterations: mean(log.replans.iter().map(|replan| replan.diagnostics.iterations as f64)),
         first_feasible: mean(
             log.replans.iter().filter_map(|replan| replan.diagnostics.first_feasible).map(|iteration| iteration as f64),

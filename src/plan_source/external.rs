@@ -23,8 +23,10 @@ use self::in_loop::ExternalSession;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{Guidance, PlannerOutput};
 
-/// Version of the protocol.
-pub const PROTOCOL: u64 = 1;
+/// Version of the protocol. Replies of version 1 are read as well.
+pub const PROTOCOL: u64 = 2;
+/// Oldest version of replies that are read.
+const OLDEST_PROTOCOL: u64 = 1;
 /// Default time limit of a plan, s.
 const DEFAULT_TIME_LIMIT_S: f64 = 60.0;
 

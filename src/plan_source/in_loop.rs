@@ -6,14 +6,20 @@ use sim::{PlanningLog, Replan};
 
 /// The plan of an in-loop flight: for every vehicle the references that it followed, one after the other.
 ///
-/// There is no plan if a vehicle never received a reference that could be flown.
+/// There is no plan if a vehicle never received a reference that could be flown. It is not converged if a planner failed.
 pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog) -> Plan {
     let idle = (0..scenario.vehicles.len()).find(|index| !answers(log, *index).any(is_flown));
     let wall_s = |vehicle: usize| answers(log, vehicle).map(|replan| replan.wall_s).sum::<f64>();
     let walls_s: Vec<f64> = (0..scenario.vehicles.len()).map(wall_s).collect();
+    let failure = log.replans.iter().find_map(failure_reason);
+    let status = match (idle, &failure) {
+        (Some(_), _) => PlanStatus::NoPlan,
+        (None, Some(_)) => PlanStatus::NotConverged,
+        (None, None) => PlanStatus::Solved,
+    };
     Plan {
-        status: if idle.is_some() { PlanStatus::NoPlan } else { PlanStatus::Solved },
-        reason: idle.map(|index| idle_reason(scenario, log, index)),
+        status,
+        reason: idle.map(|index| idle_reason(scenario, log, index)).or(failure),
         timings: PlanTimings {
             wall_s: walls_s.iter().sum(),
             distributed_s: walls_s.iter().copied().fold(0.0, f64::max),
@@ -27,6 +33,13 @@ pub fn is_flown(replan: &Replan) -> bool {
     matches!(replan.outcome, ReplanStatus::InTime | ReplanStatus::Late { .. })
 }
 
+fn failure_reason(replan: &Replan) -> Option<String> {
+    match &replan.outcome {
+        ReplanStatus::Failed { reason } => Some(reason.clone()),
+        _ => None,
+    }
+}
+
 fn answers(log: &PlanningLog, vehicle: usize) -> impl Iterator<Item = &Replan> {
     log.replans.iter().filter(move |replan| replan.vehicle == vehicle)
 }
@@ -35,7 +48,7 @@ fn idle_reason(scenario: &Scenario, log: &PlanningLog, vehicle: usize) -> String
     let name = &scenario.vehicles[vehicle].name;
     let last = answers(log, vehicle).last();
     let why = last.map_or("it was never asked to plan", |replan| match &replan.outcome {
-        ReplanStatus::Rejected { reason } | ReplanStatus::Kept { reason } => reason,
+        ReplanStatus::Rejected { reason } | ReplanStatus::Kept { reason } | ReplanStatus::Failed { reason } => reason,
         ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Late { .. } => "it gave no reason",
     });
     format!("the planner of {name} never gave a reference that could be flown; the last result: {why}")

@@ -120,6 +120,8 @@ fn amount(kind: &EventKind) -> Option<f64> {
         | EventKind::CableSlack
         | EventKind::Discovered { .. }
         | EventKind::ReplanRejected { .. }
+        | EventKind::ReplanFailed { .. }
+        | EventKind::PlannerRemark { .. }
         | EventKind::Arrived => None,
     }
 }
@@ -135,6 +137,8 @@ fn crash(event: &Event) -> Option<(f64, impl Iterator<Item = &String>)> {
         | EventKind::Discovered { .. }
         | EventKind::ReplanLate { .. }
         | EventKind::ReplanRejected { .. }
+        | EventKind::ReplanFailed { .. }
+        | EventKind::PlannerRemark { .. }
         | EventKind::Arrived => None,
     }
 }

@@ -14,7 +14,7 @@ use crate::plan_source::in_loop::is_flown;
 use crate::verdict::compare::exceeds;
 
 /// What rounding leaves of two instants that should be the same, s.
-const ROUNDING_S: f64 = 1e-6;
+pub const ROUNDING_S: f64 = 1e-6;
 /// What rounding leaves of two positions that should be the same, m.
 const ROUNDING_M: f64 = 1e-6;
 
@@ -121,7 +121,10 @@ impl Turns<'_> {
         let is_told = match replan.outcome {
             ReplanStatus::InTime => late_s <= ROUNDING_S,
             ReplanStatus::Late { by_s } => late_s > 0.0 && !exceeds((by_s - late_s).abs(), ROUNDING_S),
-            ReplanStatus::None | ReplanStatus::Kept { .. } | ReplanStatus::Rejected { .. } => true,
+            ReplanStatus::None
+            | ReplanStatus::Kept { .. }
+            | ReplanStatus::Rejected { .. }
+            | ReplanStatus::Failed { .. } => true,
         };
         (!is_told).then(|| {
             format!("the answer that was asked for at {asked_s} s was {late_s:.3} s late; its log says otherwise")
@@ -171,7 +174,7 @@ fn end_defect(followed: &Trajectory, end_s: f64) -> Option<String> {
 }
 
 /// The answers that came into force: a new one takes the place of one that still waits for its instant.
-fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
+pub fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
     let flown: Vec<&Replan> =
         answers.iter().copied().filter(|replan| is_flown(replan) && !replan.nodes.is_empty()).collect();
     let next_s: Vec<f64> = flown.iter().skip(1).map(|next| next.asked_s).chain([f64::INFINITY]).collect();
@@ -182,11 +185,22 @@ fn taken<'a>(answers: &'a [&'a Replan]) -> impl Iterator<Item = &'a Replan> {
         .map(|pair| pair.0)
 }
 
-/// Late and rejected answers of which there is no event.
+/// Late, rejected and missing answers of which there is no event. Equal failures in a row have one.
 fn untold(flight: &Flight, log: &PlanningLog) -> Option<String> {
-    let is_event =
-        |event: &&sim::Event| matches!(event.kind, EventKind::ReplanLate { .. } | EventKind::ReplanRejected { .. });
-    let is_odd = |replan: &&Replan| matches!(replan.outcome, ReplanStatus::Late { .. } | ReplanStatus::Rejected { .. });
-    let (told, odd) = (flight.events.iter().filter(is_event).count(), log.replans.iter().filter(is_odd).count());
-    (told != odd).then(|| format!("{odd} answers were late or rejected, and the log tells of {told}"))
+    let is_event = |event: &&sim::Event| {
+        use EventKind::{ReplanFailed, ReplanLate, ReplanRejected};
+        matches!(event.kind, ReplanLate { .. } | ReplanRejected { .. } | ReplanFailed { .. })
+    };
+    let previous = |index: usize| {
+        let vehicle = log.replans[index].vehicle;
+        log.replans[..index].iter().rfind(|earlier| earlier.vehicle == vehicle)
+    };
+    let is_odd = |(index, replan): &(usize, &Replan)| match replan.outcome {
+        ReplanStatus::Late { .. } | ReplanStatus::Rejected { .. } => true,
+        ReplanStatus::Failed { .. } => previous(*index).is_none_or(|earlier| earlier.outcome != replan.outcome),
+        ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Kept { .. } => false,
+    };
+    let told = flight.events.iter().filter(is_event).count();
+    let odd = log.replans.iter().enumerate().filter(is_odd).count();
+    (told != odd).then(|| format!("{odd} answers were late, rejected or missing, and the log tells of {told}"))
 }

@@ -19,7 +19,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, Provenance, collision, flight_integrity, goal, separation};
+use crate::verdict::{Check, Provenance, collision, flight_integrity, goal, in_loop_planner, separation};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
@@ -63,6 +63,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
+    ("flight.planner", |spec, it| Ok(in_loop_planner::check(spec, it.scenario, it.flight()?))),
     ("flight.separation", |spec, it| {
         separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Spatial)
     }),

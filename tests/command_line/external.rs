@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use crate::workplace::{PAIR, Workplace, code, has_python, stderr, stdout};
 
@@ -42,6 +42,131 @@ fn an_in_loop_planner_flies_its_scenario() {
     let output = workplace.harness(&["run", &own, "--record", "none", "--planner-command", &command, "--in-loop"]);
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
     assert!(stdout(&output).contains("PASS  online · online"), "{}", stdout(&output));
+}
+
+/// Runs the scenario of the in-loop example with its planner, changed: `from` is replaced by `to`.
+#[track_caller]
+fn online(from: &str, to: &str, arguments: &[&str]) -> (Workplace, Output) {
+    let example = fs::read_to_string(example("online.py")).unwrap();
+    let script = example.replace(from, to);
+    assert!(script != example, "`{from}` is not in the example");
+    let scenario = fs::read_to_string(self::example("online.toml")).unwrap();
+    let workplace = Workplace::new(&[("online.toml", &scenario), ("theirs.py", &script)]);
+    let command = ["run", "online.toml", "--record", "none", "--planner-command", "python3 theirs.py", "--in-loop"];
+    let output = workplace.harness(&[&command, arguments].concat());
+    (workplace, output)
+}
+
+fn report(workplace: &Workplace) -> serde_json::Value {
+    workplace.json("out/online/theirs/report.json")
+}
+
+fn planner_check(report: &serde_json::Value) -> &serde_json::Value {
+    report["checks"].as_array().unwrap().iter().find(|check| check["name"] == "flight.planner").unwrap()
+}
+
+/// The line of the example before which faults are inserted.
+const REPLY: &str = "    print(json.dumps";
+
+#[test]
+fn an_in_loop_planner_that_crashes_fails_a_check() {
+    if !has_python("json") {
+        return;
+    }
+    let fault = "    if request['t_s'] > 3: raise RuntimeError('out of memory')\n    print(json.dumps";
+    let (workplace, output) = online(REPLY, fault, &[]);
+    let page = stdout(&output);
+    assert_eq!(code(&output), 1, "{page}{}", stderr(&output));
+    assert!(page.contains("FAIL  online · theirs") && page.contains("flight.planner"), "{page}");
+    let report = report(&workplace);
+    let check = planner_check(&report);
+    assert_eq!((&check["status"], &check["at_s"]), (&"fail".into(), &3.25.into()), "{check}");
+    let reason = "it ended with exit code 1; the last line in planner.log: RuntimeError: out of memory";
+    assert!(check["reason"].as_str().unwrap().ends_with(reason), "{check}");
+    assert_eq!((&report["plan"]["status"], &report["plan"]["reason"]), (&"not-converged".into(), &reason.into()));
+    assert!(report["metrics"]["in_loop"]["failed"].as_u64().unwrap() > 10);
+    let junit = fs::read_to_string(workplace.path("out/junit.xml")).unwrap();
+    assert!(junit.contains("RuntimeError: out of memory"), "{junit}");
+}
+
+#[test]
+fn an_in_loop_planner_without_ids_is_read_and_told() {
+    if !has_python("json") {
+        return;
+    }
+    let chatty = "    print('[INFO] replanning')\n    print(json.dumps";
+    let (workplace, output) = online(REPLY, chatty, &[]);
+    assert_eq!(code(&output), 0, "{}", stdout(&output));
+    assert!(stdout(&output).contains("are no replies: "), "{}", stdout(&output));
+    assert!(report(&workplace)["metrics"]["in_loop"]["remarks"][0].as_str().unwrap().contains("`[INFO] replanning`"));
+    let (workplace, output) = online("\"id\": request[\"id\"], ", "", &[]);
+    assert_eq!(code(&output), 0, "{}", stdout(&output));
+    assert!(stdout(&output).contains("protocol 1"), "{}", stdout(&output));
+    let junit = fs::read_to_string(workplace.path("out/junit.xml")).unwrap();
+    assert!(junit.contains("protocol 1"), "{junit}");
+}
+
+#[test]
+fn in_loop_replies_that_do_not_match_fail_a_check() {
+    if !has_python("json") {
+        return;
+    }
+    for (from, to, reason) in [
+        ("\"id\": request[\"id\"]", "\"id\": request[\"id\"] - 1", "has the id 0, and the request has 1"),
+        ("flush=True)", "flush=True); print('{\"keep\": \"\"}', flush=True)", "repl"),
+        ("\"fly\": ramp(", "\"path\": ramp(", "its reply is invalid: unknown field `path`"),
+        ("request[\"takes_effect_s\"]", "request[\"takes_effect_s\"] + 1", "after it takes effect"),
+        ("ramp(here, ", "ramp([here[0] - 0.5, *here[1:]], ", "0.500 m away from the reference in force"),
+        (
+            "own[\"planning_limits\"])}",
+            "{\"speed_mps\": 9, \"acceleration_mps2\": 3})}",
+            "the vehicle's limit is 3 m/s",
+        ),
+    ] {
+        let (workplace, output) = online(from, to, &[]);
+        assert_eq!(code(&output), 1, "{to}: {}", stdout(&output));
+        let report = report(&workplace);
+        let check = planner_check(&report);
+        assert!(check["status"] == "fail" && check["reason"].as_str().unwrap().contains(reason), "{to}: {check}");
+    }
+}
+
+#[test]
+fn a_slow_in_loop_planner_is_told_and_flown_late_by_the_wall_clock() {
+    if !has_python("json") {
+        return;
+    }
+    let slow = "    import time; time.sleep(0.2)\n    print(json.dumps";
+    let (workplace, output) = online(REPLY, slow, &[]);
+    assert_eq!(code(&output), 0, "{}", stdout(&output));
+    assert!(stdout(&output).contains("took longer on this machine than their deadline"), "{}", stdout(&output));
+    let report = report(&workplace);
+    let (in_loop, times) = (&report["metrics"]["in_loop"], &report["timings"]["replans"]);
+    assert_eq!((&in_loop["late"], &times["over_deadline"]), (&0.into(), &in_loop["replans"]));
+    let (workplace, _) = online(REPLY, slow, &["--planner-clock", "measured"]);
+    let report = self::report(&workplace);
+    let in_loop = &report["metrics"]["in_loop"];
+    assert!(in_loop["late"].as_u64().unwrap() > 0 && in_loop["latest_s"].as_f64().unwrap() > 0.1, "{in_loop}");
+}
+
+/// The example in C++, compiled as its first lines say.
+#[test]
+#[cfg(unix)]
+fn the_example_in_cpp_flies_its_scenario() {
+    let has_compiler = Command::new("c++").arg("--version").output().is_ok_and(|output| output.status.success());
+    if !has_compiler {
+        return;
+    }
+    let scenario = fs::read_to_string(example("online.toml")).unwrap();
+    let workplace = Workplace::new(&[("online.toml", &scenario)]);
+    let mut compiler = Command::new("c++");
+    compiler.args(["-std=c++17", "-Wall", "-Werror", "-o"]).arg(workplace.path("online")).arg(example("online.cpp"));
+    assert!(compiler.status().unwrap().success());
+    let output =
+        workplace.harness(&["run", "online.toml", "--record", "none", "--planner-command", "./online", "--in-loop"]);
+    assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
+    let in_loop = &workplace.json("out/online/online/report.json")["metrics"]["in_loop"];
+    assert!(in_loop["remarks"].is_null() && in_loop["failed"] == 0, "{in_loop}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{Check, Outcome, Status, Verdict, judge};
-use scenarios::in_loop::{InLoopPlanner, Node, Observation, ReplanResult};
+use scenarios::in_loop::{InLoopPlanner, Node, Observation, PlannerRemarks, ReplanResult};
 use scenarios::{Plan, PlanStatus, Scenario};
 use sim::{EventKind, Flight, fly};
 
@@ -79,25 +79,113 @@ fn who_flies_to_his_goal_passes_and_is_asked_for_no_plan() {
     assert!((plan.flight_time_s().unwrap() - 7.0).abs() < 0.3, "{:?}", plan.flight_time_s());
 }
 
-/// References of 0.3 s that end at 1 m/s: until the next one takes over, the vehicle is asked to stand.
+/// References of 0.4 s from rest to 1 m/s: until the next one takes over, the vehicle is asked to stand.
 #[test]
 fn what_was_followed_is_what_was_asked_for_also_where_references_end_in_motion() {
     let mut scenario = scenario();
     scenario.simulation.planning.period_s = 0.5;
     let (_, _, verdict) = flown(&scenario, |_| {
         Box::new(Stubborn(|observation| {
-            let velocity_mps = [1.0, 0.0, 0.0];
             let [x_m, y_m, z_m] = observation.position_m;
-            let node = |after_s: f64| Node {
+            let node = |after_s: f64, by_m: f64, speed_mps: f64| Node {
                 t_s: observation.takes_effect_s + after_s,
-                position_m: [x_m + after_s, y_m, z_m],
-                velocity_mps,
+                position_m: [x_m + by_m, y_m, z_m],
+                velocity_mps: [speed_mps, 0.0, 0.0],
             };
-            ReplanResult::fly(vec![node(0.0), node(0.3)])
+            ReplanResult::fly(vec![node(0.0, 0.0, 0.0), node(0.4, 0.2, 1.0)])
         }))
     });
     let complete = check(&verdict, "flight.complete");
     assert_eq!(complete.status, Status::Pass, "{complete:?}");
+    let planner = check(&verdict, "flight.planner");
+    assert_eq!((planner.status, planner.at_s.map(|at_s| (at_s * 100.0).round())), (Status::Fail, Some(45.0)));
+    assert!(planner.reason.as_ref().unwrap().contains("a reference ended at 1.000 m/s"), "{planner:?}");
+}
+
+/// Flies straight to its goal, and does something else in one of its turns.
+struct OnceOtherwise {
+    straight: Straight,
+    turn: usize,
+    otherwise: fn(&Observation<'_>) -> ReplanResult,
+    remarks: PlannerRemarks,
+}
+
+impl InLoopPlanner for OnceOtherwise {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
+        self.turn = self.turn.wrapping_sub(1);
+        if self.turn == 0 { (self.otherwise)(observation) } else { self.straight.replan(observation) }
+    }
+
+    fn finish(&mut self) -> PlannerRemarks {
+        self.remarks.clone()
+    }
+}
+
+fn once_otherwise(
+    turn: usize,
+    otherwise: fn(&Observation<'_>) -> ReplanResult,
+    remarks: &PlannerRemarks,
+) -> (Plan, Flight, Verdict) {
+    let mut scenario = scenario();
+    scenario.fleet.simultaneous_arrival = false;
+    let goals: Vec<[f64; 3]> = scenario.vehicles.iter().map(|vehicle| vehicle.goal.position_m()).collect();
+    flown(&scenario, |index| {
+        let (straight, remarks) = (Straight { goal_m: goals[index] }, remarks.clone());
+        Box::new(OnceOtherwise { straight, turn: if index == 1 { turn } else { usize::MAX }, otherwise, remarks })
+    })
+}
+
+#[test]
+fn a_planner_that_fails_once_fails_a_check_although_the_vehicles_arrive() {
+    for (otherwise, reason) in [
+        (
+            (|_| ReplanResult::failed("it crashed")) as fn(&Observation<'_>) -> ReplanResult,
+            "no reply that can be used: it crashed",
+        ),
+        (
+            |seen| {
+                let moved = |node: &Node| Node { position_m: node.position_m.map(|x| x + 1.0), ..*node };
+                ReplanResult::fly(seen.in_force.iter().map(moved).collect())
+            },
+            "a reference that cannot be flown: at 1.430 s it is 1.732 m away",
+        ),
+    ] {
+        let (plan, flight, verdict) = once_otherwise(6, otherwise, &PlannerRemarks::default());
+        let bad: Vec<&str> =
+            verdict.checks.iter().filter(|check| check.is_bad()).map(|check| check.name.as_str()).collect();
+        assert_eq!((verdict.outcome, bad.as_slice()), (Outcome::Fail, ["flight.planner"].as_slice()));
+        let planner = check(&verdict, "flight.planner");
+        assert_eq!(
+            (planner.value, planner.at_s.map(|at_s| (at_s * 100.0).round() / 100.0), planner.between.as_slice()),
+            (Some(1.0), Some(1.38), ["uav-2".into()].as_slice())
+        );
+        assert!(planner.reason.as_ref().unwrap().starts_with(reason), "{planner:?}");
+        assert!(flight.events.iter().any(|event| event.kind == EventKind::Arrived));
+        assert_eq!(plan.status == PlanStatus::NotConverged, reason.contains("crashed"));
+    }
+}
+
+#[test]
+fn remarks_are_told_and_left_over_replies_fail() {
+    let keep = |_: &Observation<'_>| ReplanResult::keep("on the way");
+    let notes = vec!["3 lines are no replies".to_owned()];
+    let (_, _, verdict) = once_otherwise(6, keep, &PlannerRemarks { notes: notes.clone(), failure: None });
+    assert_eq!(verdict.outcome, Outcome::Pass);
+    let failure = Some("1 of its replies is left over".to_owned());
+    let (_, _, verdict) = once_otherwise(6, keep, &PlannerRemarks { notes, failure });
+    assert_eq!(check(&verdict, "flight.planner").reason.as_deref(), Some("1 of its replies is left over"));
+    assert_eq!(verdict.outcome, Outcome::Fail);
+}
+
+#[test]
+fn a_failure_after_all_have_arrived_is_told_and_does_not_decide() {
+    let crash = |_: &Observation<'_>| ReplanResult::failed("it crashed");
+    // Arrival at about 7 s, and one more second to coast: turn 31 of the second vehicle is at 7.625 s.
+    let (plan, _, verdict) = once_otherwise(31, crash, &PlannerRemarks::default());
+    assert!(plan.flight_time_s().is_some_and(|time_s| time_s < 7.5), "{:?}", plan.flight_time_s());
+    let planner = check(&verdict, "flight.planner");
+    assert_eq!((planner.status, verdict.outcome), (Status::Pass, Outcome::Pass));
+    assert!(planner.reason.as_ref().unwrap().contains("after the flight's planned end"), "{planner:?}");
 }
 
 #[test]

@@ -5,10 +5,12 @@
 //! ```
 
 mod trajectory;
+mod unique_keys;
 
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
+use self::unique_keys::UniqueKeys;
 use super::columns::Columns;
 use super::{ColumnTable, PlanDocument, PlanHeader, PlanIssue};
 use crate::{Issue, Plan, PlanStatus, closest_name};
@@ -31,7 +33,8 @@ const KEYS: [&str; 12] = [
 
 /// Reads the text.
 pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<PlanIssue>> {
-    let document: Value = serde_json::from_str(text).map_err(|error| vec![syntax(&error, text)])?;
+    let document: UniqueKeys = serde_json::from_str(text).map_err(|error| vec![syntax(&error, text)])?;
+    let UniqueKeys(document) = document;
     let Value::Object(document) = document else {
         let issue = issue("document", describe(&document), "an object with `trajectories`");
         return Err(vec![PlanIssue::new("", issue)]);
@@ -79,7 +82,7 @@ fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHea
         field("timings", "an object with `wall_s`"),
     ];
     let [scenario, planner, status, reason, objective, history, diagnostics, timings] = fields;
-    PlanHeader {
+    let header = PlanHeader {
         scenario: optional(scenario, issues),
         planner: optional(planner, issues),
         status: optional(status, issues),
@@ -88,7 +91,23 @@ fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHea
         history: optional(history, issues).unwrap_or_default(),
         diagnostics: optional(diagnostics, issues).unwrap_or_default(),
         timings: optional(timings, issues),
-    }
+    };
+    issues.extend(negative_times(&header));
+    header
+}
+
+/// Planning times that no clock measures.
+fn negative_times(header: &PlanHeader) -> Vec<PlanIssue> {
+    let timings = header.timings.iter();
+    let timings = timings.flat_map(|it| {
+        [("timings.wall_s".to_owned(), it.wall_s), ("timings.distributed_s".to_owned(), it.distributed_s)]
+    });
+    let history = header.history.iter().enumerate().flat_map(|(index, it)| {
+        let field = |name: &str| format!("history[{index}].{name}");
+        [(field("wall_s"), it.wall_s), (field("distributed_s"), it.distributed_s)]
+    });
+    let negative = timings.chain(history).filter(|(_, time_s)| *time_s < 0.0);
+    negative.map(|(field, time_s)| PlanIssue::new("", issue(&field, format!("{time_s} s"), "0 s or more"))).collect()
 }
 
 /// The value as a `T`; `None` for `null`, and for another type, which is added to `issues`.

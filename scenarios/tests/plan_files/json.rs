@@ -36,7 +36,18 @@ fn wrong_json_is_rejected_with_the_field() {
         &["scenario: found \"other\"", "\"pair\""],
     );
     assert_json_rejected("\"status\"", "\"schema\": 2, \"status\"", &["schema: found 2"]);
+    let negative = "\"timings\": {\"wall_s\": 1, \"distributed_s\": -2}, \"status\"";
+    assert_json_rejected("\"status\"", negative, &["timings.distributed_s: found -2 s, expected 0 s or more"]);
     assert_json_rejected("\"vehicle\": \"uav-1\", ", "", &["trajectories[0].vehicle: found nothing"]);
+    assert_json_rejected("\"status\"", "\"status\": \"no-plan\", \"status\"", &["the key `status` twice"]);
+    assert_json_rejected("\"x_m\"", "\"x_m\": [5, 6], \"x_m\"", &["plan.json:2:", "the key `x_m` twice in one object"]);
+    assert_json_rejected(
+        "\"x_m\"",
+        "\"t_s\": [0, 60], \"x_m\"",
+        &["trajectories[0].t_s: found the times a second time"],
+    );
+    let states = "\"states\": [{\"x_m\": 5}, {\"x_m\": 6}], \"x_m\"";
+    assert_json_rejected("\"x_m\"", states, &["trajectories[0].x_m: found the values a second time"]);
     for text in ["", "[]", "3", "{", "{}"] {
         assert!(parse_json("plan.json", text, &scenario()).is_err(), "{text}");
     }

@@ -3,7 +3,7 @@ use scenarios::multirotor::Plant;
 use super::multirotor_sim::MultirotorSim;
 use super::obstacles::Obstacles;
 use super::reference::Reference;
-use super::state::MultirotorState;
+use super::state::{MultirotorState, NavigationState};
 use crate::collision::time_of_impact;
 use crate::flight::{Event, EventKind, VehicleLog};
 use crate::plant_steps::PlantSteps;
@@ -60,6 +60,12 @@ impl Fleet {
     pub fn measure(&mut self, truths: &[Option<MultirotorState>]) -> Vec<Option<Measurement>> {
         let multirotors = self.multirotors.iter_mut().zip(truths);
         multirotors.map(|(multirotor, truth)| Some(multirotor.measure(truth.as_ref()?))).collect()
+    }
+
+    /// What the vehicles' controllers know of their motions.
+    pub fn navigation(&self, measured: &[Option<Measurement>]) -> Vec<Option<NavigationState>> {
+        let multirotors = self.multirotors.iter().zip(measured);
+        multirotors.map(|(multirotor, measured)| Some(multirotor.navigation((*measured)?))).collect()
     }
 
     /// Computes the controls of the coming step, and logs.

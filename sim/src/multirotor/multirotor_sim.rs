@@ -1,9 +1,9 @@
-use nalgebra::{Vector3, Vector4};
+use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use scenarios::multirotor::{GRAVITY_MPS2, Model, Plant};
 use scenarios::{Vehicle, slung_load};
 
 use super::reference::{Reference, ReferencePoint};
-use super::state::MultirotorState;
+use super::state::{MultirotorState, NavigationState};
 use super::tracker::{Autopilot, Tracker, jerk_limited_mps2, limited_mps2, upright_towards};
 use crate::actuation::{Actuation, Commanded};
 use crate::air::{Air, DragBody};
@@ -37,6 +37,8 @@ pub(super) struct MultirotorSim {
 struct QuadrotorSim {
     autopilot: Autopilot,
     delay: Delay<AttitudeState>,
+    /// Attitude as measured last.
+    measured: UnitQuaternion<f64>,
     /// Commanded thrusts, inside their limits, N.
     command_n: Vector4<f64>,
     rotors: LaggedRotors,
@@ -47,7 +49,7 @@ impl QuadrotorSim {
         let autopilot = Autopilot::new(model);
         let command_n = autopilot.hover_n();
         let rotors = LaggedRotors::new(command_n, autopilot.airframe().rotor_time_constant_s);
-        Self { autopilot, delay, command_n, rotors }
+        Self { autopilot, delay, measured: AttitudeState::level().attitude, command_n, rotors }
     }
 }
 
@@ -101,6 +103,20 @@ impl MultirotorSim {
         self.delay.pass(self.sensors.measure(truth.position_m, truth.velocity_mps))
     }
 
+    /// What its controller knows of its motion.
+    pub fn navigation(&self, measured: Measurement) -> NavigationState {
+        let world_from_body = match &self.quadrotor {
+            None => self.thrust_attitude(),
+            Some(quadrotor) => quadrotor.measured,
+        };
+        NavigationState { measured, acceleration_mps2: self.acceleration_mps2, world_from_body }
+    }
+
+    /// A point mass is drawn, and navigates, as if it tilted.
+    fn thrust_attitude(&self) -> UnitQuaternion<f64> {
+        upright_towards(&(self.acceleration_mps2 + Vector3::z() * GRAVITY_MPS2))
+    }
+
     /// Computes the control of the coming step, and logs. Returns an event with its time, s, if there is one.
     pub fn decide(
         &mut self,
@@ -133,13 +149,14 @@ impl MultirotorSim {
         desired_mps2: &Vector3<f64>,
         limited_mps2: &Vector3<f64>,
     ) -> Actuation {
-        let Some(QuadrotorSim { autopilot, delay, command_n, .. }) = &mut self.quadrotor else {
+        let Some(QuadrotorSim { autopilot, delay, measured, command_n, .. }) = &mut self.quadrotor else {
             return Actuation::Acceleration(Commanded {
                 command: (*desired_mps2).into(),
                 control: (*limited_mps2).into(),
             });
         };
         let attitude = delay.pass(self.sensors.measure_attitude(&truth.attitude_state));
+        *measured = attitude.attitude;
         let [desired_n, limited_n] = autopilot.thrusts_n(&attitude, desired_mps2, limited_mps2);
         *command_n = limited_n;
         let control = |thrust_n: Vector4<f64>| slung_load::Control { thrust_n: thrust_n.into() };
@@ -194,9 +211,8 @@ impl MultirotorSim {
         reference: &ReferencePoint,
         actuation: Actuation,
     ) -> Sample {
-        // A point mass is drawn as if it tilted.
         let attitude = match self.quadrotor {
-            None => upright_towards(&(self.acceleration_mps2 + Vector3::z() * GRAVITY_MPS2)),
+            None => self.thrust_attitude(),
             Some(_) => truth.attitude_state.attitude,
         };
         Sample {

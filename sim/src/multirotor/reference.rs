@@ -1,6 +1,9 @@
 use nalgebra::Vector3;
 use scenarios::in_loop::Node;
 
+/// Times that differ by less than this, s, are equal up to rounding.
+const ROUNDING_S: f64 = 1e-9;
+
 /// Nodes as a continuous motion, for a tracker to follow: between two nodes the cubic with their positions and
 /// velocities; hover before the first node and after the last one.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +38,14 @@ impl Reference {
     /// Its nodes.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    /// The reference just before `t_s`, s: at its end, up to rounding, the end itself and not the hover after it.
+    pub fn before(&self, t_s: f64) -> ReferencePoint {
+        match self.nodes.last() {
+            Some(last) if (last.t_s - t_s).abs() <= ROUNDING_S => ReferencePoint { t_s, ..hovering(last, last.t_s) },
+            _ => self.at(t_s),
+        }
     }
 
     /// The reference at `t_s`, s. At a discontinuity, the limit from the right.
@@ -102,5 +113,16 @@ mod tests {
         }
         assert_eq!(reference.at(2.0).position_m, truth(1.0).0);
         assert_eq!(reference.at(2.0).velocity_mps, Vector3::zeros());
+    }
+
+    #[test]
+    fn just_before_its_end_a_reference_has_not_stopped() {
+        let node = |t_s: f64| Node { t_s, position_m: [t_s, 0.0, 1.0], velocity_mps: [1.0, 0.0, 0.0] };
+        let reference = Reference::new(vec![node(2.0), node(2.3)]);
+        let end_s = 2.300_000_000_000_000_3;
+        assert!(end_s > 2.3 && reference.at(end_s).velocity_mps == Vector3::zeros());
+        assert_eq!(reference.before(end_s).velocity_mps.x, 1.0);
+        assert_eq!(reference.before(end_s).t_s, end_s);
+        assert_eq!(reference.before(2.31).velocity_mps, Vector3::zeros());
     }
 }

@@ -5,10 +5,9 @@ use super::fleet::Fleet;
 use super::in_loop::PlanningLoop;
 use super::recorded::RecordedReferences;
 use super::reference::Reference;
-use super::state::MultirotorState;
+use super::state::{MultirotorState, NavigationState};
 use crate::flight::{Event, EventKind, FleetLog, InLoopLog};
 use crate::request::{FlightRequest, Guidance};
-use crate::sensors::Measurement;
 
 /// Simulates multirotors that fly a plan, or replan in the loop until all have arrived and coasted.
 pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, progress: &mut dyn FnMut(f64)) -> FleetLog {
@@ -20,7 +19,7 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, prog
         let t_s = request.time_s(step);
         let truths = fleet.states();
         let measured = fleet.measure(&truths);
-        fleet.events.extend(references.advance(t_s, &truths, &measured));
+        fleet.events.extend(references.advance(t_s, &truths, || fleet.navigation(&measured)));
         fleet.decide(t_s, &truths, &measured, |index| references.of(index));
         if references.are_in_loop() && arrived_s.is_none() && have_arrived(request.scenario, &truths) {
             arrived_s = Some(t_s);
@@ -37,7 +36,11 @@ pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, prog
         step += 1;
     }
     let end_s = arrived_s.unwrap_or(request.time_s(step.min(last_step)));
-    let in_loop = references.into_planning().map(|planning| InLoopLog { end_s, planning: planning.finish(end_s) });
+    let in_loop = references.into_planning().map(|planning| {
+        let (planning, events) = planning.finish(end_s);
+        fleet.events.extend(events);
+        InLoopLog { end_s, planning }
+    });
     let (vehicles, events) = fleet.finish();
     FleetLog { vehicles, events, in_loop }
 }
@@ -72,11 +75,11 @@ impl References {
         &mut self,
         t_s: f64,
         truths: &[Option<MultirotorState>],
-        measured: &[Option<Measurement>],
+        navigation: impl FnOnce() -> Vec<Option<NavigationState>>,
     ) -> Vec<Event> {
         match self {
             Self::Planned(_) => Vec::new(),
-            Self::InLoop(planning) => planning.advance(t_s, truths, measured),
+            Self::InLoop(planning) => planning.advance(t_s, truths, &navigation()),
             Self::Recorded(recorded) => {
                 recorded.update(t_s);
                 Vec::new()

@@ -24,6 +24,30 @@ pub(super) fn overclaim(report: &Report) -> Option<String> {
     is_false.then(|| "the planner calls this plan solved, but it fails checks of the group `plan`".to_owned())
 }
 
+/// What a reader should know beyond the checks: of planning in the loop.
+pub(super) fn notes(report: &Report) -> Vec<String> {
+    let Some(in_loop) = &report.metrics.in_loop else { return Vec::new() };
+    let late = (in_loop.late > 0).then(|| {
+        format!(
+            "planner: {} of {} answers were late, by {} at most; they were entered in their middle",
+            in_loop.late,
+            in_loop.replans,
+            quantity(in_loop.latest_s, "s")
+        )
+    });
+    let slow = report.timings.replans.as_ref().filter(|times| times.over_deadline > in_loop.late).map(|times| {
+        format!(
+            "planner: {} of {} answers took longer on this machine than their deadline, {} at most, and were flown in time: \
+             with `--planner-clock measured` they are late",
+            times.over_deadline,
+            in_loop.replans,
+            quantity(times.max_s, "s")
+        )
+    });
+    let remarks = in_loop.remarks.iter().map(|remark| format!("planner: {remark}"));
+    late.into_iter().chain(slow).chain(remarks).collect()
+}
+
 /// Failed and undecided checks that decide.
 pub(super) fn failed(report: &Report) -> impl Iterator<Item = &Check> {
     report.checks.iter().filter(|check| check.is_bad() && !check.advisory)

@@ -35,6 +35,10 @@ fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
         suite.add_test_case(case(report, "plan", status));
     }
     suite.add_test_cases(report.checks.iter().map(|check| case(report, &check.name, status(report, check))));
+    let notes = headline::notes(report);
+    if !notes.is_empty() {
+        suite.set_system_out(notes.join("\n"));
+    }
     let losses = comparison.map(|comparison| comparison.losses(&report.scenario, &report.planner));
     suite.add_test_cases(losses.map(|losses| case(report, "baseline", against_baseline(&losses))));
     suite

@@ -62,7 +62,8 @@ fn details(report: &Report) -> Vec<String> {
     let header =
         ["| check | measured | limit | margin | where, remarks |", "|---|---:|---:|---:|---|"].map(str::to_owned);
     let rows = headline::failed(report).map(check_row);
-    [title, String::new()].into_iter().chain(header).chain(rows).chain([String::new()]).collect()
+    let notes = headline::notes(report).into_iter().flat_map(|note| [String::new(), note]);
+    [title, String::new()].into_iter().chain(header).chain(rows).chain(notes).chain([String::new()]).collect()
 }
 
 fn check_row(check: &Check) -> String {

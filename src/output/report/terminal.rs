@@ -36,9 +36,9 @@ pub fn report(report: &Report, log: Option<&str>) -> String {
     ));
     let warnings: Vec<&str> = headline::warnings(report).map(|check| check.name.as_str()).collect();
     if !warnings.is_empty() {
-        lines.push(format!("{} advisory checks failed: {}", painted("note", AnsiColor::Yellow), warnings.join(", ")));
+        lines.push(note(&format!("advisory checks failed: {}", warnings.join(", "))));
     }
-    lines.extend(headline::overclaim(report).map(|text| format!("{} {text}", painted("note", AnsiColor::Yellow))));
+    lines.extend(headline::overclaim(report).into_iter().chain(headline::notes(report)).map(|text| note(&text)));
     format!("{}\n", lines.join("\n"))
 }
 
@@ -47,7 +47,8 @@ fn no_plan(report: &Report, log: Option<&str>) -> String {
     let verdict = verdict_line(report.verdict, &report.scenario, &report.planner);
     let said = log.map(|log| headline::last_lines(log, LOG_LINES)).filter(|said| !said.is_empty());
     let said = said.map_or_else(String::new, |said| format!("planner.log ends with:\n{said}\n"));
-    format!("{}\n{said}{verdict}  {}\n", plan_line(report), headline::reason(report))
+    let notes: String = headline::notes(report).into_iter().map(|text| note(&text) + "\n").collect();
+    format!("{}\n{said}{notes}{verdict}  {}\n", plan_line(report), headline::reason(report))
 }
 
 /// The whole run: the jobs that did not pass (if there are several jobs), counts, and the result folder.
@@ -163,6 +164,10 @@ fn waterfall_line(waterfall: &MarginBudget) -> String {
 fn verdict_line(outcome: Outcome, scenario: &str, planner: &str) -> String {
     let color = if outcome == Outcome::Pass { AnsiColor::Green } else { AnsiColor::Red };
     format!("{}  {scenario} · {planner}", painted(&outcome.to_string(), color))
+}
+
+fn note(text: &str) -> String {
+    format!("{} {text}", painted("note", AnsiColor::Yellow))
 }
 
 fn painted(text: &str, color: AnsiColor) -> String {

@@ -73,6 +73,8 @@ fn flight_event(event: &sim::Event) -> Event {
         EventKind::ReplanRejected { reason } => {
             (Level::Warning, format!("{vehicles}: new plan cannot be flown: {reason}"))
         }
+        EventKind::ReplanFailed { reason } => (Level::Warning, format!("{vehicles}: no new plan: {reason}")),
+        EventKind::PlannerRemark { text } => (Level::Warning, format!("planner: {text}")),
         EventKind::Arrived => (Level::Info, format!("{vehicles}: at rest at the goal")),
     };
     Event { t_s: event.t_s, level, text }

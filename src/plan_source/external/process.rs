@@ -115,10 +115,15 @@ fn failure_reason(status: Option<std::io::Result<ExitStatus>>, limit: Duration) 
         None => Some(format!("it took longer than its limit of {} s and was terminated", limit.as_secs_f64())),
         Some(Err(error)) => Some(format!("its exit status is unknown: {error}")),
         Some(Ok(status)) if status.success() => None,
-        Some(Ok(status)) => Some(match status.code() {
-            Some(code) => format!("it ended with exit code {code}"),
-            None => format!("it crashed ({status})"),
-        }),
+        Some(Ok(status)) => Some(ending(status)),
+    }
+}
+
+/// How a command ended, in words.
+pub(super) fn ending(status: ExitStatus) -> String {
+    match status.code() {
+        Some(code) => format!("it ended with exit code {code}"),
+        None => format!("it crashed ({status})"),
     }
 }
 
@@ -130,7 +135,7 @@ fn text(output: &[u8]) -> Result<String, String> {
 }
 
 /// The reason with the last line of the log, which usually names the exception.
-fn with_last_log_line(reason: String, log: &str) -> String {
+pub(super) fn with_last_log_line(reason: String, log: &str) -> String {
     match log.lines().rev().map(str::trim).find(|line| !line.is_empty()) {
         Some(line) => format!("{reason}; the last line in planner.log: {}", line.chars().take(200).collect::<String>()),
         None => reason,

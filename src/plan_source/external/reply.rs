@@ -4,7 +4,7 @@ use scenarios::plan_input::{self, PlanError};
 use scenarios::{PlanStatus, Scenario};
 use serde::Deserialize;
 
-use super::PROTOCOL;
+use super::{OLDEST_PROTOCOL, PROTOCOL};
 use crate::plan_source::plan_import::{self, CompletedPlan};
 
 /// Largest number of errors that a reason names.
@@ -42,13 +42,17 @@ impl Header {
     fn check(&self) -> Result<(), String> {
         match (&self.protocol, &self.status) {
             (None, _) => Err(format!("its reply has no `protocol`; expected {PROTOCOL}")),
-            (Some(version), _) if *version != PROTOCOL => {
+            (Some(version), _) if !version.as_u64().is_some_and(is_read) => {
                 Err(format!("its reply has protocol version {version}; expected {PROTOCOL}"))
             }
             (_, None) => Err("its reply has no `status`; expected \"solved\", \"not-converged\" or \"no-plan\"".into()),
             _ => Ok(()),
         }
     }
+}
+
+fn is_read(version: u64) -> bool {
+    (OLDEST_PROTOCOL..=PROTOCOL).contains(&version)
 }
 
 fn in_one_line(error: &PlanError) -> String {

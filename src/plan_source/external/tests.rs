@@ -50,7 +50,7 @@ fn a_reply_becomes_a_plan() {
 fn the_request_is_complete_and_holds_no_disturbances() {
     let mut request = super::request::document(&scenario(), 3, 20.0);
     assert_eq!(request["verdict"]["goal_heading_deg"], 5.0);
-    assert_eq!((&request["protocol"], &request["seed"]), (&1.into(), &3.into()));
+    assert_eq!((&request["protocol"], &request["seed"]), (&2.into(), &3.into()));
     let vehicle = &request["vehicles"][0];
     assert_eq!(vehicle["limits"]["n_y"], serde_json::json!([-0.5, 0.5]));
     assert_eq!(vehicle["start"]["heading_rad"], 0.0);
@@ -122,10 +122,15 @@ fn failures_have_a_reason() {
     assert_no_plan("echo iteration 1; echo '{}'", "standard output must hold the reply only");
     assert_no_plan("printf '\\377\\376'", "not valid UTF-8");
     assert_no_plan("echo '{}'", "no `protocol`");
-    assert_no_plan(r#"echo '{"protocol": 2}'"#, "protocol version 2; expected 1");
+    assert_no_plan(r#"echo '{"protocol": 3}'"#, "protocol version 3; expected 2");
     assert_no_plan(r#"echo '{"protocol": 1, "trajectories": []}'"#, "its reply has no `status`");
     assert_no_plan(r#"echo '{"protocol": 1, "status": "no-plan", "reason": "too hard"}'"#, "too hard");
     assert_no_plan(r#"echo '{"protocol": 1, "status": "solved", "trajectories": []}'"#, "no row of `uav-1`");
+    assert_no_plan(&format!("echo '{REPLY}'; exit 3"), "it ended with exit code 3");
+    let doubled = REPLY.replace("\"x_m\":", "\"x_m\": [0, 0, 0], \"x_m\":");
+    assert_no_plan(&format!("echo '{doubled}'"), "the key `x_m` twice");
+    let negative = REPLY.replace("\"solved\",", "\"solved\", \"timings\": {\"wall_s\": -1, \"distributed_s\": 0},");
+    assert_no_plan(&format!("echo '{negative}'"), "timings.wall_s: found -1 s, expected 0 s or more");
     assert_no_plan(&format!("echo '{}'", REPLY.replace("100", "NaN")), "JSON has no NaN");
     assert_no_plan(&format!("echo '{}'", REPLY.replace("100", "300")), "t_s of uav-1: found 200 s after 300 s");
 }

@@ -1,11 +1,12 @@
 //! The plan as a continuous motion: its thrusts integrated with the judge's equations, restarted at every node.
 
+use rayon::prelude::*;
 use scenarios::slung_load::{Cable, Trajectory};
 use scenarios::{Interpolation, Plan, Scenario};
 use sim::slung_load::{Knot, Plant, SlungLoadState, impact, propagate};
 
 use super::motion::{MotionSample, SlungLoadMotion};
-use crate::verdict::compare::exceeds;
+use crate::verdict::compare::{exceeds, is_larger};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{self, Motion};
 
@@ -14,6 +15,8 @@ const MAX_STEP_S: f64 = 0.005;
 /// A defect is accumulated over at least this time, s, or until the next switch of the cable, so that dense sampling does not
 /// make it small.
 const WINDOW_S: f64 = 0.1;
+/// Smallest time between the beginnings of two windows, s.
+const MIN_WINDOW_SHIFT_S: f64 = 0.001;
 
 /// The motion that results from a plan's thrusts.
 #[derive(Clone, Debug)]
@@ -59,7 +62,7 @@ impl PlannedMotion {
         let samples = knots.iter().map(|knot| MotionSample { t_s: knot.t_s, body: knot.state }).collect();
         let motion = SlungLoadMotion::new(samples).sampled();
         let motions = motions(&trajectory.vehicle, motion.samples())?;
-        let defects = (0..intervals).map(|interval| defect(trajectory, &plant, interval)).collect();
+        let defects = defects(trajectory, &plant);
         let impacts = impacts(trajectory, &plant);
         Ok(Self { motion, motions, knots, defects, impacts })
     }
@@ -101,12 +104,36 @@ fn integrated_from(start: &SlungLoadState, trajectory: &Trajectory, plant: &Plan
     propagate(plant, start, controls, trajectory.cable[interval], times_s, MAX_STEP_S)
 }
 
-/// The defect over the window that begins with an interval. If the cable becomes taut, the impact is part of the motion.
-fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
+/// The largest defect of every window.
+fn defects(trajectory: &Trajectory, plant: &Plant) -> Vec<Defect> {
+    let starts = window_starts(trajectory);
+    let intervals: Vec<usize> = (0..starts.len()).filter(|interval| starts[*interval]).collect();
+    intervals.into_par_iter().map(|interval| largest_defect(trajectory, plant, interval, &starts)).collect()
+}
+
+/// Whether a window begins with an interval: after a switch of the cable, and if the window before it began early enough. To
+/// begin one with every node of a dense plan would take time with the square of its density.
+fn window_starts(trajectory: &Trajectory) -> Vec<bool> {
+    let Trajectory { times_s, cable, .. } = trajectory;
+    let mut last_s = f64::NEG_INFINITY;
+    let starts = |interval: usize| {
+        let switches = interval > 0 && cable[interval] != cable[interval - 1];
+        let starts = switches || times_s[interval] - last_s >= MIN_WINDOW_SHIFT_S;
+        if starts {
+            last_s = times_s[interval];
+        }
+        starts
+    };
+    (0..times_s.len() - 1).map(starts).collect()
+}
+
+/// The largest defect in the window that begins with an interval: at its end, and at the nodes in it with which no window
+/// begins. If the cable becomes taut, the impact is part of the motion.
+fn largest_defect(trajectory: &Trajectory, plant: &Plant, first: usize, starts: &[bool]) -> Defect {
     let (times_s, last) = (&trajectory.times_s, trajectory.times_s.len() - 1);
     let mut body = SlungLoadState::from(&trajectory.states[first]);
-    let mut end = first;
-    while end < last {
+    let (mut end, mut largest) = (first, None::<Defect>);
+    loop {
         let knots = integrated_from(&body, trajectory, plant, end);
         body = knots[knots.len() - 1].state;
         end += 1;
@@ -114,14 +141,16 @@ fn defect(trajectory: &Trajectory, plant: &Plant, first: usize) -> Defect {
         if becomes_taut(trajectory, end) {
             body = impact(plant, &body).0;
         }
-        if switches || times_s[end] - times_s[first] >= WINDOW_S {
-            break;
+        let is_end = end == last || switches || times_s[end] - times_s[first] >= WINDOW_S;
+        if is_end || !starts[end] {
+            let window_s = (times_s[end] - times_s[first]).max(WINDOW_S);
+            let node = SlungLoadState::from(&trajectory.states[end]);
+            let found = Defect { t_s: times_s[end], defect_m: difference_m(plant, &body, &node, window_s) };
+            largest = largest.filter(|largest| !is_larger(found.defect_m, largest.defect_m)).or(Some(found));
         }
-    }
-    let window_s = (times_s[end] - times_s[first]).max(WINDOW_S);
-    Defect {
-        t_s: times_s[end],
-        defect_m: difference_m(plant, &body, &SlungLoadState::from(&trajectory.states[end]), window_s),
+        if let (true, Some(largest)) = (is_end, largest) {
+            return largest;
+        }
     }
 }
 

@@ -19,7 +19,12 @@ pub(super) fn table(trajectory: &Value, index: usize, known: &Columns) -> Result
         return Err(issue(&field, describe(trajectory), "an object"));
     };
     let vehicle = vehicle_name(trajectory, &field, known)?;
-    let times = trajectory.get("times_s").or_else(|| trajectory.get("t_s"));
+    let times = match (trajectory.get("times_s"), trajectory.get("t_s")) {
+        (Some(_), Some(_)) => {
+            return Err(issue(&format!("{field}.t_s"), "the times a second time".into(), "either `t_s` or `times_s`"));
+        }
+        (times, short) => times.or(short),
+    };
     let times_s = numbers(times.unwrap_or(&Value::Null), &format!("{field}.times_s"))?;
     let mut columns = Values::new();
     let mut planner_nodes = Vec::new();
@@ -29,7 +34,11 @@ pub(super) fn table(trajectory: &Value, index: usize, known: &Columns) -> Result
             "vehicle" | "family" | "interpolation" | "times_s" | "t_s" => {}
             "planner_nodes" => planner_nodes = indices(value, &inner)?,
             "states" | "controls" => transpose(value, &inner, known, &mut columns)?,
-            _ => drop(columns.insert(key.clone(), column(value, &inner, key, known)?)),
+            _ => {
+                if columns.insert(key.clone(), column(value, &inner, key, known)?).is_some() {
+                    return Err(issue(&inner, "the values a second time".into(), "a column or a value of each node"));
+                }
+            }
         }
     }
     if let Some((name, column)) = columns.iter().find(|(_, column)| column.len() != times_s.len()) {

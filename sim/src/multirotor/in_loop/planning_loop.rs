@@ -1,15 +1,15 @@
 use nalgebra::Vector3;
-use scenarios::in_loop::{InLoopPlanner, ReplanStatus};
+use scenarios::in_loop::{InLoopPlanner, PlannerRemarks, ReplanStatus};
 use scenarios::{Scenario, Vehicle};
 
-use super::reference_manager::{NavigationInput, ReferenceManager};
+use super::reference_manager::{NavigationInput, ReferenceManager, VehicleSettings};
 use super::sensed_world::{Other, SensedWorld};
 use crate::flight::{Event, EventKind};
 use crate::multirotor::reference::Reference;
-use crate::multirotor::state::MultirotorState;
+use crate::multirotor::state::{MultirotorState, NavigationState};
 use crate::planning_log::{PlanningLog, Replan};
 use crate::request::FlightRequest;
-use crate::sensors::{Measurement, Sensors};
+use crate::sensors::Sensors;
 
 /// Planning of the whole fleet: one planner per vehicle, and the log of their results.
 pub(in crate::multirotor) struct PlanningLoop {
@@ -45,9 +45,12 @@ impl PlannedVehicle {
                 (index, planner),
                 &simulation.planning,
                 request.stream("planning", vehicle),
-                simulation.step_s,
-                phase,
-                vehicle.start.position_m().into(),
+                VehicleSettings {
+                    limits: model.limits,
+                    step_s: simulation.step_s,
+                    phase,
+                    start_m: vehicle.start.position_m().into(),
+                },
             ),
         }
     }
@@ -71,17 +74,17 @@ impl PlanningLoop {
 
     /// Sensing and planning at the beginning of a step. Returns what happened.
     ///
-    /// - `truths`, `measured`: true states and own measurements of the vehicles; `None` once crashed
+    /// - `truths`, `known`: true states of the vehicles, and what their controllers know of them; `None` once crashed
     pub fn advance(
         &mut self,
         t_s: f64,
         truths: &[Option<MultirotorState>],
-        measured: &[Option<Measurement>],
+        known: &[Option<NavigationState>],
     ) -> Vec<Event> {
         let mut events = self.discover(t_s, truths);
         for index in 0..self.vehicles.len() {
             self.vehicles[index].reference_manager.update(t_s);
-            let (Some(truth), Some(own)) = (&truths[index], measured[index]) else { continue };
+            let (Some(truth), Some(own)) = (&truths[index], known[index]) else { continue };
             if self.vehicles[index].reference_manager.is_due(t_s) {
                 let event = self.replan(index, t_s, &truth.position_m, own, truths);
                 events.extend(event.map(|kind| Event::of_vehicle(&self.vehicles[index].name, (t_s, kind))));
@@ -109,7 +112,7 @@ impl PlanningLoop {
         index: usize,
         t_s: f64,
         position_m: &Vector3<f64>,
-        own: Measurement,
+        own: NavigationState,
         truths: &[Option<MultirotorState>],
     ) -> Option<EventKind> {
         let others = self.others(index, truths);
@@ -117,7 +120,8 @@ impl PlanningLoop {
         let moving = sensed_world.measure_moving(t_s, position_m);
         let neighbours = sensed_world.measure_neighbours(position_m, &others);
         let replan = reference_manager.replan(NavigationInput { t_s, own, sensed_world, moving, neighbours });
-        let event = event_of(&replan);
+        let previous = self.replans.iter().rfind(|previous| previous.vehicle == index);
+        let event = event_of(&replan, previous);
         self.replans.push(replan);
         event
     }
@@ -134,19 +138,31 @@ impl PlanningLoop {
         vehicles.filter_map(other).collect()
     }
 
-    /// Ends the planning. `end_s`: when all vehicles had arrived, or the flight ended, s.
-    pub fn finish(self, end_s: f64) -> PlanningLog {
+    /// Ends the planning. Returns its log, and events of what is to be said of the planners.
+    ///
+    /// - `end_s`: when all vehicles had arrived, or the flight ended, s
+    pub fn finish(mut self, end_s: f64) -> (PlanningLog, Vec<Event>) {
+        let (mut remarks, mut events) = (PlannerRemarks::default(), Vec::new());
+        for vehicle in &mut self.vehicles {
+            let PlannerRemarks { notes, failure } = vehicle.reference_manager.finish_planner();
+            let kinds = notes.iter().chain(&failure).map(|text| EventKind::PlannerRemark { text: text.clone() });
+            events.extend(kinds.map(|kind| Event::of_vehicle(&vehicle.name, (end_s, kind))));
+            remarks.notes.extend(notes);
+            remarks.failure = remarks.failure.or(failure);
+        }
         let vehicles = self.vehicles.into_iter();
         let followed = vehicles.map(|vehicle| vehicle.reference_manager.followed(&vehicle.name, end_s)).collect();
-        PlanningLog { replans: self.replans, followed }
+        (PlanningLog { replans: self.replans, followed, remarks }, events)
     }
 }
 
-/// The event to report of a result, if there is one.
-fn event_of(replan: &Replan) -> Option<EventKind> {
+/// The event to report of a result, if there is one. Equal failures in a row are one event.
+fn event_of(replan: &Replan, previous: Option<&Replan>) -> Option<EventKind> {
     match &replan.outcome {
         ReplanStatus::Late { by_s } => Some(EventKind::ReplanLate { by_s: *by_s }),
         ReplanStatus::Rejected { reason } => Some(EventKind::ReplanRejected { reason: reason.clone() }),
+        ReplanStatus::Failed { .. } if previous.is_some_and(|previous| previous.outcome == replan.outcome) => None,
+        ReplanStatus::Failed { reason } => Some(EventKind::ReplanFailed { reason: reason.clone() }),
         ReplanStatus::None | ReplanStatus::InTime | ReplanStatus::Kept { .. } => None,
     }
 }

@@ -3,15 +3,17 @@ use std::time::Instant;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use scenarios::Planning;
-use scenarios::in_loop::{Decision, InLoopPlanner, Neighbour, Node, Observation, ObstacleMeasurement, ReplanStatus};
-use scenarios::multirotor::Trajectory;
+use scenarios::in_loop::{
+    Decision, InLoopPlanner, Neighbour, Node, Observation, ObstacleMeasurement, PlannerRemarks, ReplanStatus,
+};
+use scenarios::multirotor::{Limits, Trajectory};
 
-use super::acceptance::defect;
+use super::acceptance::{Continuation, defect};
 use super::planning_time::PlanningTime;
 use super::sensed_world::SensedWorld;
 use crate::multirotor::reference::Reference;
+use crate::multirotor::state::NavigationState;
 use crate::planning_log::Replan;
-use crate::sensors::Measurement;
 
 /// Times that differ by less than this, s, are equal up to rounding.
 const ROUNDING_S: f64 = 1e-9;
@@ -22,6 +24,7 @@ pub(super) struct ReferenceManager {
     planner: Box<dyn InLoopPlanner>,
     settings: Planning,
     planning_time: PlanningTime,
+    limits: Limits,
     step_s: f64,
     /// Scheduled calls that have passed, and the time of the first one, s.
     passed_calls: u64,
@@ -40,30 +43,39 @@ pub(super) struct ReferenceManager {
 pub(super) struct NavigationInput<'a> {
     /// Time, s.
     pub t_s: f64,
-    /// Its own position and velocity.
-    pub own: Measurement,
+    /// What it knows of its own motion.
+    pub own: NavigationState,
     pub sensed_world: &'a mut SensedWorld,
     pub moving: Vec<ObstacleMeasurement>,
     pub neighbours: Vec<Neighbour>,
 }
 
+/// What is specific to one vehicle.
+pub(super) struct VehicleSettings {
+    /// Its physical limits.
+    pub limits: Limits,
+    /// Step of the simulator, s.
+    pub step_s: f64,
+    /// Fraction of the period before the first call, in [0, 1).
+    pub phase: f64,
+    /// Where it hovers at the beginning, m.
+    pub start_m: Vector3<f64>,
+}
+
 impl ReferenceManager {
-    /// The reference in force at the beginning is to hover at the start, m.
-    ///
-    /// - `phase`: fraction of the period before the first call, in [0, 1)
+    /// The reference in force at the beginning is to hover at the start.
     pub fn new(
         (vehicle, planner): (usize, Box<dyn InLoopPlanner>),
         settings: &Planning,
         rng: ChaCha8Rng,
-        step_s: f64,
-        phase: f64,
-        start_m: Vector3<f64>,
+        VehicleSettings { limits, step_s, phase, start_m }: VehicleSettings,
     ) -> Self {
         let hovering = Node::at_rest(0.0, start_m.into());
         Self {
             vehicle,
             planner,
             planning_time: PlanningTime::new(settings, rng),
+            limits,
             step_s,
             passed_calls: 0,
             phase_s: phase * settings.period_s,
@@ -114,8 +126,10 @@ impl ReferenceManager {
         let observation = Observation {
             t_s,
             takes_effect_s: planned_s,
-            position_m: own.position_m.into(),
-            velocity_mps: own.velocity_mps.into(),
+            position_m: own.measured.position_m.into(),
+            velocity_mps: own.measured.velocity_mps.into(),
+            acceleration_mps2: own.acceleration_mps2.into(),
+            world_from_body: own.world_from_body.coords.into(),
             in_force: self.in_force.nodes(),
             last: &self.last,
             known: sensed_world.known(),
@@ -129,7 +143,8 @@ impl ReferenceManager {
         let ready_s = t_s + self.planning_time.next_s(wall_s);
         self.busy_s = ready_s;
         let takes_effect_s = planned_s.max(self.ceil_to_step_s(ready_s));
-        let (outcome, nodes) = self.accept(result.decision, planned_s, takes_effect_s);
+        let continuation = self.continuation(t_s, &own, planned_s);
+        let (outcome, nodes) = self.accept(result.decision, &continuation, takes_effect_s);
         self.last = outcome.clone();
         let vehicle = self.vehicle;
         Replan {
@@ -145,6 +160,11 @@ impl ReferenceManager {
         }
     }
 
+    /// Ends the planner.
+    pub fn finish_planner(&mut self) -> PlannerRemarks {
+        self.planner.finish()
+    }
+
     /// What was followed until `end_s`, as a trajectory.
     pub fn followed(mut self, vehicle: &str, end_s: f64) -> Trajectory {
         self.follow_until(end_s);
@@ -155,16 +175,36 @@ impl ReferenceManager {
         Trajectory::through(vehicle, &self.followed)
     }
 
-    fn accept(&mut self, decision: Decision, planned_s: f64, takes_effect_s: f64) -> (ReplanStatus, Vec<Node>) {
+    /// What a result has to continue that is planned for `planned_s`, s.
+    fn continuation(&self, t_s: f64, own: &NavigationState, planned_s: f64) -> Continuation {
+        let now = self.in_force.at(t_s);
+        Continuation {
+            takes_effect_s: planned_s,
+            lead_s: planned_s - t_s,
+            expected: self.in_force.before(planned_s),
+            position_error_m: own.measured.position_m - now.position_m,
+            velocity_error_mps: own.measured.velocity_mps - now.velocity_mps,
+            limits: self.limits,
+            step_s: self.step_s,
+        }
+    }
+
+    fn accept(
+        &mut self,
+        decision: Decision,
+        continuation: &Continuation,
+        takes_effect_s: f64,
+    ) -> (ReplanStatus, Vec<Node>) {
         let nodes = match decision {
             Decision::Keep { reason } => return (ReplanStatus::Kept { reason }, Vec::new()),
+            Decision::Failed { reason } => return (ReplanStatus::Failed { reason }, Vec::new()),
             Decision::Fly(nodes) => nodes,
         };
-        if let Some(reason) = defect(&nodes, planned_s) {
+        if let Some(reason) = defect(&nodes, continuation) {
             return (ReplanStatus::Rejected { reason }, Vec::new());
         }
         self.pending = Some((takes_effect_s, Reference::new(nodes.clone())));
-        let by_s = takes_effect_s - planned_s;
+        let by_s = takes_effect_s - continuation.takes_effect_s;
         (if by_s > ROUNDING_S { ReplanStatus::Late { by_s } } else { ReplanStatus::InTime }, nodes)
     }
 
@@ -178,7 +218,7 @@ impl ReferenceManager {
             self.followed.push(Node { velocity_mps: [0.0; 3], ..*last });
         }
         if end_s > begin_s + ROUNDING_S {
-            self.followed.push(self.in_force.at(end_s).node());
+            self.followed.push(self.in_force.before(end_s).node());
         }
     }
 

@@ -1,13 +1,13 @@
 //! Faults of the planning logs of in-loop flights.
 
 use scenarios::in_loop::ReplanStatus;
-use sim::{EventKind, PlanningLog};
+use sim::{EventKind, PlanningLog, Replan};
 
 use crate::campaign::selftest::{Fault, ReferenceCase};
 
 /// The faults.
 pub fn faults() -> Vec<Fault> {
-    [times(), answers()].into_iter().flatten().collect()
+    [times(), answers(), planners()].into_iter().flatten().collect()
 }
 
 fn times() -> Vec<Fault> {
@@ -90,6 +90,43 @@ fn answers() -> Vec<Fault> {
             it.scenario.vehicles[0].goal.z_m += 1.5 * max_m;
         }),
     ]
+}
+
+fn planners() -> Vec<Fault> {
+    vec![
+        Fault::new("flight.planner", "a planner crashed on the way, and the flight went on", |it| {
+            planning(it).replans[9].outcome = ReplanStatus::Failed { reason: "it ended with exit code 1".into() };
+        }),
+        Fault::new("flight.planner", "an answer could not be flown", |it| {
+            planning(it).replans[9].outcome = ReplanStatus::Rejected { reason: "it jumps".into() };
+        }),
+        Fault::new("flight.planner", "answers are left over for which there is no request", |it| {
+            planning(it).remarks.failure = Some("1 of its replies is left over".into());
+        }),
+        Fault::new("flight.planner", "a reference that jumps was flown", |it| {
+            let reference = flown_in_motion(it);
+            reference.nodes.iter_mut().for_each(|node| node.position_m[2] += 1.0);
+        }),
+        Fault::new("flight.planner", "a reference whose velocity jumps was flown", |it| {
+            let reference = flown_in_motion(it);
+            reference.nodes.iter_mut().for_each(|node| node.velocity_mps[2] += 1.0);
+        }),
+        Fault::new("flight.planner", "a reference was flown to its end in motion", |it| {
+            let reference = flown_in_motion(it);
+            let takes_effect_s = reference.takes_effect_s;
+            reference.nodes.truncate(1);
+            let mut end = reference.nodes[0];
+            end.t_s = takes_effect_s + 1e-3;
+            reference.nodes.push(end);
+        }),
+    ]
+}
+
+/// A reference that was flown in time and begins in motion.
+fn flown_in_motion(it: &mut ReferenceCase) -> &mut Replan {
+    let moves = |replan: &Replan| replan.nodes[0].velocity_mps.iter().any(|speed_mps| speed_mps.abs() > 0.5);
+    let is_such = |replan: &&mut Replan| replan.outcome == ReplanStatus::InTime && moves(replan);
+    planning(it).replans.iter_mut().skip(9).find(is_such).expect("a vehicle in motion")
 }
 
 fn planning(it: &mut ReferenceCase) -> &mut PlanningLog {

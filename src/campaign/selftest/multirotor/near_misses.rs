@@ -1,5 +1,6 @@
 use scenarios::BoxObstacle;
-use sim::Sample;
+use scenarios::in_loop::ReplanStatus;
+use sim::{Event, EventKind, Sample};
 
 use super::has_rotors;
 use crate::campaign::selftest::near_misses::{self, NEAR_M};
@@ -46,6 +47,15 @@ fn in_the_loop(reference: &ReferenceCase) -> Vec<NearMiss> {
         it.fly_in(&slow);
         it.scenario = slow;
     })];
+    all.push(NearMiss::new("a planner that crashes after the flight's planned end", |it| {
+        let flight = it.flight();
+        let (end_s, planning) = (flight.plan_end_s, flight.planning.as_mut().expect("it was planned in the loop"));
+        let last = planning.replans.last_mut().filter(|replan| replan.asked_s > end_s).expect("an answer in the coast");
+        last.outcome = ReplanStatus::Failed { reason: "it ended with exit code 1".into() };
+        let kind = EventKind::ReplanFailed { reason: "it ended with exit code 1".into() };
+        let event = Event { t_s: last.asked_s, kind, vehicles: Vec::new() };
+        flight.events.push(event);
+    }));
     if has_rotors(reference) {
         all.push(NearMiss::new("a quadrotor just below its largest tilt", |it| {
             let tilt_deg = |sample: &Sample| {

@@ -11,6 +11,8 @@ use super::super::{Changes, Curve, Lines, Paint, Scene, Series, Shape, colours, 
 const HORIZONS: usize = 8;
 /// Points of a horizon between two nodes.
 const POINTS_PER_INTERVAL: usize = 4;
+/// Largest number of intervals of a horizon that are drawn.
+const MAX_HORIZON_POINTS: usize = 1000;
 /// Largest number of edges of a cost map that are drawn.
 const MAX_EDGES: usize = 4000;
 
@@ -89,15 +91,20 @@ fn add_times(scene: &mut Scene<'_>, vehicle: &str, colour: [u8; 3], replans: &[&
     }
 }
 
-/// A horizon as it is flown: a cubic between each two nodes.
+/// A horizon as it is flown: a cubic between each two nodes; of many nodes, points at equal times.
 fn points_m(nodes: &[Node]) -> Vec<[f64; 3]> {
+    let [first, .., last] = nodes else { return nodes.iter().map(|node| node.position_m).collect() };
     let reference = Reference::new(nodes.to_vec());
+    let point_m = |t_s: f64| reference.at(t_s).position_m.into();
+    if nodes.len() * POINTS_PER_INTERVAL > MAX_HORIZON_POINTS {
+        let step_s = (last.t_s - first.t_s) / MAX_HORIZON_POINTS as f64;
+        return (0..=MAX_HORIZON_POINTS).map(|i| point_m(first.t_s + i as f64 * step_s)).collect();
+    }
     let times_s = nodes.windows(2).flat_map(|pair| {
         let (from_s, step_s) = (pair[0].t_s, (pair[1].t_s - pair[0].t_s) / POINTS_PER_INTERVAL as f64);
         (0..POINTS_PER_INTERVAL).map(move |i| from_s + i as f64 * step_s)
     });
-    let last_s = nodes.last().map(|node| node.t_s);
-    times_s.chain(last_s).map(|t_s| reference.at(t_s).position_m.into()).collect()
+    times_s.chain([last.t_s]).map(point_m).collect()
 }
 
 fn finite(path: &[[f64; 3]]) -> Vec<[f64; 3]> {
