@@ -137,7 +137,7 @@ pub enum Error {
         /// The option.
         option: &'static str,
         /// Why.
-        issue: Issue,
+        issue: Box<Issue>,
     },
     /// `--record` names a format that this build lacks.
     #[error("--record {format}: this harness was built without the {what}")]

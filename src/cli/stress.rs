@@ -84,7 +84,8 @@ impl StressCommand {
     /// A disturbance that cannot act would seem to be harmless at every level.
     fn refuse_without_effect(&self, job: &Job) -> Result<(), Error> {
         let useless = self.over.iter().find_map(|over| over.without_effect(&job.scenario));
-        let error = |issue| Error::NoEffect { file: self.scenario.clone(), option: "--over wind", issue };
+        let error =
+            |issue| Error::NoEffect { file: self.scenario.clone(), option: "--over wind", issue: Box::new(issue) };
         useless.map_or(Ok(()), |issue| Err(error(issue)))
     }
 }

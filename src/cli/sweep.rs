@@ -110,7 +110,7 @@ impl SweepCommand {
             .filter(|wind_mps| *wind_mps > 0.0)
             .and_then(|_| Disturbance::Wind.without_effect(&job.scenario))
         {
-            return Err(Error::NoEffect { file: self.scenario.clone(), option: "--wind", issue });
+            return Err(Error::NoEffect { file: self.scenario.clone(), option: "--wind", issue: Box::new(issue) });
         }
         let mut progress = Progress::new(job, 1, 1, self.results.quiet);
         let system = &pipeline::plan_once(job, &mut progress);
