@@ -17,11 +17,11 @@ fn pulses(duration_s: f64) -> String {
 
 #[test]
 fn a_single_gust_lasts_four_steps_or_more() {
-    let (field, line) = ("simulation.wind.pulses[0].duration_s", 69);
+    let (field, line) = ("simulation.wind.pulses[0].duration_s", 61);
     assert_issue(
         GUSTS,
         &pulses(0.039),
-        (field, line, 65),
+        (field, line, 70),
         "0.039 s, at a time step of 0.01 s",
         "at least 4 time steps",
     );
@@ -36,7 +36,7 @@ fn a_single_gust_lasts_four_steps_or_more() {
 fn a_delay_is_not_rounded_to_nothing() {
     let noise = "sensors = { position_noise_m = 0.1,";
     let delayed = |delay_s: f64| format!("{noise} delay_s = {delay_s},");
-    let field = ("simulation.sensors.delay_s", 70, 51);
+    let field = ("simulation.sensors.delay_s", 62, 47);
     assert_issue(noise, &delayed(0.004), field, "0.004 s, less than half a time step", "not rounded to nothing");
     assert!([0.0, 0.005, 0.03].iter().all(|delay_s| load_changed(noise, &delayed(*delay_s)).is_ok()));
 }
@@ -53,9 +53,9 @@ fn noise_and_mismatch_that_a_family_has_no_use_for_are_refused() {
         ("sighting_velocity_noise_mps", "multirotors"),
     ] {
         let field = format!("simulation.sensors.{key}");
-        assert_issue(noise, &format!("{key} = 0.3"), (&field, 70, 38 + key.len()), "0.3", expected);
+        assert_issue(noise, &format!("{key} = 0.3"), (&field, 62, 40 + key.len()), "0.3", expected);
     }
-    let field = ("simulation.mismatch.load_mass_ratio", 71, 32);
+    let field = ("simulation.mismatch.load_mass_ratio", 63, 32);
     assert_issue("mass_ratio = 1.1", "load_mass_ratio = 1.2", field, "1.2", "no vehicle carries a load");
 }
 

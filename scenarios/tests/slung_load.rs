@@ -24,6 +24,7 @@ load = { z_m = [1.2, 2] }
 
 [models.slung-load.quad]
 mass_kg = 1.32
+drag_area_m2 = 0.02
 inertia_kgm2 = [0.018, 0.018, 0.026]
 arm_m = 0.225
 torque_per_thrust_m = 0.016

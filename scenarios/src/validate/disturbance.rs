@@ -29,7 +29,9 @@ pub fn wind_without_effect(scenario: &Scenario) -> Option<Issue> {
 }
 
 fn blows(wind: &Wind) -> bool {
-    wind.mean_mps != [0.0; 3] || wind.gusts.is_some() || !wind.pulses.is_empty()
+    let Wind { mean_mps, gusts, pulses } = wind;
+    let gusty = gusts.as_ref().is_some_and(|gusts| gusts.wind_at_20ft_mps > 0.0 || gusts.sigma_aloft_mps > 0.0);
+    gusty || *mean_mps != [0.0; 3] || pulses.iter().any(|pulse| pulse.peak_mps != [0.0; 3])
 }
 
 /// The shortest single gust, if it is over after so few steps that a flight log could not show it.

@@ -73,7 +73,7 @@ fn gusts_between_samples_move_a_vehicle_by_what_they_should() {
         let (flight, finer) = (hover(step_s, &pulses, 0), hover(step_s, &pulses, 1));
         let (still_m, error_m, finer_m) = (error_m(&flight, &[]), error_m(&flight, &pulses), error_m(&finer, &pulses));
         assert!(still_m > 0.01, "the gusts moved it by {still_m} m");
-        assert!(error_m < 2e-5 * still_m.max(0.5), "step {step_s} s: {error_m} m of {still_m} m");
+        assert!(error_m < 5e-5 * still_m.max(0.5), "step {step_s} s: {error_m} m of {still_m} m");
         assert!(finer_m < 0.5 * error_m + 1e-9, "step {step_s} s: {error_m} m, with half the steps {finer_m} m");
     }
 }
