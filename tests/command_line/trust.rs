@@ -140,7 +140,7 @@ fn wind_that_cannot_act_is_refused_and_not_drawn() {
     }
     let output = workplace.harness(&["sweep", "hop.toml", "-n", "2"]);
     assert_eq!(code(&output), 0, "{}{}", stdout(&output), stderr(&output));
-    assert_eq!(workplace.json("out/hop/rhc/sweep.json")["dispersions"]["wind_mps"], 0.0);
+    assert_eq!(workplace.json("out/hop/rhc/sweep.json")["spread"]["wind_mps"], 0.0);
 }
 
 #[test]
