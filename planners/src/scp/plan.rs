@@ -15,6 +15,10 @@ const SLACK_TOLERANCE: f64 = 1e-6;
 /// Largest position defect of a solved plan by the planner's own transcription, m.
 const DEFECT_TOLERANCE_M: f64 = 0.1;
 
+/// Distance by which a solved plan may fall short of separation and clearance at its nodes, m: the rounding of a solver
+/// whose rows hold to its tolerance.
+const NODE_TOLERANCE_M: f64 = 1e-5;
+
 /// Relative difference below which step lengths are made equal: vehicles that arrive together then share their nodes,
 /// which the solver tolerance would otherwise set apart by microseconds.
 const EQUAL_DT_TOLERANCE: f64 = 1e-7;
@@ -87,7 +91,7 @@ pub fn status(
         return (PlanStatus::NotConverged, Some("no iteration was allowed".to_string()));
     };
     let separation_m = scenario.fleet.separation_m.unwrap_or(0.0);
-    let too_close = last.separation_m.is_some_and(|distance| distance < separation_m);
+    let too_close = last.separation_m.is_some_and(|distance| distance < separation_m - NODE_TOLERANCE_M);
     let failure_reason = if last.unsolved > 0 {
         // a trajectory whose subproblem was not solved may be unchanged without having converged
         Some(format!("{} subproblems of the last iteration were not solved", last.unsolved))
@@ -99,7 +103,7 @@ pub fn status(
         Some(format!("constraints are violated by up to {:.2e} scaled units", last.slack))
     } else if last.defect_m > DEFECT_TOLERANCE_M {
         Some(format!("the equations of motion are violated by up to {:.3} m per interval", last.defect_m))
-    } else if too_close || last.clearance_m.is_some_and(|clearance| clearance < 0.0) {
+    } else if too_close || last.clearance_m.is_some_and(|clearance| clearance < -NODE_TOLERANCE_M) {
         Some("separation or clearance is violated at the nodes".to_string())
     } else {
         None

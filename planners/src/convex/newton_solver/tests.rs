@@ -74,7 +74,10 @@ impl Path {
         self.newton.set_centred_rhs(&self.batch, &mut self.at, (products * products.like(0.1)).over(self.batch.pairs));
         self.solver.solve(&self.batch, &self.at, &mut self.newton);
         let everywhere = products.is_above(products.like(0.0));
-        self.solver.refine(&self.batch, &self.at, &mut self.newton, everywhere);
+        // as often as the solver refines programs with rows of large weight
+        for _ in 0..3 {
+            self.solver.refine(&self.batch, &self.at, &mut self.newton, everywhere);
+        }
         let step = &self.newton.step;
         [&step.z, &step.y].map(|column| column.iter().map(|value| value[0].lane(0)).collect())
     }
