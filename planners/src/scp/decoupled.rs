@@ -162,6 +162,7 @@ impl<'a> FleetProblem<'a> {
             trust_region,
             dt_bound_s,
             dt_change: MAX_TIME_CHANGE,
+            control_change: subproblem::FREE_CONTROL_CHANGE,
         };
         subproblem::assemble(&context, &last[i], halfspaces)
     }

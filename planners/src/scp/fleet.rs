@@ -8,10 +8,14 @@
 //!   nodes, and two vehicles share the missing distance;
 //! - the initial guess is nearly flyable: Dubins paths around obstacles, with a roundabout where many vehicles meet;
 //! - the common time bound is released in the search phase;
-//! - a plan is accepted only when its own flow keeps every limit at all times.
+//! - unless the scenario gives their number, the intervals are as long as the vehicle's agility allows;
+//! - a plan is accepted only when the motion that its controls lead to, integrated in small steps, keeps every limit at
+//!   all times.
 
 mod acceptance;
+mod agility;
 mod avoidance_rows;
+mod climb;
 mod closest_approach;
 mod conflict_detection;
 mod detour;
@@ -20,7 +24,9 @@ mod grid;
 mod initial_guess;
 mod initial_route;
 mod intersample_bounds;
+mod lengthening;
 mod motion;
+mod refined_motion;
 mod roundabout;
 mod route;
 mod schedule;
@@ -35,7 +41,7 @@ use super::options::Options;
 use super::plan;
 use crate::convex::{Program, Solution};
 use crate::planner::{Planner, PlanningMode, Progress};
-use scp_solver::ScpSolver;
+use scp_solver::{Coarse, ScpSolver};
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -63,10 +69,14 @@ pub fn plan_and_inspect(
     let begin = Instant::now();
     let options = Options::fleet(&scenario.planner);
     let max_iterations = options.max_iterations;
-    let mut solver = ScpSolver::new(scenario, options);
+    let mut solver = ScpSolver::new(scenario, options.clone(), 0);
     let mut history = Vec::new();
-    let mut accepted = false;
+    let (mut accepted, mut attempt) = (false, 0);
     while !accepted && history.len() < max_iterations {
+        if solver.has_stalled() {
+            attempt += 1;
+            solver = ScpSolver::new(scenario, options.clone(), attempt);
+        }
         let iteration = solver.advance(inspect);
         accepted = solver.is_accepted();
         progress(&iteration);
@@ -84,7 +94,11 @@ fn failure_reason(solver: &ScpSolver, iterations: usize) -> String {
     let reason = solver
         .first_violation()
         .map_or("the flight time has not settled".to_string(), |violation| violation.to_string());
-    format!("after {iterations} iterations {reason}")
+    let cure = solver.coarsest().map_or(String::new(), |coarse| {
+        let Coarse { vehicle, interval_s, intervals } = coarse;
+        format!("; intervals of {interval_s:.1} s are long for {vehicle}: set `planner.intervals` to {intervals}, or omit it")
+    });
+    format!("after {iterations} iterations {reason}{cure}")
 }
 
 fn unsupported_reason(scenario: &Scenario) -> Option<String> {

@@ -17,6 +17,10 @@ use super::interval::{Defect, Interval};
 /// goal.
 pub const SUBSTEPS: usize = 8;
 
+/// Number of parts of an interval that are each integrated in [`SUBSTEPS`] steps for an accurate end: the error of Φ is
+/// divided by 256.
+const ACCURATE_PARTS: usize = 4;
+
 /// Number of parameters of Φ: V_k, χ_k, γ_k, u_k (3), u_{k+1} (3), dt. The position is left out: Φ is affine in it.
 const PARAMETERS: usize = 10;
 
@@ -48,11 +52,18 @@ pub fn linearise(interval: &Interval) -> Defect {
 
 /// Φ with all intermediate states.
 pub fn flow(interval: &Interval) -> Knots {
-    let h = interval.dt_s / SUBSTEPS as f64;
-    let mut knots = [interval.states[0]; SUBSTEPS + 1];
+    flow_within(interval, interval.states[0], [0.0, 1.0])
+}
+
+/// The flow from `start` during a part of the interval, given by the fractions at its beginning and end, in
+/// [`SUBSTEPS`] equal steps.
+pub fn flow_within(interval: &Interval, start: State, [begin, end]: [f64; 2]) -> Knots {
+    let h = interval.dt_s * (end - begin) / SUBSTEPS as f64;
+    let mut knots = [start; SUBSTEPS + 1];
     for step in 0..SUBSTEPS {
         let s = knots[step];
-        let control = |within: f64| interval.control_at((step as f64 + within) / SUBSTEPS as f64);
+        let control =
+            |within: f64| interval.control_at(begin + (end - begin) * ((step as f64 + within) / SUBSTEPS as f64));
         let (u_0, u_half, u_1) = (control(0.0), control(0.5), control(1.0));
         let k_1 = dynamics::derivative(&s, &u_0);
         let k_2 = dynamics::derivative(&(s + k_1 * (0.5 * h)), &u_half);
@@ -63,9 +74,23 @@ pub fn flow(interval: &Interval) -> Knots {
     knots
 }
 
+/// The end of the flow in small steps: far more accurate than Φ, without derivatives.
+pub fn accurate_end(interval: &Interval) -> State {
+    let parts = ACCURATE_PARTS;
+    (0..parts).fold(interval.states[0], |state, part| {
+        let ends = [part, part + 1].map(|end| end as f64 / parts as f64);
+        flow_within(interval, state, ends)[SUBSTEPS]
+    })
+}
+
+/// The step at whose beginning the control ramp ends, if it ends within the interval.
+pub fn kink(ramp: f64) -> Option<usize> {
+    (ramp < 1.0).then(|| (ramp * SUBSTEPS as f64).round() as usize)
+}
+
 /// The state at the end of the control ramp, a whole number of steps from the beginning of the interval.
 pub fn ramp_end(interval: &Interval) -> State {
-    flow(interval)[(interval.ramp * SUBSTEPS as f64).round() as usize]
+    flow(interval)[kink(interval.ramp).unwrap_or(SUBSTEPS)]
 }
 
 /// Φ and its derivatives with respect to the parameters.

@@ -25,7 +25,12 @@ pub struct Context<'a> {
     pub dt_bound_s: f64,
     /// Largest relative change of dt.
     pub dt_change: f64,
+    /// Half-width of the trust region of the controls, as a fraction of their ranges.
+    pub control_change: f64,
 }
+
+/// Half-width of the trust region of the controls that cannot bind.
+pub const FREE_CONTROL_CHANGE: f64 = 4.0;
 
 /// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map, SI. Heading is
 /// free.
@@ -53,7 +58,7 @@ pub fn assemble(context: &Context, last: &Iterate, mut halfspaces: Vec<Halfspace
         soft_upper: Vec::new(),
     };
     for (node, bounds) in context.bounds.iter().enumerate() {
-        append_node_bounds(context.trust_region, bounds, &last.states[node], &last.controls[node], &mut program);
+        append_node_bounds(context, bounds, &last.states[node], &last.controls[node], &mut program);
     }
     append_dt_bounds(context, last, &mut program);
     program
@@ -97,9 +102,9 @@ fn boundary_conditions(context: &Context, last: &Iterate) -> Vec<FixedVariable> 
     conditions.collect()
 }
 
-/// Trust region of the state, hard bounds of the control that cannot bind, and the bounds of eq. 8 and 9.
+/// Trust regions of state and control, and the bounds of eq. 8 and 9.
 fn append_node_bounds(
-    trust_region: State,
+    context: &Context,
     bounds: &[Range; STAGE_LEN],
     state: &State,
     control: &Control,
@@ -107,7 +112,7 @@ fn append_node_bounds(
 ) {
     for i in 0..STAGE_LEN {
         let (value, bounds) = (if i < 6 { state[i] } else { control[i - 6] }, bounds[i]);
-        let half = if i < 6 { trust_region[i] } else { 4.0 * bounds.width() };
+        let half = if i < 6 { context.trust_region[i] } else { context.control_change * bounds.width() };
         program.box_lower.push(-half / NODE_UNITS[i]);
         program.box_upper.push(half / NODE_UNITS[i]);
         // an elastic bound outside the trust region never binds: it is moved closer, to keep all numbers of similar

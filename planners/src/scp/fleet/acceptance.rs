@@ -6,22 +6,25 @@ use rayon::prelude::*;
 use scenarios::{Range, Scenario};
 
 use super::super::dynamics::State;
-use super::super::interval::Interval;
 use super::super::iterate::Iterate;
-use super::super::shooting;
+use super::super::subproblem;
 use super::avoidance_rows::AvoidanceConstraints;
 use super::conflict_detection::{FleetMotion, ObstacleConflict};
 use super::intersample_bounds::{BOUNDED_STATES, extremes};
+use super::refined_motion::{RefinedMotion, velocity_mps};
 use crate::convex::STAGE_LEN;
 
 /// Largest accepted violation of a limit, as a fraction of its range: rounding of the solver.
 const LIMIT_TOLERANCE: f64 = 1e-6;
-/// Largest accepted distance between the end of an interval's flow and the next node, m.
+/// Largest accepted [defect](super::refined_motion::NodeDefect), m, if the scenario accepts no less.
 const MAX_DEFECT_M: f64 = 0.1;
-/// Largest accepted distance from the plan's end when its controls are integrated open loop from the start, m.
-const MAX_ROLLOUT_ERROR_M: f64 = 1.0;
-/// Largest accepted distance of the ends of the plan from start and goal, m.
-const MAX_END_ERROR_M: f64 = 0.01;
+/// Largest accepted distance from the plan's end when its controls are integrated open loop from the start, as a fraction
+/// of what the scenario accepts.
+const MAX_ROLLOUT_FRACTION: f64 = 0.8;
+/// Largest accepted distance of the ends of the plan from start and goal, m and m/s.
+const MAX_END_ERROR: f64 = 0.001;
+/// Largest accepted violation of a physical limit, as a fraction of the planned range.
+const ROUNDING: f64 = 1e-12;
 
 /// The worst violation of one kind of constraint.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +49,8 @@ impl fmt::Display for ConstraintViolation {
 }
 
 /// The worst violation of the first kind of constraint that a plan violates; `None` if the plan can be flown.
+///
+/// The planner's own flow is tested first, then the motion in small steps.
 pub fn first_violation(
     scenario: &Scenario,
     constraints: &AvoidanceConstraints,
@@ -53,14 +58,25 @@ pub fn first_violation(
     bounds: &[[Range; STAGE_LEN]],
     boundary: &[[State; 2]],
 ) -> Option<ConstraintViolation> {
+    let limits = Limits { scenario, planned: bounds };
+    let distances = |motion: &FleetMotion| {
+        separation(scenario, motion, constraints).or_else(|| clearance(scenario, motion, constraints))
+    };
     let motion = FleetMotion::new(trajectories);
-    separation(scenario, &motion, constraints)
-        .or_else(|| clearance(scenario, &motion, constraints))
+    distances(&motion)
         .or_else(|| arrival(scenario, trajectories))
+        .or_else(|| duration(scenario, trajectories))
         .or_else(|| ends(scenario, trajectories, boundary))
-        .or_else(|| dynamics(scenario, trajectories, &motion))
-        .or_else(|| rollout(scenario, trajectories))
-        .or_else(|| limits(scenario, trajectories, bounds, &motion))
+        .or_else(|| limits.controls(trajectories))
+        .or_else(|| limits.states(&motion))
+        .or_else(|| {
+            let refined: Vec<RefinedMotion> = trajectories.par_iter().map(RefinedMotion::new).collect();
+            dynamics(scenario, &refined).or_else(|| rollout(scenario, &refined)).or_else(|| {
+                let vehicles = refined.into_iter().map(|refined| refined.motion).collect();
+                let motion = FleetMotion::of_vehicles(vehicles);
+                distances(&motion).or_else(|| limits.states(&motion))
+            })
+        })
 }
 
 fn separation(
@@ -120,97 +136,133 @@ fn arrival(scenario: &Scenario, trajectories: &[Iterate]) -> Option<ConstraintVi
     })
 }
 
+/// The longest flight against the time that is simulated.
+fn duration(scenario: &Scenario, trajectories: &[Iterate]) -> Option<ConstraintViolation> {
+    let max_s = scenario.simulation.max_duration_s;
+    let times_s = trajectories.iter().map(Iterate::flight_time_s).enumerate();
+    let (vehicle, time_s) = times_s.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (!within(time_s, max_s)).then(|| ConstraintViolation {
+        constraint: "simulation.max_duration_s",
+        parties: vec![scenario.vehicles[vehicle].name.clone()],
+        at_s: time_s,
+        amount: time_s - max_s,
+        unit: "s",
+    })
+}
+
+/// Position, m, and velocity, m/s, of both ends against start and goal.
 fn ends(scenario: &Scenario, trajectories: &[Iterate], boundary: &[[State; 2]]) -> Option<ConstraintViolation> {
-    let errors_m = trajectories.iter().zip(boundary).enumerate().flat_map(|(vehicle, (trajectory, [start, goal]))| {
+    let errors = trajectories.iter().zip(boundary).enumerate().flat_map(|(vehicle, (trajectory, [start, goal]))| {
         let ends = [(0, start, 0.0), (trajectory.intervals(), goal, trajectory.flight_time_s())];
-        ends.map(|(k, expected, at_s)| (vehicle, at_s, (trajectory.states[k] - expected).fixed_rows::<3>(0).norm()))
+        ends.into_iter().flat_map(move |(k, expected, at_s)| {
+            let state = &trajectory.states[k];
+            let position_m = (state - expected).fixed_rows::<3>(0).norm();
+            let speed_mps = (velocity_mps(state) - velocity_mps(expected)).norm();
+            [(vehicle, at_s, position_m, "m"), (vehicle, at_s, speed_mps, "m/s")]
+        })
     });
-    let (vehicle, at_s, amount) = errors_m.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let (vehicle, at_s, amount, unit) = errors.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let parties = vec![scenario.vehicles[vehicle].name.clone()];
-    (!within(amount, MAX_END_ERROR_M)).then_some(ConstraintViolation {
+    (!within(amount, MAX_END_ERROR)).then_some(ConstraintViolation {
         constraint: "start or goal",
         parties,
         at_s,
         amount,
+        unit,
+    })
+}
+
+fn dynamics(scenario: &Scenario, motions: &[RefinedMotion]) -> Option<ConstraintViolation> {
+    let defects = motions.iter().map(|motion| motion.defect).enumerate();
+    let (vehicle, defect) = defects.max_by(|a, b| a.1.amount_m.total_cmp(&b.1.amount_m))?;
+    let max_m = MAX_DEFECT_M.min(scenario.limits().dynamics_m);
+    (!within(defect.amount_m, max_m)).then(|| ConstraintViolation {
+        constraint: "dynamics",
+        parties: vec![scenario.vehicles[vehicle].name.clone()],
+        at_s: defect.at_s,
+        amount: defect.amount_m,
         unit: "m",
     })
 }
 
-fn dynamics(scenario: &Scenario, trajectories: &[Iterate], motion: &FleetMotion) -> Option<ConstraintViolation> {
-    let mut worst: Option<ConstraintViolation> = None;
-    for (vehicle, (trajectory, motion)) in trajectories.iter().zip(&motion.vehicles).enumerate() {
-        for (k, knots) in motion.intervals.iter().enumerate() {
-            let defect = trajectory.states[k + 1] - knots[knots.len() - 1];
-            let defect_m = defect.fixed_rows::<3>(0).norm();
-            if !within(defect_m, MAX_DEFECT_M) && worst.as_ref().is_none_or(|worst| !within(defect_m, worst.amount)) {
-                worst = Some(ConstraintViolation {
-                    constraint: "dynamics",
-                    parties: vec![scenario.vehicles[vehicle].name.clone()],
-                    at_s: (k + 1) as f64 * trajectory.dt_s,
-                    amount: defect_m,
-                    unit: "m",
-                });
-            }
-        }
-    }
-    worst
-}
-
-fn rollout(scenario: &Scenario, trajectories: &[Iterate]) -> Option<ConstraintViolation> {
-    let end_error_m = |trajectory: &Iterate| {
-        let end = (0..trajectory.intervals()).fold(trajectory.states[0], |state, k| {
-            let interval = trajectory.interval(k);
-            let knots = shooting::flow(&Interval { states: [state, interval.states[1]], ..interval });
-            knots[knots.len() - 1]
-        });
-        (trajectory.states[trajectory.intervals()] - end).fixed_rows::<3>(0).norm()
-    };
-    let errors_m: Vec<f64> = trajectories.par_iter().map(end_error_m).collect();
-    let (vehicle, amount) = errors_m.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let (parties, at_s) = (vec![scenario.vehicles[vehicle].name.clone()], trajectories[vehicle].flight_time_s());
-    (!within(amount, MAX_ROLLOUT_ERROR_M)).then_some(ConstraintViolation {
+fn rollout(scenario: &Scenario, motions: &[RefinedMotion]) -> Option<ConstraintViolation> {
+    let errors_m = motions.iter().map(|motion| motion.rollout_error_m).enumerate();
+    let (vehicle, amount) = errors_m.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let max_m = MAX_ROLLOUT_FRACTION * scenario.limits().rollout_m;
+    (!within(amount, max_m)).then(|| ConstraintViolation {
         constraint: "rollout",
-        parties,
-        at_s,
+        parties: vec![scenario.vehicles[vehicle].name.clone()],
+        at_s: motions[vehicle].motion.end_s(),
         amount,
         unit: "m",
     })
 }
 
-fn limits(
-    scenario: &Scenario,
-    trajectories: &[Iterate],
-    bounds: &[[Range; STAGE_LEN]],
-    motion: &FleetMotion,
-) -> Option<ConstraintViolation> {
-    let mut worst: Option<ConstraintViolation> = None;
-    for (vehicle, trajectory) in trajectories.iter().enumerate() {
-        let mut consider = |quantity: usize, range: Range, values: Range, k: usize| {
-            let excess = (values.max - range.max).max(range.min - values.min);
-            let fraction = excess / range.width();
-            let is_accepted = fraction <= LIMIT_TOLERANCE || !range.width().is_finite();
-            if !is_accepted && worst.as_ref().is_none_or(|worst| excess > worst.amount) {
-                worst = Some(ConstraintViolation {
-                    constraint: NAMES[quantity],
-                    parties: vec![scenario.vehicles[vehicle].name.clone()],
-                    at_s: k as f64 * trajectory.dt_s,
-                    amount: excess,
-                    unit: UNITS[quantity],
-                });
-            }
-        };
-        for (k, knots) in motion.vehicles[vehicle].intervals.iter().enumerate() {
-            for quantity in BOUNDED_STATES {
-                consider(quantity, bounds[vehicle][quantity], extremes(knots, quantity), k);
+/// The limits of every vehicle. The planner promises the planned ones at all times, up to its solver's rounding; the
+/// physical ones have no such tolerance.
+struct Limits<'a> {
+    scenario: &'a Scenario,
+    planned: &'a [[Range; STAGE_LEN]],
+}
+
+impl Limits<'_> {
+    fn states(&self, motion: &FleetMotion) -> Option<ConstraintViolation> {
+        let mut worst = None;
+        for (vehicle, motion) in motion.vehicles.iter().enumerate() {
+            let physical = self.physical(vehicle);
+            for (k, knots) in motion.intervals.iter().enumerate() {
+                for quantity in BOUNDED_STATES {
+                    let values = extremes(knots, quantity, motion.kink);
+                    self.consider(&mut worst, vehicle, quantity, &physical, values, k as f64 * motion.dt_s);
+                }
             }
         }
-        for (k, control) in trajectory.controls.iter().enumerate() {
-            for i in 0..3 {
-                consider(6 + i, bounds[vehicle][6 + i], Range::new(control[i], control[i]), k);
+        worst
+    }
+
+    fn controls(&self, trajectories: &[Iterate]) -> Option<ConstraintViolation> {
+        let mut worst = None;
+        for (vehicle, trajectory) in trajectories.iter().enumerate() {
+            let physical = self.physical(vehicle);
+            for (k, control) in trajectory.controls.iter().enumerate() {
+                for i in 0..3 {
+                    let value = Range::new(control[i], control[i]);
+                    self.consider(&mut worst, vehicle, 6 + i, &physical, value, k as f64 * trajectory.dt_s);
+                }
             }
+        }
+        worst
+    }
+
+    fn physical(&self, vehicle: usize) -> [Range; STAGE_LEN] {
+        let model = self.scenario.fixed_wing_model(&self.scenario.vehicles[vehicle]);
+        subproblem::node_bounds(&model.limits, &self.scenario.world.map)
+    }
+
+    fn consider(
+        &self,
+        worst: &mut Option<ConstraintViolation>,
+        vehicle: usize,
+        quantity: usize,
+        physical: &[Range; STAGE_LEN],
+        values: Range,
+        at_s: f64,
+    ) {
+        let beyond = |range: Range| (values.max - range.max).max(range.min - values.min);
+        let planned = self.planned[vehicle][quantity];
+        let (excess, width) = (beyond(planned), planned.width());
+        let is_kept = within(excess, LIMIT_TOLERANCE * width) && within(beyond(physical[quantity]), ROUNDING * width);
+        let is_unlimited = !width.is_finite() && excess.is_finite();
+        if !is_kept && !is_unlimited && worst.as_ref().is_none_or(|worst| !within(excess, worst.amount)) {
+            *worst = Some(ConstraintViolation {
+                constraint: NAMES[quantity],
+                parties: vec![self.scenario.vehicles[vehicle].name.clone()],
+                at_s,
+                amount: excess,
+                unit: UNITS[quantity],
+            });
         }
     }
-    worst
 }
 
 const NAMES: [&str; STAGE_LEN] = ["x", "y", "altitude", "speed", "heading", "flight-path angle", "n_x", "n_y", "n_z"];
@@ -222,87 +274,4 @@ fn within(value: f64, limit: f64) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::super::dynamics::Control;
-    use super::*;
-
-    /// The smallest shipped fleet, with all vehicles on straight flights east that obey the equations of motion.
-    fn fleet() -> (Scenario, Vec<Iterate>) {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/fixed-wing/rendezvous-2.toml");
-        let mut scenario = scenarios::load(&path).expect("a shipped scenario");
-        scenario.world.cylinders.truncate(1);
-        scenario.world.cylinders[0].center_m = [1000.0, 2000.0];
-        let straight = |y_m: f64| {
-            let at = |k: usize| State::new(35.0 * 5.0 * k as f64, y_m, 400.0, 35.0, 0.0, 0.0);
-            Iterate {
-                states: (0..=10).map(at).collect(),
-                controls: vec![Control::new(0.0, 0.0, 1.0); 11],
-                dt_s: 5.0,
-                ramp: 0.25,
-            }
-        };
-        (scenario, vec![straight(0.0), straight(150.0)])
-    }
-
-    fn violation(scenario: &Scenario, trajectories: &[Iterate]) -> Option<ConstraintViolation> {
-        let (_, expected) = fleet();
-        let boundary: Vec<[State; 2]> =
-            expected.iter().map(|trajectory| [trajectory.states[0], trajectory.states[10]]).collect();
-        let bounds = |vehicle| {
-            let limits = &scenario.fixed_wing_model(vehicle).planning_limits;
-            super::super::super::subproblem::node_bounds(limits, &scenario.world.map)
-        };
-        let bounds: Vec<_> = scenario.vehicles.iter().map(bounds).collect();
-        first_violation(scenario, &AvoidanceConstraints::new(scenario, 0.5), trajectories, &bounds, &boundary)
-    }
-
-    #[test]
-    fn a_plan_that_keeps_every_constraint_is_accepted() {
-        let (scenario, trajectories) = fleet();
-        assert_eq!(violation(&scenario, &trajectories), None);
-    }
-
-    #[test]
-    fn every_kind_of_violation_is_found() {
-        type Mutation = fn(&mut Scenario, &mut Vec<Iterate>);
-        let cases: [(&str, Mutation); 9] = [
-            ("separation", |scenario, _| scenario.fleet.separation_m = Some(151.0)),
-            ("clearance", |scenario, _| scenario.world.cylinders[0].center_m = [875.0, 551.0]),
-            ("simultaneous arrival", |_, trajectories| trajectories[1].dt_s += 1e-3),
-            ("start or goal", |_, trajectories| trajectories[0].states.iter_mut().for_each(|state| state[1] -= 0.1)),
-            ("dynamics", |_, trajectories| trajectories[0].states[4][0] += 0.2),
-            ("dynamics", |_, trajectories| trajectories[0].states[4][2] = f64::NAN),
-            ("rollout", |_, trajectories| trajectories[0].controls.iter_mut().for_each(|control| control[0] = 1e-4)),
-            ("speed", |scenario, _| {
-                let model = scenario.models.fixed_wing.values_mut().next().expect("a model");
-                model.planning_limits.speed_mps.max = 34.9;
-            }),
-            ("n_z", |scenario, _| {
-                let model = scenario.models.fixed_wing.values_mut().next().expect("a model");
-                model.planning_limits.n_z.max = 0.99;
-            }),
-        ];
-        for (constraint, mutate) in cases {
-            let (mut scenario, mut trajectories) = fleet();
-            mutate(&mut scenario, &mut trajectories);
-            let found = violation(&scenario, &trajectories).unwrap_or_else(|| panic!("{constraint} was not found"));
-            assert_eq!(found.constraint, constraint, "{found}");
-            assert!(!found.parties.is_empty() && found.amount != 0.0, "{found:?}");
-        }
-    }
-
-    #[test]
-    fn separation_is_checked_between_the_nodes() {
-        let (mut scenario, mut trajectories) = fleet();
-        scenario.fleet.separation_m = Some(50.0);
-        // the second vehicle flies the opposite way: they pass each other between two nodes
-        let states: Vec<State> = trajectories[0].states.iter().rev().copied().collect();
-        trajectories[1].states =
-            states.iter().map(|s| State::new(s[0] - 87.5, 20.0, 400.0, 35.0, std::f64::consts::PI, 0.0)).collect();
-        let at_nodes = (0..=10).map(|k| (trajectories[0].states[k] - trajectories[1].states[k]).norm());
-        assert!(at_nodes.fold(f64::INFINITY, f64::min) > 80.0);
-        let found = violation(&scenario, &trajectories).expect("they pass at 20 m");
-        assert_eq!(found.constraint, "separation");
-        assert!((found.amount - 30.0).abs() < 1e-6, "{found}");
-    }
-}
+mod tests;

@@ -19,35 +19,40 @@ pub struct ClosestApproach {
     pub distance_m: f64,
 }
 
-/// Closest approach of two vehicles in a time slice of `width_s`.
-pub fn of_vehicles(a: &TimeSlice, b: &TimeSlice, width_s: f64) -> ClosestApproach {
+/// Closest approach of two vehicles in a time slice of `width_s`, until a fraction of it at which one of them arrives.
+pub fn of_vehicles(a: &TimeSlice, b: &TimeSlice, width_s: f64, until: f64) -> ClosestApproach {
     let relative = std::array::from_fn(|m| MotionSample {
         position_m: a[m].position_m - b[m].position_m,
         velocity_mps: a[m].velocity_mps - b[m].velocity_mps,
     });
-    to_origin(&relative, width_s)
+    to_origin(&relative, width_s, until)
 }
 
 /// Closest approach of a vehicle and a fixed point in a time slice of `width_s`.
 pub fn to_point(a: &TimeSlice, point_m: Vector2<f64>, width_s: f64) -> ClosestApproach {
-    to_origin(&a.map(|at| MotionSample { position_m: at.position_m - point_m, ..at }), width_s)
+    to_origin(&a.map(|at| MotionSample { position_m: at.position_m - point_m, ..at }), width_s, 1.0)
 }
 
-fn to_origin(relative: &TimeSlice, width_s: f64) -> ClosestApproach {
+fn to_origin(relative: &TimeSlice, width_s: f64, until: f64) -> ClosestApproach {
     let step_s = width_s / SUBSTEPS as f64;
     let mut nearest = approach(0.0, relative[0]);
     for step in 0..SUBSTEPS {
+        let end = (until * SUBSTEPS as f64 - step as f64).min(1.0);
+        if end <= 0.0 {
+            break;
+        }
         let (a, b) = (&relative[step], &relative[step + 1]);
+        let last = if end < 1.0 { interpolate(a, b, end, step_s) } else { *b };
         let mut consider = |fraction: f64, at: MotionSample| {
             let candidate = approach((step as f64 + fraction) / SUBSTEPS as f64, at);
             if candidate.distance_m < nearest.distance_m {
                 nearest = candidate;
             }
         };
-        consider(1.0, *b);
+        consider(end, last);
         // either half of the step may contain a minimum
-        let middle = interpolate(a, b, 0.5, step_s);
-        for (from, to, [begin, end]) in [(a, &middle, [0.0, 0.5]), (&middle, b, [0.5, 1.0])] {
+        let middle = interpolate(a, b, 0.5 * end, step_s);
+        for (from, to, [begin, end]) in [(a, &middle, [0.0, 0.5 * end]), (&middle, &last, [0.5 * end, end])] {
             if rate(from) < 0.0 && rate(to) > 0.0 {
                 let fraction = minimum_fraction(a, b, [begin, end], step_s);
                 consider(fraction, interpolate(a, b, fraction, step_s));
@@ -118,7 +123,7 @@ mod tests {
     #[test]
     fn vehicles_side_by_side_keep_their_distance() {
         let shifted = passing().map(|at| MotionSample { position_m: at.position_m + Vector2::new(0.0, 30.0), ..at });
-        let found = of_vehicles(&passing(), &shifted, WIDTH_S);
+        let found = of_vehicles(&passing(), &shifted, WIDTH_S, 1.0);
         assert!((found.distance_m - 30.0).abs() < 1e-12);
     }
 
@@ -126,5 +131,14 @@ mod tests {
     fn closest_approach_may_lie_at_an_end() {
         let found = to_point(&passing(), Vector2::new(500.0, 5.0), WIDTH_S);
         assert_eq!((found.fraction, found.distance_m), (0.0, 400.0));
+    }
+
+    #[test]
+    fn vehicles_count_until_one_of_them_arrives() {
+        let still = passing().map(|_| MotionSample { position_m: Vector2::zeros(), velocity_mps: Vector2::zeros() });
+        let until = 1.3 / WIDTH_S;
+        let found = of_vehicles(&passing(), &still, WIDTH_S, until);
+        let distance_m = (100.0_f64 - 60.0 * 1.3).hypot(5.0 + 1.3 * 1.3);
+        assert!((found.fraction - until).abs() < 1e-12 && (found.distance_m - distance_m).abs() < 1e-9, "{found:?}");
     }
 }

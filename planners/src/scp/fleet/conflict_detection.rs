@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use rayon::prelude::*;
 use scenarios::Cylinder;
 
-use super::super::iterate::{Iterate, max_dt_s};
+use super::super::iterate::Iterate;
 use super::closest_approach::{self, ClosestApproach};
 use super::grid::{self, Disc};
 use super::motion::{TimeSlice, VehicleMotion, locate};
@@ -19,6 +19,8 @@ pub struct FleetMotion {
     /// One per vehicle.
     pub vehicles: Vec<VehicleMotion>,
     slices: Vec<Vec<TimeSlice>>,
+    /// The fraction of its last slice after which each vehicle has arrived.
+    ends: Vec<f64>,
     width_s: f64,
     /// Is every slice an interval of every vehicle?
     is_synchronised: bool,
@@ -51,16 +53,25 @@ pub struct ObstacleConflict {
 impl FleetMotion {
     /// The flow of all trajectories.
     pub fn new(trajectories: &[Iterate]) -> Self {
-        let vehicles: Vec<VehicleMotion> = trajectories.par_iter().map(VehicleMotion::new).collect();
-        let width_s = max_dt_s(trajectories);
-        let slices = vehicles.par_iter().map(|vehicle| vehicle.slices(width_s)).collect();
-        Self { vehicles, slices, width_s, is_synchronised: false }
+        Self::of_vehicles(trajectories.par_iter().map(VehicleMotion::new).collect())
+    }
+
+    /// The motions of all vehicles.
+    pub fn of_vehicles(vehicles: Vec<VehicleMotion>) -> Self {
+        let width_s = vehicles.iter().map(|vehicle| vehicle.dt_s).fold(0.0, f64::max);
+        let slices: Vec<Vec<TimeSlice>> = vehicles.par_iter().map(|vehicle| vehicle.slices(width_s)).collect();
+        let end = |(vehicle, slices): (&VehicleMotion, &Vec<TimeSlice>)| {
+            vehicle.end_s() / width_s - (slices.len() as f64 - 1.0)
+        };
+        let ends = vehicles.iter().zip(&slices).map(end).collect();
+        Self { vehicles, slices, ends, width_s, is_synchronised: false }
     }
 
     /// The motion with every interval taken to be as long as the longest one, as it will be when all arrive together.
     pub fn synchronised(trajectories: &[Iterate]) -> Self {
         let mut motion = Self::new(trajectories);
         motion.slices = motion.vehicles.iter().map(|vehicle| vehicle.slices(vehicle.dt_s)).collect();
+        motion.ends.fill(1.0);
         motion.is_synchronised = true;
         motion
     }
@@ -74,7 +85,8 @@ impl FleetMotion {
             let near = grid::near_pairs(&discs, reach_m).into_iter();
             let conflict = |vehicles: [usize; 2]| {
                 let [a, b] = vehicles.map(|i| &self.slices[i][slice]);
-                let approach = closest_approach::of_vehicles(a, b, self.width_s);
+                let [u, v] = vehicles.map(|i| if slice + 1 == self.slices[i].len() { self.ends[i] } else { 1.0 });
+                let approach = closest_approach::of_vehicles(a, b, self.width_s, u.min(v));
                 Conflict { vehicles, at_s: (slice as f64 + approach.fraction) * self.width_s, approach }
             };
             near.map(conflict).filter(|conflict| conflict.approach.distance_m < reach_m).collect::<Vec<_>>()

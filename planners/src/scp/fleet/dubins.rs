@@ -26,12 +26,26 @@ pub struct DubinsPath {
 }
 
 impl DubinsPath {
-    /// The shortest of the four words LSL, LSR, RSL, RSR from `start` to `goal` with turns of `radius_m`.
+    /// Number of words: LSL, LSR, RSL, RSR.
+    pub const WORDS: usize = 4;
+
+    /// The shortest of the four words from `start` to `goal` with turns of `radius_m`.
     pub fn shortest(start: Pose, goal: Pose, radius_m: f64) -> Self {
-        let sides = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-        let paths = sides.into_iter().filter_map(|sides| Self::by_sides(start, goal, radius_m, sides));
+        let paths = (0..Self::WORDS).filter_map(|word| Self::by_word(start, goal, radius_m, word));
         let shortest = paths.min_by(|a, b| a.length_m().total_cmp(&b.length_m()));
         shortest.expect("two turns to the same side always reach the goal")
+    }
+
+    /// The path of one word.
+    pub fn by_word(start: Pose, goal: Pose, radius_m: f64, word: usize) -> Option<Self> {
+        let sides = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        Self::by_sides(start, goal, radius_m, sides[word])
+    }
+
+    /// The path with full circles before its first turn, to the same side.
+    pub fn with_circles(self, circles: usize) -> Self {
+        let [first, last] = self.turns_rad;
+        Self { turns_rad: [first + first.signum() * TAU * circles as f64, last], ..self }
     }
 
     /// The path with turns to `sides`, 1 for left and -1 for right. `None` if the circles are too close to each other

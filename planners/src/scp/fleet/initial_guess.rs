@@ -2,11 +2,11 @@
 //! roundabout where many would meet at one point.
 
 use rayon::prelude::*;
-use scenarios::Scenario;
+use scenarios::{Scenario, Vehicle};
 
 use super::super::dynamics::State;
 use super::super::iterate::Iterate;
-use super::super::options::Options;
+use super::agility::Agility;
 use super::avoidance_rows::AvoidanceConstraints;
 use super::conflict_detection::FleetMotion;
 use super::initial_route::{self, InitialRoute};
@@ -28,24 +28,41 @@ pub struct InitialGuess {
 }
 
 impl InitialGuess {
-    /// Routes, speeds, and a roundabout for each crowd.
-    pub fn new(scenario: &Scenario, options: &Options, constraints: &AvoidanceConstraints) -> Self {
-        let mut routes = initial_route::initial_routes(scenario, constraints.clearance_m + constraints.margin_m);
-        let guess = Self::from_routes(scenario, options, &routes);
+    /// Routes, speeds, and a roundabout for each crowd. Every `attempt` has other ones.
+    pub fn new(scenario: &Scenario, constraints: &AvoidanceConstraints, attempt: usize) -> Self {
+        let mut routes =
+            initial_route::initial_routes(scenario, constraints.clearance_m + constraints.margin_m, attempt);
+        let guess = Self::from_routes(scenario, &routes);
         let required_m = constraints.separation_m + constraints.margin_m;
         let crowds = roundabout::crowds(&FleetMotion::new(&guess.trajectories), required_m);
         if crowds.is_empty() {
             return guess;
         }
         roundabout::displace(&mut routes, &crowds, required_m);
-        Self::from_routes(scenario, options, &routes)
+        Self::from_routes(scenario, &routes)
     }
 
-    fn from_routes(scenario: &Scenario, options: &Options, routes: &[InitialRoute]) -> Self {
-        let vehicles = scenario.vehicles.par_iter().zip(routes);
-        let trajectory =
-            |(vehicle, route)| initial_route::trajectory(scenario, vehicle, route, options.intervals, RAMP_FRACTION);
+    fn from_routes(scenario: &Scenario, routes: &[InitialRoute]) -> Self {
+        let vehicles = scenario.vehicles.par_iter().zip(routes).zip(intervals(scenario, routes));
+        let trajectory = |((vehicle, route), intervals)| {
+            initial_route::trajectory(scenario, vehicle, route, intervals, RAMP_FRACTION)
+        };
         let (trajectories, boundary) = vehicles.map(trajectory).unzip();
         Self { trajectories, boundary }
     }
+}
+
+/// Number of intervals of every vehicle: that of the scenario, or what its agility asks for. Vehicles that arrive
+/// together share their nodes.
+fn intervals(scenario: &Scenario, routes: &[InitialRoute]) -> Vec<usize> {
+    let own = |(vehicle, route): (&Vehicle, &InitialRoute)| {
+        let limits = &scenario.fixed_wing_model(vehicle).planning_limits;
+        scenario.planner.intervals.unwrap_or_else(|| Agility::new(limits).intervals(route.flight_time_s))
+    };
+    let mut intervals: Vec<usize> = scenario.vehicles.iter().zip(routes).map(own).collect();
+    if scenario.fleet.simultaneous_arrival {
+        let most = intervals.iter().max().copied().unwrap_or(0);
+        intervals.fill(most);
+    }
+    intervals
 }

@@ -7,16 +7,29 @@ use scenarios::{Scenario, Vehicle};
 use super::super::dynamics::{Control, State};
 use super::super::initial_guess::boundary_states;
 use super::super::iterate::Iterate;
+use super::agility::Agility;
 use super::detour::{self, ObstacleMap};
+use super::dubins::{DubinsPath, Pose};
+use super::lengthening::Lengthening;
 use super::route::Route;
-use super::speed::SpeedProfile;
+use super::speed::{self, SpeedProfile};
 
 /// Turn radius of the initial routes relative to the smallest radius at the initial speed.
 const TURN_RADIUS_FACTOR: f64 = 1.15;
 
+/// What every further attempt adds to the turn radius, in smallest radii, and to the common flight time, as a fraction.
+const ATTEMPT_RADIUS_FACTOR: f64 = 0.35;
+const ATTEMPT_DELAY: f64 = 0.08;
+
 /// Speed on a detour that delays the arrival, as a fraction of the speed range: near the lower limit, with margins on
 /// both sides.
 const DELAY_SPEED_FRACTION: f64 = 0.25;
+
+/// Climb of the initial routes, as a fraction of the limit of the flight-path angle.
+const CLIMB_FRACTION: f64 = 0.7;
+
+/// Maximum number of times that the common flight time is raised.
+const MAX_DELAYS: usize = 4;
 
 /// Route and flight time of one vehicle.
 #[derive(Clone, Debug)]
@@ -27,26 +40,66 @@ pub struct InitialRoute {
     pub flight_time_s: f64,
 }
 
-/// Short routes around the obstacles, lengthened for vehicles that would arrive early even at low speed.
-pub fn initial_routes(scenario: &Scenario, margin_m: f64) -> Vec<InitialRoute> {
+/// Short routes around the obstacles, lengthened for vehicles that would arrive early even at low speed. Later attempts
+/// have wider turns, and more time where all arrive together.
+pub fn initial_routes(scenario: &Scenario, margin_m: f64, attempt: usize) -> Vec<InitialRoute> {
     let map = ObstacleMap { obstacles: &scenario.world.cylinders, map: &scenario.world.map, margin_m };
-    let planned = scenario.vehicles.par_iter().map(|vehicle| {
-        let limits = limits(scenario, vehicle);
-        let turn_radius_m = TURN_RADIUS_FACTOR * turn_radius_m(limits, vehicle.start.speed_mps);
-        let shortest = Route::shortest(vehicle, turn_radius_m);
-        let route = detour::around(shortest, &map, turn_radius_m);
-        let flight_time_s = profile(vehicle, limits, &route, limits.speed_mps.max).duration_s();
-        InitialRoute { route, flight_time_s }
-    });
-    let mut routes: Vec<InitialRoute> = planned.collect();
-    if scenario.fleet.simultaneous_arrival {
-        let last_s = routes.iter().map(|route| route.flight_time_s).fold(0.0, f64::max);
-        routes.par_iter_mut().zip(&scenario.vehicles).for_each(|(route, vehicle)| {
-            route.flight_time_s = last_s;
-            delay(route, vehicle, limits(scenario, vehicle), &map);
-        });
+    let radius_factor = TURN_RADIUS_FACTOR + ATTEMPT_RADIUS_FACTOR * attempt as f64;
+    let shortest = scenario.vehicles.par_iter();
+    let shortest = shortest.map(|vehicle| shortest_route(vehicle, limits(scenario, vehicle), radius_factor, &map));
+    let shortest: Vec<InitialRoute> = shortest.collect();
+    if !scenario.fleet.simultaneous_arrival {
+        return shortest;
     }
-    routes
+    let last_s = |routes: &[InitialRoute]| routes.iter().map(|route| route.flight_time_s).fold(0.0, f64::max);
+    let mut delayed_routes = Vec::new();
+    let mut together_s = (1.0 + ATTEMPT_DELAY * attempt as f64) * last_s(&shortest);
+    for _ in 0..MAX_DELAYS {
+        let delayed = shortest.par_iter().zip(&scenario.vehicles);
+        let delayed = delayed.map(|(route, vehicle)| {
+            let limits = limits(scenario, vehicle);
+            let route = delayed_route(route, together_s, vehicle, limits, &map);
+            let fastest_s = profile(vehicle, limits, &route, limits.speed_mps.max).duration_s();
+            InitialRoute { route, flight_time_s: fastest_s.max(together_s) }
+        });
+        let mut routes: Vec<InitialRoute> = delayed.collect();
+        let needed_s = last_s(&routes);
+        if needed_s <= together_s {
+            return routes;
+        }
+        // a vehicle that has to fly a full circle delays all
+        together_s = needed_s;
+        routes.iter_mut().for_each(|route| route.flight_time_s = together_s);
+        delayed_routes = routes;
+    }
+    delayed_routes
+}
+
+/// The shortest route that leaves room for the changes of altitude and speed, at full speed.
+fn shortest_route(vehicle: &Vehicle, limits: &Limits, radius_factor: f64, map: &ObstacleMap) -> InitialRoute {
+    let agility = Agility::new(limits);
+    let ends = poses(vehicle);
+    let turn_radius_m = radius_factor * agility.turn_radius_m(vehicle.start.speed_mps);
+    let shortest = Route::along(&DubinsPath::shortest(ends[0], ends[1], turn_radius_m), turn_radius_m);
+    let mut route = detour::around(shortest, map, turn_radius_m);
+    let length_m = min_length_m(vehicle, limits);
+    if route.length_m() < length_m {
+        let longer = Lengthening { ends, map, turn_radius_m, length_m, max_length_m: f64::INFINITY };
+        route = longer.of(&route);
+    }
+    let flight_time_s = profile(vehicle, limits, &route, limits.speed_mps.max).duration_s();
+    InitialRoute { route, flight_time_s }
+}
+
+/// Smallest length in which altitude and speed can change from the start's to the goal's, m.
+fn min_length_m(vehicle: &Vehicle, limits: &Limits) -> f64 {
+    let [start, goal] = [&vehicle.start, &vehicle.goal];
+    let climb_m = goal.z_m - start.z_m;
+    let climb = if climb_m < 0.0 { limits.flight_path_deg.min } else { limits.flight_path_deg.max };
+    let climbing_m = (climb_m / (CLIMB_FRACTION * climb.to_radians()).tan()).abs();
+    let squares = (goal.speed_mps * goal.speed_mps - start.speed_mps * start.speed_mps).abs();
+    let changing_speed_m = squares / (2.0 * speed::ACCELERATION_FRACTION * Agility::new(limits).acceleration_mps2());
+    if climb_m == 0.0 { changing_speed_m } else { climbing_m.max(changing_speed_m) }
 }
 
 /// The trajectory along an initial route, with its initial and final state. The final heading is that of the scenario
@@ -100,24 +153,34 @@ fn control(states: &[State], k: usize, dt_s: f64, limits: &Limits) -> Control {
     )
 }
 
-/// Lengthens the route so that it takes the intended flight time within the speed limits.
-fn delay(initial: &mut InitialRoute, vehicle: &Vehicle, limits: &Limits, map: &ObstacleMap) {
+/// The route, lengthened so that it takes the given flight time within the speed limits.
+fn delayed_route(
+    initial: &InitialRoute,
+    flight_time_s: f64,
+    vehicle: &Vehicle,
+    limits: &Limits,
+    map: &ObstacleMap,
+) -> Route {
     let slow_mps = limits.speed_mps.min + DELAY_SPEED_FRACTION * limits.speed_mps.width();
-    let slow = profile(vehicle, limits, &initial.route, slow_mps);
-    let missing_s = initial.flight_time_s - slow.duration_s();
-    if missing_s > 0.0 {
-        let length_m = initial.route.length_m() + missing_s * slow_mps;
-        let turn_radius_m = TURN_RADIUS_FACTOR * turn_radius_m(limits, slow_mps);
-        let max_length_m = initial.flight_time_s * (limits.speed_mps.max - 0.1 * limits.speed_mps.width());
-        let shapes: [&[f64]; 4] = [&[1.0], &[-1.0], &[1.0, -1.0], &[-1.0, 1.0]];
-        let routes = shapes.into_iter().map(|sides| {
-            let longer = initial.route.lengthened(length_m, sides);
-            detour::around(longer, map, turn_radius_m)
-        });
-        let rank = |route: &Route| (route.length_m() > max_length_m, map.intrusion_m(route), route.length_m());
-        let best = routes.min_by(|a, b| rank(a).partial_cmp(&rank(b)).expect("lengths are numbers"));
-        initial.route = best.expect("there are four shapes");
+    let missing_s = flight_time_s - profile(vehicle, limits, &initial.route, slow_mps).duration_s();
+    if missing_s <= 0.0 {
+        return initial.route.clone();
     }
+    let longer = Lengthening {
+        ends: poses(vehicle),
+        map,
+        turn_radius_m: TURN_RADIUS_FACTOR * Agility::new(limits).turn_radius_m(slow_mps),
+        length_m: initial.route.length_m() + missing_s * slow_mps,
+        max_length_m: flight_time_s * (limits.speed_mps.max - 0.1 * limits.speed_mps.width()),
+    };
+    longer.of(&initial.route)
+}
+
+fn poses(vehicle: &Vehicle) -> [Pose; 2] {
+    [&vehicle.start, &vehicle.goal].map(|waypoint| Pose {
+        position_m: [waypoint.x_m, waypoint.y_m],
+        heading_rad: waypoint.heading_deg.to_radians(),
+    })
 }
 
 /// Cruising speed at which the route takes the intended flight time, within the limits.
@@ -133,13 +196,7 @@ fn cruise_mps(initial: &InitialRoute, vehicle: &Vehicle, limits: &Limits) -> f64
 
 fn profile(vehicle: &Vehicle, limits: &Limits, route: &Route, cruise_mps: f64) -> SpeedProfile {
     let ends_mps = [vehicle.start.speed_mps, vehicle.goal.speed_mps];
-    let limit = limits.n_x.max.min(-limits.n_x.min).max(0.01);
-    SpeedProfile::cruising(route.length_m(), ends_mps, cruise_mps, GRAVITY_MPS2 * limit)
-}
-
-fn turn_radius_m(limits: &Limits, speed_mps: f64) -> f64 {
-    let max_n_y = limits.n_y.max.min(-limits.n_y.min).max(0.01);
-    speed_mps * speed_mps / (GRAVITY_MPS2 * max_n_y)
+    SpeedProfile::cruising(route.length_m(), ends_mps, cruise_mps, Agility::new(limits).acceleration_mps2())
 }
 
 fn limits<'a>(scenario: &'a Scenario, vehicle: &Vehicle) -> &'a Limits {

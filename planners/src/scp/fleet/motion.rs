@@ -26,13 +26,24 @@ pub struct VehicleMotion {
     pub intervals: Vec<Knots>,
     /// Length of an interval, s.
     pub dt_s: f64,
+    /// Step at whose beginning the controls have a kink.
+    pub kink: Option<usize>,
 }
 
 impl VehicleMotion {
     /// The flow of `trajectory`.
     pub fn new(trajectory: &Iterate) -> Self {
         let flow = |k: usize| shooting::flow(&trajectory.interval(k));
-        Self { intervals: (0..trajectory.intervals()).map(flow).collect(), dt_s: trajectory.dt_s }
+        Self {
+            intervals: (0..trajectory.intervals()).map(flow).collect(),
+            dt_s: trajectory.dt_s,
+            kink: shooting::kink(trajectory.ramp),
+        }
+    }
+
+    /// Time of arrival, s.
+    pub fn end_s(&self) -> f64 {
+        self.dt_s * self.intervals.len() as f64
     }
 
     /// The motion on time slices of `width_s`; one per interval if `width_s` is the length of an interval. A vehicle
@@ -42,7 +53,7 @@ impl VehicleMotion {
         if width_s == self.dt_s {
             return own;
         }
-        let end_s = self.dt_s * own.len() as f64;
+        let end_s = self.end_s();
         let count = (end_s / width_s).ceil() as usize;
         let step_s = width_s / SUBSTEPS as f64;
         let slice =

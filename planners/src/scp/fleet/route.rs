@@ -1,11 +1,10 @@
 //! A route over the ground, without timing.
 
-use scenarios::Vehicle;
-
 use super::dubins::{DubinsPath, Pose};
 
-/// Number of segments of a route.
-const SEGMENTS: usize = 200;
+/// Smallest and largest number of segments of a route, and their number per turn radius in between.
+const SEGMENTS: [usize; 2] = [200, 4000];
+const SEGMENTS_PER_RADIUS: f64 = 8.0;
 
 /// A polyline, fine enough to approximate a smooth curve.
 #[derive(Clone, Debug)]
@@ -17,16 +16,13 @@ pub struct Route {
 }
 
 impl Route {
-    /// The shortest Dubins path of a vehicle with turns of `radius_m`.
-    pub fn shortest(vehicle: &Vehicle, radius_m: f64) -> Self {
-        let [start, goal] = [&vehicle.start, &vehicle.goal].map(|waypoint| Pose {
-            position_m: [waypoint.x_m, waypoint.y_m],
-            heading_rad: waypoint.heading_deg.to_radians(),
-        });
-        let path = DubinsPath::shortest(start, goal, radius_m);
+    /// The path, in segments that are short compared with `radius_m`.
+    pub fn along(path: &DubinsPath, radius_m: f64) -> Self {
         let length_m = path.length_m();
-        let point = |index: usize| path.at(length_m * index as f64 / SEGMENTS as f64).position_m;
-        Self::through((0..=SEGMENTS).map(point).collect(), start.heading_rad)
+        let [min, max] = SEGMENTS;
+        let segments = ((SEGMENTS_PER_RADIUS * length_m / radius_m) as usize).clamp(min, max);
+        let point = |index: usize| path.at(length_m * index as f64 / segments as f64).position_m;
+        Self::through((0..=segments).map(point).collect(), path.at(0.0).heading_rad)
     }
 
     /// The polyline through `points_m`.
@@ -92,6 +88,29 @@ impl Route {
         displaced(low_m)
     }
 
+    /// The route with full circles at distance `along_m`: to the left for a positive radius, else to the right.
+    pub fn with_circles(&self, along_m: f64, signed_radius_m: f64, circles: usize) -> Self {
+        let at = self.at(along_m);
+        let (sin, cos) = at.heading_rad.sin_cos();
+        let center = [at.position_m[0] - signed_radius_m * sin, at.position_m[1] + signed_radius_m * cos];
+        let per_circle = (std::f64::consts::TAU * SEGMENTS_PER_RADIUS).ceil();
+        let on_circle = |index: usize| {
+            let turned = signed_radius_m.signum() * std::f64::consts::TAU * index as f64 / per_circle;
+            let (sin, cos) = (at.heading_rad + turned).sin_cos();
+            [center[0] + signed_radius_m * sin, center[1] - signed_radius_m * cos]
+        };
+        let (mut before, mut behind) = (Vec::new(), Vec::new());
+        for (point_m, &distance_m) in self.points_m.iter().zip(&self.along_m) {
+            if distance_m < along_m {
+                before.push(*point_m)
+            } else if distance_m > along_m {
+                behind.push(*point_m)
+            }
+        }
+        let circle = (0..=circles * per_circle as usize).map(on_circle);
+        Self::through(before.into_iter().chain(circle).chain(behind).collect(), self.start_heading_rad)
+    }
+
     /// The point of the route nearest to `point_m`: its distance, m; its position relative to `point_m`, m; and its
     /// distance along the route, m.
     pub fn nearest(&self, point_m: [f64; 2]) -> (f64, [f64; 2], f64) {
@@ -113,6 +132,18 @@ impl Route {
             (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs()
         };
         self.points_m.windows(3).map(turn_rad).fold(0.0, f64::max)
+    }
+
+    /// Largest curvature, 1/m: the turn between neighbouring segments, over their mean length. Segments that are much
+    /// shorter than the others do not count.
+    pub fn max_curvature(&self) -> f64 {
+        let mean_m = self.length_m() / (self.along_m.len() - 1) as f64;
+        let curvature = |(three, along_m): (&[[f64; 2]], &[f64])| {
+            let [a, b] = [0, 1].map(|i| [three[i + 1][0] - three[i][0], three[i + 1][1] - three[i][1]]);
+            let turn_rad = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs();
+            turn_rad / (0.5 * (along_m[2] - along_m[0])).max(0.5 * mean_m)
+        };
+        self.points_m.windows(3).zip(self.along_m.windows(3)).map(curvature).fold(0.0, f64::max)
     }
 
     /// The points, m.

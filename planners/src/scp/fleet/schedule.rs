@@ -6,6 +6,7 @@
 //! every limit.
 
 use super::super::dynamics::State;
+use super::super::subproblem::FREE_CONTROL_CHANGE;
 
 /// Smallest half-width of the trust region in the search phase, m.
 const MIN_SEARCH_M: f64 = 40.0;
@@ -13,8 +14,8 @@ const MIN_SEARCH_M: f64 = 40.0;
 /// Relative change of the objective below which the flight time has settled.
 const SETTLED_CHANGE: f64 = 3e-3;
 
-/// Maximum number of iterations of a phase.
-const MAX_PHASE_ITERATIONS: usize = 10;
+/// Maximum number of iterations of the search phase and of the settling phase.
+const MAX_PHASE_ITERATIONS: [usize; 2] = [10, 14];
 
 /// Half-width, as a fraction of [`MIN_SEARCH_M`], below which the time bound is no longer released.
 const MIN_RELEASE_WIDTH: f64 = 0.15;
@@ -46,6 +47,8 @@ pub struct TrustRegionSchedule {
     shrink: f64,
     release: f64,
     is_searching: bool,
+    /// Number of settling phases without convergence.
+    failed_rounds: usize,
     /// Iterations in the current phase.
     count: usize,
     last_objective_s: f64,
@@ -66,6 +69,7 @@ impl TrustRegionSchedule {
             shrink,
             release,
             is_searching: true,
+            failed_rounds: 0,
             count: 0,
             last_objective_s: f64::INFINITY,
             simultaneous: dt_s.is_some(),
@@ -85,15 +89,33 @@ impl TrustRegionSchedule {
         self.bound_s
     }
 
-    /// Largest relative change of a step length.
+    /// Largest relative change of a step length. Where every vehicle has a step length of its own, a change moves it
+    /// relative to the others, as a change of its position does.
     pub fn time_change(&self) -> f64 {
         let [full, min] = MAX_TIME_CHANGE;
-        (full * self.half_widths[0] / self.initial[0]).max(min)
+        let change = full * self.half_widths[0] / self.initial[0];
+        match (self.simultaneous, self.is_searching) {
+            (true, _) => change.max(min),
+            (false, true) => full,
+            (false, false) => change,
+        }
+    }
+
+    /// Half-width of the trust region of the controls, as a fraction of their ranges: wide in the search phase. In the
+    /// settling phase the motion between the nodes, which the controls determine, must settle too.
+    pub fn control_change(&self) -> f64 {
+        let settled = self.half_widths[0] / (0.5 * MIN_SEARCH_M);
+        if self.is_searching { FREE_CONTROL_CHANGE } else { (settled * settled).min(FREE_CONTROL_CHANGE) }
     }
 
     /// Is it the search phase? The subproblems then need less accuracy.
     pub fn is_searching(&self) -> bool {
         self.is_searching
+    }
+
+    /// Number of settling phases without convergence.
+    pub fn failed_rounds(&self) -> usize {
+        self.failed_rounds
     }
 
     /// Updates the schedule after an iteration.
@@ -105,12 +127,13 @@ impl TrustRegionSchedule {
         let is_narrowest = self.half_widths[0] * self.shrink < MIN_SEARCH_M;
         let is_settled = (objective_s - self.last_objective_s).abs() < SETTLED_CHANGE * objective_s;
         self.last_objective_s = objective_s;
-        if self.is_searching && (is_settled && is_narrowest || self.count >= MAX_PHASE_ITERATIONS) {
+        if self.is_searching && (is_settled && is_narrowest || self.count >= MAX_PHASE_ITERATIONS[0]) {
             (self.is_searching, self.count) = (false, 0);
         }
-        if !self.is_searching && self.count > MAX_PHASE_ITERATIONS {
+        if !self.is_searching && self.count > MAX_PHASE_ITERATIONS[1] {
             // no convergence: search again from the current trajectories
             (self.is_searching, self.count) = (true, 0);
+            self.failed_rounds += 1;
             self.half_widths = self.initial * (MIN_SEARCH_M / self.initial[0]).min(1.0);
         } else if !self.is_searching {
             self.half_widths *= if violation > MAX_VIOLATION { VIOLATED_SHRINK } else { self.shrink };

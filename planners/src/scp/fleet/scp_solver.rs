@@ -9,13 +9,17 @@ use super::super::dynamics::State;
 use super::super::iterate::{Iterate, max_dt_s, max_flight_time_s};
 use super::super::options::Options;
 use super::super::plan::{node_clearance_m, node_separation_m};
+use super::super::scaling::scaled_state;
+use super::super::shooting;
 use super::super::subproblem::{self, Context};
 use super::super::subproblem_solver::SubproblemSolver;
 use super::acceptance::{self, ConstraintViolation};
+use super::agility::Agility;
 use super::avoidance_rows::{AvoidanceConstraints, avoidance_rows};
+use super::climb;
 use super::conflict_detection::FleetMotion;
 use super::initial_guess::InitialGuess;
-use super::intersample_bounds;
+use super::intersample_bounds::Tightening;
 use super::schedule::TrustRegionSchedule;
 use crate::convex::{HalfspaceConstraint, Program, STAGE_LEN, Solution, Status};
 
@@ -25,35 +29,71 @@ const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
 /// Relative difference below which step lengths are made equal: vehicles that arrive together share their nodes.
 const EQUAL_DT_TOLERANCE: f64 = 1e-6;
 
+/// Number of rounds of search and settling from one initial guess.
+const MAX_ROUNDS: usize = 2;
+
+/// Length of an interval, relative to what the vehicle's agility asks for, above which it is too long.
+const COARSE: f64 = 1.6;
+
+/// A vehicle with intervals that are too long for it.
+#[derive(Clone, Copy, Debug)]
+pub struct Coarse<'a> {
+    /// Name of the vehicle.
+    pub vehicle: &'a str,
+    /// Length of its intervals, s.
+    pub interval_s: f64,
+    /// Number of intervals that would be short enough.
+    pub intervals: usize,
+}
+
 /// The fleet between two iterations.
 pub struct ScpSolver<'a> {
     scenario: &'a Scenario,
     options: Options,
     constraints: AvoidanceConstraints<'a>,
+    /// Tightening of the bounds at the nodes, per vehicle.
+    tightening: Vec<Tightening>,
+    /// Planning limits of every vehicle, and what of the flight-path angle its plan needs.
+    planned: Vec<[Range; STAGE_LEN]>,
     /// Planning limits of every vehicle.
     bounds: Vec<[Range; STAGE_LEN]>,
     /// Initial and final state of every vehicle.
     boundary: Vec<[State; 2]>,
+    /// Factors on the trust region of every vehicle.
+    scales: Vec<State>,
     trajectories: Vec<Iterate>,
+    /// The vehicles by number of intervals: subproblems of one shape are solved together.
+    order: Vec<usize>,
     schedule: TrustRegionSchedule,
     /// One per tolerance of [`TOLERANCES`].
     solvers: [SubproblemSolver; 2],
 }
 
 impl<'a> ScpSolver<'a> {
-    /// The solver at the initial guess.
-    pub fn new(scenario: &'a Scenario, options: Options) -> Self {
+    /// The solver at the initial guess of an `attempt`.
+    pub fn new(scenario: &'a Scenario, options: Options, attempt: usize) -> Self {
         let constraints = AvoidanceConstraints::new(scenario, options.margin_m);
         let limits = |vehicle| &scenario.fixed_wing_model(vehicle).planning_limits;
         let bounds = |vehicle| subproblem::node_bounds(limits(vehicle), &scenario.world.map);
-        let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &options, &constraints);
+        let planned = |(vehicle, trajectory)| climb::bounds_in_use(&bounds(vehicle), trajectory);
+        let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &constraints, attempt);
+        let mut order: Vec<usize> = (0..trajectories.len()).collect();
+        order.sort_by_key(|vehicle| trajectories[*vehicle].intervals());
+        let scale = |vehicle| match scenario.planner.trust_region {
+            Some(_) => State::repeat(1.0),
+            None => Agility::new(limits(vehicle)).trust_region_scale(),
+        };
         let simultaneous_dt_s = scenario.fleet.simultaneous_arrival.then(|| max_dt_s(&trajectories));
         let release = options.time_bound_release;
         Self {
             scenario,
             constraints,
+            tightening: trajectories.iter().map(|trajectory| Tightening::new(trajectory.states.len())).collect(),
+            planned: scenario.vehicles.iter().zip(&trajectories).map(planned).collect(),
             bounds: scenario.vehicles.iter().map(bounds).collect(),
             boundary,
+            scales: scenario.vehicles.iter().map(scale).collect(),
+            order,
             schedule: TrustRegionSchedule::new(options.trust_region, options.shrink, release, simultaneous_dt_s),
             solvers: TOLERANCES.map(|tolerance| SubproblemSolver::new(options.solver, options.solver_start, tolerance)),
             options,
@@ -65,18 +105,20 @@ impl<'a> ScpSolver<'a> {
     pub fn advance(&mut self, inspect: &dyn Fn(&[Program], &[Solution])) -> Iteration {
         let started = Instant::now();
         let motion = self.motion();
-        let trust_region_m = self.schedule.trust_region()[0];
-        let rows = avoidance_rows(&motion, &self.constraints, trust_region_m);
-        let programs = self.programs(&motion, rows);
+        let scale = self.scales.iter().map(|scale| scale[0]).fold(0.0, f64::max);
+        self.tightening.iter_mut().zip(&motion.vehicles).for_each(|(tightening, motion)| tightening.observe(motion));
+        let rows = avoidance_rows(&motion, &self.constraints, scale * self.schedule.trust_region()[0]);
+        let programs = self.programs(&rows);
         let solutions = self.solvers[usize::from(!self.schedule.is_searching())].solve(&programs);
         inspect(&programs, &solutions);
         let violations =
             programs.par_iter().zip(&solutions).map(|(program, solution)| program.max_violation(&solution.z));
         let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
-        let updated =
-            self.trajectories.par_iter().zip(&solutions).map(|(last, solution)| subproblem::updated(last, &solution.z));
-        let updated = updated.collect();
-        let last = std::mem::replace(&mut self.trajectories, updated);
+        let last = self.trajectories.clone();
+        for (&vehicle, solution) in self.order.iter().zip(&solutions) {
+            let updated = subproblem::updated(&last[vehicle], &solution.z);
+            self.trajectories[vehicle] = with_ends(updated, &self.boundary[vehicle]);
+        }
         let iteration = self.summary(&last, &solutions, violation, started);
         self.schedule.observe(self.objective_s(), iteration.dt_s, violation);
         iteration
@@ -85,6 +127,11 @@ impl<'a> ScpSolver<'a> {
     /// Are the trajectories a solution? Not in the search phase, and not while they violate a constraint.
     pub fn is_accepted(&self) -> bool {
         !self.schedule.is_searching() && self.first_violation().is_none()
+    }
+
+    /// Has it searched and settled as often as is worth it from one initial guess?
+    pub fn has_stalled(&self) -> bool {
+        self.schedule.failed_rounds() >= MAX_ROUNDS
     }
 
     /// The first constraint that the trajectories violate; `None` if they can be flown.
@@ -108,25 +155,46 @@ impl<'a> ScpSolver<'a> {
         self.trajectories.iter().map(joined).collect()
     }
 
+    /// The vehicle whose intervals are longest for its agility, if they are too long for one.
+    pub fn coarsest(&self) -> Option<Coarse<'_>> {
+        let agility = |vehicle: usize| {
+            Agility::new(&self.scenario.fixed_wing_model(&self.scenario.vehicles[vehicle]).planning_limits)
+        };
+        let excess = |vehicle: usize| self.trajectories[vehicle].dt_s / agility(vehicle).interval_s();
+        let vehicle = (0..self.trajectories.len()).max_by(|a, b| excess(*a).total_cmp(&excess(*b)))?;
+        let trajectory = &self.trajectories[vehicle];
+        (excess(vehicle) > COARSE).then(|| Coarse {
+            vehicle: &self.scenario.vehicles[vehicle].name,
+            interval_s: trajectory.dt_s,
+            intervals: agility(vehicle).intervals(trajectory.flight_time_s()),
+        })
+    }
+
     fn motion(&self) -> FleetMotion {
         let simultaneous = self.scenario.fleet.simultaneous_arrival;
         if simultaneous { FleetMotion::synchronised(&self.trajectories) } else { FleetMotion::new(&self.trajectories) }
     }
 
-    fn programs(&self, motion: &FleetMotion, rows: Vec<Vec<HalfspaceConstraint>>) -> Vec<Program> {
-        let program = |(i, rows)| {
-            let bounds = intersample_bounds::tightened(&self.bounds[i], &motion.vehicles[i]);
+    /// The subproblems, in their order.
+    fn programs(&self, rows: &[Vec<HalfspaceConstraint>]) -> Vec<Program> {
+        let program = |&i: &usize| {
+            let bounds = self.tightening[i].applied_to(&self.planned[i], &self.trajectories[i]);
             let context = Context {
                 options: &self.options,
                 boundary: self.boundary[i],
                 bounds: &bounds,
-                trust_region: self.schedule.trust_region(),
+                trust_region: self.schedule.trust_region().component_mul(&self.scales[i]),
                 dt_bound_s: self.schedule.bound_s(),
                 dt_change: self.schedule.time_change(),
+                control_change: self.schedule.control_change(),
             };
-            subproblem::assemble(&context, &self.trajectories[i], rows)
+            let mut program = subproblem::assemble(&context, &self.trajectories[i], rows[i].clone());
+            if !self.schedule.is_searching() {
+                use_accurate_defects(&mut program, &self.trajectories[i]);
+            }
+            program
         };
-        rows.into_par_iter().enumerate().map(program).collect()
+        self.order.par_iter().map(program).collect()
     }
 
     /// The objective, s: the longest flight time if all arrive together, else the mean.
@@ -158,5 +226,20 @@ impl<'a> ScpSolver<'a> {
             // subproblems are solved in batches: the wall time is apportioned by iterations
             distributed_s: wall_s * rayon::current_num_threads() as f64 * max as f64 / sum.max(1) as f64,
         }
+    }
+}
+
+/// The trajectory, with exactly the given start and goal: a distance from them becomes a defect of the dynamics.
+fn with_ends(mut trajectory: Iterate, [start, goal]: &[State; 2]) -> Iterate {
+    let last = trajectory.intervals();
+    (trajectory.states[0], trajectory.states[last]) = (*start, *goal);
+    trajectory
+}
+
+/// Replaces the defects of the flow with derivatives by those of the accurate one: its derivatives are accurate enough.
+fn use_accurate_defects(program: &mut Program, trajectory: &Iterate) {
+    for (k, constraint) in program.dynamics.iter_mut().enumerate() {
+        let interval = trajectory.interval(k);
+        constraint.rhs = scaled_state(&(shooting::accurate_end(&interval) - interval.states[1]));
     }
 }

@@ -1,7 +1,7 @@
 //! Speed profile along a route: change to a cruising speed, cruise, change to the speed at the goal.
 
 /// Fraction of the acceleration limit that the profile uses: the planner's nodes cannot follow its corners.
-const ACCELERATION_FRACTION: f64 = 0.8;
+pub const ACCELERATION_FRACTION: f64 = 0.8;
 
 /// A speed profile over a route of a certain length.
 #[derive(Clone, Copy, Debug)]
@@ -14,14 +14,15 @@ pub struct SpeedProfile {
 }
 
 impl SpeedProfile {
-    /// The profile over `length_m` with the cruising speed `cruise_mps`. The route must be long enough for both changes
-    /// of speed.
+    /// The profile over `length_m` with the cruising speed `cruise_mps`, or the nearest one for which the route is long
+    /// enough for both changes of speed.
     pub fn cruising(length_m: f64, [start_mps, goal_mps]: [f64; 2], cruise_mps: f64, limit_mps2: f64) -> Self {
-        let mut profile = Self {
-            speeds_mps: [start_mps, cruise_mps, goal_mps],
-            acceleration_mps2: ACCELERATION_FRACTION * limit_mps2,
-            cruise_s: 0.0,
-        };
+        let acceleration_mps2 = ACCELERATION_FRACTION * limit_mps2;
+        let mean_square = 0.5 * (start_mps * start_mps + goal_mps * goal_mps);
+        let max_mps = (mean_square + acceleration_mps2 * length_m).sqrt().max(start_mps.max(goal_mps));
+        let min_mps = (mean_square - acceleration_mps2 * length_m).max(0.0).sqrt().min(start_mps.min(goal_mps));
+        let cruise_mps = cruise_mps.clamp(min_mps, max_mps);
+        let mut profile = Self { speeds_mps: [start_mps, cruise_mps, goal_mps], acceleration_mps2, cruise_s: 0.0 };
         let changes_m = profile.distance_m(profile.duration_s());
         profile.cruise_s = ((length_m - changes_m) / cruise_mps).max(0.0);
         profile
