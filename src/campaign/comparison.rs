@@ -149,9 +149,12 @@ fn differences(old: &Entry, new: &Entry) -> Vec<Difference> {
     differences
 }
 
-/// A figure that changed by more than its rule tolerates.
+/// A figure that changed by more than its rule tolerates. Margins of two quantities, in two units, are not compared.
 fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Option<Difference> {
     let unit = old.unit_of(name);
+    if new.unit_of(name) != unit {
+        return None;
+    }
     let rule = rules::rule(name, unit);
     let tolerance = rule.tolerance(before);
     let change = after - before;

@@ -136,7 +136,10 @@ pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flo
 
 /// Whether a check compares several quantities with their limits, so that the unit of its margin is that of the decisive one.
 fn has_several_quantities(check: &str) -> bool {
-    check_spec(check).is_some_and(|spec| spec.limit == LimitField::ModelLimits && spec.unit == "-")
+    check_spec(check).is_some_and(|spec| match spec.limit {
+        LimitField::ModelLimits => spec.unit == "-",
+        limit => limit == LimitField::Goal,
+    })
 }
 
 impl Sample {

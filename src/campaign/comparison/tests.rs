@@ -64,6 +64,16 @@ fn rounding_in_a_zero_margin_is_no_change() {
     assert_eq!(found(scaled("margin of nodes.state_limits", -3.0)), []);
 }
 
+/// Another quantity decides the check: metres of one and degrees of the other are not compared.
+#[test]
+fn margins_in_two_units_are_not_compared() {
+    let turned = |entry: &mut Entry| {
+        entry.checks.get_mut("flight.separation").expect("a check").unit = "deg".to_owned();
+        scaled("margin of flight.separation", 0.5)(entry);
+    };
+    assert_eq!(found(turned), []);
+}
+
 #[test]
 fn planning_times_are_notes() {
     assert_eq!(found(scaled(rules::PLANNING_TIME, 1.5)), []);
