@@ -136,7 +136,7 @@ fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_sum
     assert_eq!(code(&output), 1, "{}", stderr(&output));
     let failure = case("failure");
     for part in
-        ["worse-than-baseline", "margin of flight.separation: 99.695 m before, 79.965 m now, -19.730 m (tolerance"]
+        ["worse-than-baseline", "margin of flight.separation: 99.999 m before, 79.967 m now, -20.032 m (tolerance"]
     {
         assert!(failure.contains(part), "`{part}` is missing in {failure}");
     }

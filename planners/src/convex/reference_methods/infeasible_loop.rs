@@ -23,7 +23,7 @@ pub struct InfeasibleLoop {
 struct Measures {
     /// g^T X.
     objective: f64,
-    /// Largest of gap and residuals.
+    /// Largest of gap, residuals, and what the primal residual is worth in the objective.
     error: f64,
 }
 
@@ -112,7 +112,11 @@ impl InfeasibleLoop {
         let gap = residuals.product.iter().sum::<f64>() / objective.abs().max(1.0);
         let [dual, primal] = [(&residuals.dual, &form.cost), (&residuals.primal, &form.rhs)]
             .map(|(residual, data)| largest(residual) / size(data));
-        let error = if gap.is_nan() || dual.is_nan() || primal.is_nan() { f64::NAN } else { gap.max(dual).max(primal) };
+        // With multipliers up to the penalty weights a small residual is worth a lot.
+        let worth = kkt.at.multiplier.iter().zip(&residuals.primal).map(|(λ, r_p)| λ * r_p).sum::<f64>().abs()
+            / objective.abs().max(1.0);
+        let measures = [gap, dual, primal, worth];
+        let error = if measures.iter().any(|it| it.is_nan()) { f64::NAN } else { largest(&measures) };
         Measures { objective, error }
     }
 

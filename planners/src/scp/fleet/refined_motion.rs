@@ -106,7 +106,7 @@ mod tests {
         assert!(short.defect.amount_m < 1e-5 && short.rollout_error_m < 1e-5, "{:?}", short.defect);
         assert!((short.motion.end_s() - 4.0).abs() < 1e-12);
         let long = RefinedMotion::new(&turn(12.0));
-        assert!(long.defect.amount_m > 1e-4, "{:?}", long.defect);
+        assert!(long.defect.amount_m > 10.0 * short.defect.amount_m, "{:?} and {:?}", long.defect, short.defect);
     }
 
     #[test]
