@@ -27,9 +27,11 @@ fn bench_ipm_measures_every_backend_on_every_subproblem() {
             assert!(iterations > 1.0 && number("time_us") > 0.0 && number("planes") >= 0.0, "{row}");
             assert!((number("time_per_iteration_us") * iterations / number("time_us") - 1.0).abs() < 1e-9);
             assert!(number("speedup_vs_clarabel") > 0.0);
-            let baseline = of_one_shape[0]["objective"].as_f64().unwrap();
-            // Clarabel, the baseline, is off by its residuals times weights of up to 1e6.
-            assert!((number("objective") - baseline).abs() < 1e-4 * baseline.abs().max(1.0), "{row}");
+            // With rows of large weight Clarabel and the reduced systems may stall, and say so.
+            let block = of_one_shape[2]["objective"].as_f64().unwrap();
+            let is_alike = (number("objective") - block).abs() < 1e-6 * block.abs().max(1.0);
+            assert!(is_alike || row["status"] != "solved", "{row}");
+            assert!(row["status"] == "solved" || !backend.starts_with("block"), "{row}");
         }
     }
     let page = fs::read_to_string(workplace.path("out/bench/ipm.md")).unwrap();

@@ -145,7 +145,7 @@ fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_sum
     let annotations: Vec<&str> = page.lines().filter(|line| line.starts_with("::error ")).collect();
     assert_eq!(annotations.len(), 1, "{annotations:#?}");
     let expected = format!("::error file=pair.toml,line={line},title=pair · parallel-scp%3A worse than the baseline::");
-    assert!(annotations[0].starts_with(&expected) && annotations[0].contains("79.965 m now"), "{annotations:#?}");
+    assert!(annotations[0].starts_with(&expected) && annotations[0].contains("79.967 m now"), "{annotations:#?}");
     for file in ["out/summary.md", "step.md"] {
         let summary = fs::read_to_string(workplace.path(file)).unwrap();
         assert!(summary.starts_with("# 1 passed, 1 worse than the baseline\n"), "{file}: {summary}");

@@ -26,7 +26,7 @@ const AGREEMENT: f64 = 1e-6;
 const EXACT_AGREEMENT: f64 = 1e-7;
 
 /// Smallest fraction of directions that agree. Rows of weight 1e6 cost the reduced systems digits.
-const MIN_AGREEING: f64 = 0.8;
+const MIN_AGREEING: f64 = 0.75;
 
 /// A few subproblems of a planner run, from the first iteration to the last.
 fn subproblems(scenario: &str, intervals: usize) -> Vec<Program> {

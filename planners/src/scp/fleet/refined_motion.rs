@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn short_intervals_have_no_defect_and_long_ones_do() {
         let short = RefinedMotion::new(&turn(1.0));
-        assert!(short.defect.amount_m < 1e-5 && short.rollout_error_m < 1e-5, "{:?}", short.defect);
+        assert!(short.defect.amount_m < 1e-5 && short.rollout_error_m < 1e-4, "{:?}", short.defect);
         assert!((short.motion.end_s() - 4.0).abs() < 1e-12);
         let long = RefinedMotion::new(&turn(12.0));
         assert!(long.defect.amount_m > 10.0 * short.defect.amount_m, "{:?} and {:?}", long.defect, short.defect);
