@@ -61,7 +61,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.crash", |spec, it| {
         let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
-        Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
+        Ok(flight_integrity::check_crash(spec, it.flight()?, |vehicle| it.mission_end_s(vehicle), contact))
     }),
     ("flight.planner", |spec, it| Ok(in_loop_planner::check(spec, it.scenario, it.flight()?))),
     ("flight.separation", |spec, it| {

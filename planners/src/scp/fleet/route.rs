@@ -102,9 +102,9 @@ impl Route {
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         for (point_m, &distance_m) in self.points_m.iter().zip(&self.along_m) {
             if distance_m < along_m {
-                before.push(*point_m)
+                before.push(*point_m);
             } else if distance_m > along_m {
-                behind.push(*point_m)
+                behind.push(*point_m);
             }
         }
         let circle = (0..=circles * per_circle as usize).map(on_circle);
