@@ -191,7 +191,7 @@ impl Program {
         violations.filter(|(_, component)| *component < STAGE_LEN).map(|(violation, _)| violation).fold(0.0, f64::max)
     }
 
-    /// `q θ + μ (u · violations)` at `z`, plus the offset. Violations within the [resolution](Self::resolutions) of a row
+    /// `q θ + μ (u · violations)` at `z`, plus the offset. Violations within the resolution of a row
     /// count as none.
     pub fn objective(&self, z: &[f64]) -> f64 {
         let resolutions = self.resolutions();
