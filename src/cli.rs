@@ -12,6 +12,7 @@ mod list;
 #[cfg(feature = "parquet")]
 mod merge;
 mod plan;
+mod report;
 mod run;
 mod schema;
 mod selection;
@@ -41,6 +42,7 @@ Examples:
   harness check SCENARIO --plan my-plan.csv
                                      fly and judge an existing plan
   harness compare out/old out/new    show what got worse between two runs
+  harness report out                 write a page to look at in a browser
   harness generate forest            write a random scenario that is known to be feasible
 
 Exit codes:
@@ -58,6 +60,8 @@ enum Command {
     List(list::List),
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
+    #[command(name = "report")]
+    Report(report::ReportCommand),
     Bench(bench::Bench),
     Generate(generate::Generate),
     #[cfg(feature = "parquet")]
@@ -90,6 +94,7 @@ impl Cli {
             Command::List(list) => list.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),
+            Command::Report(report) => report.execute(),
             Command::Bench(bench) => bench.execute(),
             Command::Generate(generate) => generate.execute(),
             #[cfg(feature = "parquet")]

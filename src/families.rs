@@ -6,7 +6,6 @@ use sim::Flight;
 
 use crate::campaign::failure_threshold::TypicalDisturbances;
 use crate::metrics::{self, Metrics};
-#[cfg(any(feature = "mcap", feature = "rrd"))]
 use crate::output::scene::{self, FamilyScene};
 use crate::plan_source::external::request;
 use crate::verdict::case::Case;
@@ -25,7 +24,6 @@ pub struct VehicleFamily {
     /// The disturbances at which `stress` begins and which `sweep` draws.
     pub typical_disturbances: TypicalDisturbances,
     /// What it adds to the scene that recordings draw.
-    #[cfg(any(feature = "mcap", feature = "rrd"))]
     pub scene: FamilyScene,
 }
 
@@ -36,7 +34,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         measure: metrics::fixed_wing::measure,
         request: request::fixed_wing::vehicle,
         typical_disturbances: TypicalDisturbances { wind_mps: 3.0, position_noise_m: 0.25 },
-        #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::fixed_wing::SCENE,
     },
     VehicleFamily {
@@ -45,7 +42,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         measure: metrics::slung_load::measure,
         request: request::slung_load::vehicle,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
-        #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::slung_load::SCENE,
     },
     VehicleFamily {
@@ -54,7 +50,6 @@ static FAMILIES: [VehicleFamily; 3] = [
         measure: metrics::multirotor::measure,
         request: request::multirotor::vehicle,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
-        #[cfg(any(feature = "mcap", feature = "rrd"))]
         scene: scene::multirotor::SCENE,
     },
 ];

@@ -1,11 +1,10 @@
 //! Everything that is written: files, recordings, reports.
 
 mod files;
+pub mod page;
 pub mod recording;
 pub mod report;
-#[cfg(any(feature = "mcap", feature = "rrd"))]
 mod run;
-#[cfg(any(feature = "mcap", feature = "rrd"))]
 pub mod scene;
 pub mod tum;
 

@@ -25,7 +25,7 @@ use crate::verdict::{self, Integration};
 /// File with the standard error of an external planner.
 const PLANNER_LOG: &str = "planner.log";
 /// Names of the recordings that a result folder may hold.
-const RECORDINGS: [&str; 3] = ["flight.rrd", "flight.mcap", "flight.parquet"];
+const RECORDINGS: [&str; 4] = ["flight.rrd", "flight.mcap", "flight.parquet", "scene.json"];
 
 /// What to write beside plan and report.
 pub struct Outputs {

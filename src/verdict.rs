@@ -205,3 +205,14 @@ pub enum Status {
     /// Not asked, for the reason given.
     Skip,
 }
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Undecided => "undecided",
+            Self::Skip => "skip",
+        })
+    }
+}

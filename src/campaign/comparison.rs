@@ -138,10 +138,10 @@ fn differences(old: &Entry, new: &Entry) -> Vec<Difference> {
         match new.checks.get(name) {
             Some(after) if before.status != after.status => {
                 let rating = status_severity(before, after);
-                differences.push(new.differs(rating, name, word(before.status), word(after.status)));
+                differences.push(new.differs(rating, name, &before.status.to_string(), &after.status.to_string()));
             }
             Some(_) => {}
-            None => differences.push(new.differs(Severity::Worse, name, word(before.status), "not made")),
+            None => differences.push(new.differs(Severity::Worse, name, &before.status.to_string(), "not made")),
         }
     }
     let figures = old.figures.iter().filter_map(|(name, before)| Some((name, *before, *new.figures.get(name)?)));
@@ -188,15 +188,6 @@ fn status_severity(old: &CheckEntry, new: &CheckEntry) -> Severity {
         Severity::Worse
     } else {
         Severity::Better
-    }
-}
-
-fn word(status: Status) -> &'static str {
-    match status {
-        Status::Pass => "pass",
-        Status::Fail => "fail",
-        Status::Undecided => "undecided",
-        Status::Skip => "skip",
     }
 }
 

@@ -6,6 +6,7 @@ use super::session::Format;
 use crate::campaign::comparison::{self, Baseline, Scope, Snapshot};
 use crate::console;
 use crate::error::{Error, Exit};
+use crate::output::page;
 use crate::output::report::comparison_table;
 use crate::output::report::json_lines::{self, Event};
 
@@ -14,7 +15,9 @@ use crate::output::report::json_lines::{self, Event};
 /// Verdicts, check statuses, margins, flight times and tracking errors are compared, figures with a tolerance. Planning
 /// times are reported and do not decide. The exit code is 1 if anything got worse by more than its tolerance.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out")]
+#[command(
+    after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out\n  harness compare out/main out/branch --html"
+)]
 pub struct Compare {
     /// The reference: a result folder, a report.json or a baseline file
     #[arg(value_name = "OLD")]
@@ -22,6 +25,9 @@ pub struct Compare {
     /// The results to compare with it: a result folder, a report.json or a baseline file
     #[arg(value_name = "NEW")]
     new: PathBuf,
+    /// Write the report page NEW/index.html, with the old results beside the new ones; NEW must be a result folder
+    #[arg(long)]
+    html: bool,
     /// Format of standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "text")]
     format: Format,
@@ -32,6 +38,10 @@ impl Compare {
     pub fn execute(&self) -> Result<Exit, Error> {
         let (old, new) = (Snapshot::read(&self.old)?, Snapshot::read(&self.new)?);
         let compared = comparison::compare(&old, &new, Scope::Everything);
+        if self.html {
+            page::write_comparison(&self.new, Some((&self.old, &compared)))?;
+            page::write(&self.new)?;
+        }
         match self.format {
             Format::Text => console::print(&comparison_table::text(&compared))?,
             Format::JsonLines => json_lines::print(&Event::Comparison { comparison: &compared })?,

@@ -36,6 +36,6 @@ impl Merge {
     pub fn execute(&self) -> Result<Exit, Error> {
         let (sweep, samples) = monte_carlo::merge(&self.tables)?;
         output::create_folder(&self.out)?;
-        self.results.finish(&sweep, &samples, &self.out)
+        self.results.finish(&sweep, &samples, &self.out, &self.out)
     }
 }

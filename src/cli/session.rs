@@ -8,9 +8,11 @@ use crate::error::{Error, Exit};
 use crate::interrupt;
 use crate::jobs::{Job, Jobs};
 use crate::output;
+use crate::output::page;
 use crate::output::recording::Recorder;
+use crate::output::recording::scene_json::SceneJson;
 use crate::output::report::json_lines::Event;
-use crate::output::report::{Summary, comparison_table, github, json_lines, junit, terminal};
+use crate::output::report::{Links, Summary, comparison_table, github, json_lines, junit, terminal};
 use crate::pipeline;
 use crate::pipeline::Outputs;
 use crate::progress::Progress;
@@ -31,6 +33,9 @@ pub struct Session {
     /// Report margin budgets: nodes, between the nodes, tracking, model errors, wind, delay, noise; one more flight for each
     #[arg(long)]
     waterfall: bool,
+    /// Write the report page DIR/index.html; `harness report` does so afterwards
+    #[arg(long)]
+    html: bool,
     /// Write planned and flown paths also as TUM files, the format of evo
     #[arg(long)]
     tum: bool,
@@ -48,7 +53,7 @@ pub struct Session {
     quiet: bool,
 }
 
-const DEFAULT_RECORDING: &str = if cfg!(feature = "rrd") { "rrd" } else { "none" };
+const DEFAULT_RECORDING: &str = if cfg!(feature = "rrd") { "rrd,page" } else { "page" };
 
 /// Formats of recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,6 +64,8 @@ enum Recording {
     Mcap,
     /// Flight log as a table, with exact numbers
     Parquet,
+    /// What `harness report` draws of the flight: scene.json
+    Page,
     /// No recording
     None,
 }
@@ -96,7 +103,7 @@ impl Session {
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         let outputs = Outputs {
             waterfall: self.waterfall,
-            recorders: recorders(&self.record)?,
+            recorders: self.recorders()?,
             tum: self.tum,
             refine_step: self.second_integrator == SecondIntegrator::Full,
         };
@@ -135,17 +142,26 @@ impl Session {
 
     fn finish(&self, mut done: Completed, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
         let compared = baseline.map(|old| comparison::compare(old, &Snapshot::of(&done.reports), Scope::NewRunOnly));
-        done.summary.worse_than_baseline = compared.as_ref().map(Comparison::worse_results);
+        if let Some(compared) = &compared {
+            done.summary.set_baseline(compared);
+        }
         let Completed { summary, reports, .. } = &done;
         let compared_page = compared.as_ref().map_or_else(String::new, comparison_table::markdown);
         output::create_folder(&self.out)?;
         output::write_json(&self.out.join("summary.json"), summary)?;
+        let links = if self.html { Links::Page } else { Links::Reports };
         output::write_file(&self.out.join("summary.md"), |writer| {
-            write!(writer, "{}\n{compared_page}", summary.markdown(reports))
+            write!(writer, "{}\n{compared_page}", summary.markdown(reports, links))
         })?;
         let xml = junit::document(reports, &summary.refused, compared.as_ref());
         output::replace_file(&self.out.join("junit.xml"), |partial| Ok(std::fs::write(partial, xml?)?))?;
-        github::add_to_job_summary(&format!("{}\n{compared_page}", summary.markdown_without_links(reports)))?;
+        github::add_to_job_summary(&format!("{}\n{compared_page}", summary.markdown(reports, Links::None)))?;
+        page::write_comparison(&self.out, self.baseline.as_deref().zip(compared.as_ref()))?;
+        if self.html {
+            page::write(&self.out)?;
+        } else {
+            output::remove_stale(&self.out.join(page::FILE_NAME))?;
+        }
         let exit = summary.exit();
         self.event(&Event::Summary { summary, exit_code: exit.code() })?;
         self.show(&terminal::summary(summary, &self.out))?;
@@ -180,6 +196,12 @@ impl Session {
         Ok(())
     }
 
+    /// The page needs what it draws, also without other recordings.
+    fn recorders(&self) -> Result<Vec<Box<dyn Recorder>>, Error> {
+        let page = self.html.then_some(Recording::Page);
+        recorders(&self.record.iter().copied().chain(page).collect::<Vec<_>>())
+    }
+
     fn show(&self, text: &str) -> Result<(), Error> {
         if self.quiet || self.format != Format::Text { Ok(()) } else { console::print(text) }
     }
@@ -198,6 +220,9 @@ pub fn start_threads(jobs: Option<u16>) -> Result<(), Error> {
 
 fn recorders(formats: &[Recording]) -> Result<Vec<Box<dyn Recorder>>, Error> {
     let mut recorders: Vec<Box<dyn Recorder>> = Vec::new();
+    if formats.contains(&Recording::Page) {
+        recorders.push(Box::new(SceneJson));
+    }
     if formats.contains(&Recording::Rrd) {
         recorders.push(rrd()?);
     }

@@ -10,6 +10,7 @@ use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
 use crate::number_format::quantity;
 use crate::output;
+use crate::output::page;
 use crate::pipeline;
 use crate::progress::Progress;
 
@@ -37,6 +38,9 @@ pub struct StressCommand {
     /// Folder for the results
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    /// Write the report page DIR/index.html; `harness report` does so afterwards
+    #[arg(long)]
+    html: bool,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
@@ -77,6 +81,9 @@ impl StressCommand {
             if stress.trials.first().is_some_and(|trial| !trial.passed) {
                 exit = Exit::Failed;
             }
+        }
+        if self.html {
+            page::write(&self.out)?;
         }
         Ok(exit)
     }

@@ -13,6 +13,7 @@ use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
 use crate::output;
+use crate::output::page;
 use crate::pipeline;
 use crate::plan_source::PlanSource;
 use crate::progress::Progress;
@@ -77,6 +78,9 @@ pub struct ResultArgs {
     /// Required pass rate, %
     #[arg(long, value_name = "%", default_value = "100", value_parser = percent)]
     at_least: f64,
+    /// Write the report page DIR/index.html, with histograms of the margins; `harness report` does so afterwards
+    #[arg(long)]
+    html: bool,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
@@ -127,7 +131,7 @@ impl SweepCommand {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
         }
         let worst = write_worst(&experiment, &sweep, &samples, &folder)?;
-        let exit = self.results.finish(&sweep, &samples, &folder)?;
+        let exit = self.results.finish(&sweep, &samples, &folder, &self.out)?;
         if let Some(number) = worst.filter(|_| !self.results.quiet) {
             console::print(&format!("sample {number} failed the most checks; its scenario is in worst/"))?;
         }
@@ -169,7 +173,9 @@ impl DispersionArgs {
 
 impl ResultArgs {
     /// Writes and prints the results. An empty partition passes.
-    pub fn finish(&self, sweep: &Sweep, samples: &[Sample], folder: &Path) -> Result<Exit, Error> {
+    ///
+    /// - `out`: the result folder, in which `folder` lies
+    pub fn finish(&self, sweep: &Sweep, samples: &[Sample], folder: &Path, out: &Path) -> Result<Exit, Error> {
         #[derive(Serialize)]
         struct SweepJson<'a> {
             #[serde(flatten)]
@@ -179,6 +185,9 @@ impl ResultArgs {
         let statistics = Statistics::of(sweep, samples);
         table::write(sweep, samples, &folder.join("sweep.parquet"))?;
         output::write_json(&folder.join("sweep.json"), &SweepJson { sweep, statistics: &statistics })?;
+        if self.html {
+            page::write(out)?;
+        }
         if !self.quiet {
             match samples {
                 [] => console::print("this partition has no samples; `harness merge` takes its table all the same")?,

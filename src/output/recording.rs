@@ -11,7 +11,6 @@ use sim::Flight;
 use crate::campaign::margin_budget::MarginBudget;
 use crate::error::Error;
 use crate::output;
-#[cfg(any(feature = "mcap", feature = "rrd"))]
 use crate::output::run::JudgedRun;
 use crate::verdict::Verdict;
 
@@ -21,6 +20,7 @@ pub mod mcap;
 pub mod parquet;
 #[cfg(feature = "rrd")]
 pub mod rrd;
+pub mod scene_json;
 
 /// Everything that a run produced, from the scenario to the verdict.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,6 @@ pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<P
     Ok(path)
 }
 
-#[cfg(any(feature = "mcap", feature = "rrd"))]
 impl<'a> Run<'a> {
     /// Without the margin budgets.
     fn judged(&self) -> JudgedRun<'a> {

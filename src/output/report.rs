@@ -11,4 +11,5 @@ mod summary;
 pub mod table;
 pub mod terminal;
 
+pub use markdown::Links;
 pub use summary::{RefusedFile, Summary, SummaryRun};

@@ -3,13 +3,15 @@
 //! | part | content | built in |
 //! |---|---|---|
 //! | [`Scene::items`] | map, obstacles, gates, starts, goals, paths, closest approaches, crashes | `map`, `obstacles`, `paths`, `closest` |
-//! | [`Scene::changes`], [`Scene::animations`] | shapes that are replaced or deformed over time: sensed obstacles, horizons, trails, cables | `obstacles`, `paths`, the families |
+//! | [`Scene::changes`], [`Scene::animations`] | shapes that are replaced or deformed over time: sensed obstacles, horizons, trails, cables, wind | `obstacles`, `paths`, `wind`, the families |
 //! | [`Scene::bodies`] | vehicles, loads and moving obstacles: poses over time and shape | `obstacles`, the families |
 //! | [`Scene::channels`], [`Scene::series`], [`Scene::states`] | quantities over time with their limits | `distances`, the families |
 //! | [`Scene::events`] | text log | `events` |
+//! | [`Scene::focus_s`], [`Scene::action`] | the instant and the part of space that a viewer should open on | `focus` |
 //! | [`Scene::tabs`], [`Scene::legend`] | what a viewer should open with, how to read the picture | the families |
 //!
-//! Recorders only translate: `recording/rrd` and `recording/mcap` draw every part of the scene, whatever family it is of.
+//! Recorders only translate: `recording/rrd`, `recording/mcap` and `recording/scene_json` (which the report page draws) take
+//! every part of the scene, whatever family it is of.
 //! Positions are in m in the world frame (ENU), times in s since the start of the flight. Times and values in the scene
 //! are finite; NaN and infinity in a log leave gaps.
 
@@ -22,6 +24,7 @@ mod curve;
 mod distances;
 pub mod events;
 pub mod fixed_wing;
+mod focus;
 mod map;
 pub mod multirotor;
 mod obstacles;
@@ -29,12 +32,15 @@ mod paths;
 mod series;
 mod shape;
 pub mod slung_load;
+mod wind;
 
+use serde::Serialize;
 use sim::Flight;
 
 pub use body::{Body, BodyKind, Part, Pose};
 pub use channel::{Channel, Channels, Plot, Value};
 pub use curve::Curve;
+pub use focus::Extent;
 pub use paths::TRAIL_S;
 pub use series::{PlotView, Series, SeriesKind, StateSeries, Tab};
 pub use shape::{BoxOutline, Cylinder, Cylinders, Label, Lines, Paint, Points, Radius, Shape, Sphere, Triangles};
@@ -68,13 +74,19 @@ pub struct Scene<'a> {
     pub legend: Vec<String>,
     /// Time of the last logged sample, s; 0 without a flight.
     pub end_s: f64,
+    /// The instant to open on, s: the first failure, or the closest approach.
+    pub focus_s: f64,
+    /// The check whose worst instant that is, if it is one's.
+    pub decisive_check: Option<String>,
+    /// The part of space that the paths need; `None` without paths.
+    pub action: Option<Extent>,
 }
 
 /// Names from the root of the world to an item: `["fleet", "uav-1"]`.
 pub type ItemPath = Vec<String>;
 
 /// A shape that never changes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
     /// Unique among all items, changes, animations and bodies.
     pub path: ItemPath,
@@ -83,7 +95,7 @@ pub struct Item {
 }
 
 /// A shape that is replaced at certain times.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Changes {
     /// As in [`Item`].
     pub path: ItemPath,
@@ -92,7 +104,7 @@ pub struct Changes {
 }
 
 /// A polyline that is deformed over time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Animation {
     /// As in [`Item`].
     pub path: ItemPath,

@@ -34,13 +34,20 @@ fn on_github(workplace: &Workplace, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// Ant's schema has times without a zone; the reader wants one.
+fn in_utc(xml: &str) -> String {
+    let mut parts = xml.split("timestamp=\"");
+    let head = parts.next().unwrap_or_default().to_owned();
+    parts.fold(head, |text, rest| format!("{text}timestamp=\"{}Z{}", &rest[..19], &rest[19..]))
+}
+
 #[test]
 fn junit_has_a_suite_per_result_and_a_case_per_check() {
     let workplace = workplace();
     let output = workplace.harness(&["run", "all", "--record", "none", "-q"]);
     assert_eq!(code(&output), 2);
     let xml = fs::read_to_string(workplace.path("out/junit.xml")).unwrap();
-    let document = quick_junit::Report::deserialize_from_str(&xml).expect("junit.xml is well formed");
+    let document = quick_junit::Report::deserialize_from_str(&in_utc(&xml)).expect("junit.xml is well formed");
     let suite = |name: &str| document.test_suites.iter().find(|suite| suite.name.as_str() == name).expect(name);
     let pair = suite("pair · parallel-scp");
     assert_eq!(
@@ -83,7 +90,11 @@ fn github_gets_a_summary_and_annotations_on_the_lines_that_matter() {
     assert!(is_there(&[&radius, "found -1"]), "{annotations:#?}");
 
     let summary = fs::read_to_string(workplace.path("step.md")).unwrap();
-    assert!(summary.starts_with("# What an earlier step said\n# 1 passed, 1 failed, 1 without a plan"), "{summary}");
+    assert!(
+        summary
+            .starts_with("# What an earlier step said\n# 1 refused as bad input, 1 failed, 1 without a plan, 1 passed"),
+        "{summary}"
+    );
     let place = |text: &str| summary.find(text).unwrap_or_else(|| panic!("`{text}` is missing in {summary}"));
     assert!(place("| FAIL |") < place("| PASS |") && place("| NO PLAN |") < place("| PASS |"));
     assert!(place("## strict · parallel-scp") > 0 && place("`flight.tracking_max`") > 0);
@@ -148,12 +159,40 @@ fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_sum
     assert!(annotations[0].starts_with(&expected) && annotations[0].contains("79.967 m now"), "{annotations:#?}");
     for file in ["out/summary.md", "step.md"] {
         let summary = fs::read_to_string(workplace.path(file)).unwrap();
-        assert!(summary.starts_with("# 1 passed, 1 worse than the baseline\n"), "{file}: {summary}");
+        assert!(summary.starts_with("# 1 worse than the baseline, 1 passed\n"), "{file}: {summary}");
     }
-    assert!(page.contains("1 passed, 1 worse than the baseline"), "{page}");
+    assert!(page.contains("1 worse than the baseline, 1 passed"), "{page}");
 
     let output = on_github(&workplace, &[&against_baseline[..], &["--format", "json-lines"]].concat());
     let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).expect(line)).collect();
     let summary = lines.iter().find(|line| line["event"] == "summary").unwrap();
     assert_eq!((&summary["exit_code"], &summary["summary"]["worse_than_baseline"]), (&1.into(), &1.into()));
+}
+
+/// Passed, failed, advisory, undecided, no plan, refused, worse than a baseline: everything that can be in the file.
+#[test]
+fn junit_is_valid_against_the_schemas_of_jenkins_and_of_ant() {
+    let workplace = workplace();
+    workplace.harness(&["run", "all/pair.toml", "--record", "none", "-q"]);
+    assert_eq!(code(&workplace.harness(&["baseline", "accept", "--reason", "the first"])), 0);
+    fs::write(workplace.path("all/pair.toml"), PAIR.replace("separation_m = 100", "separation_m = 120")).unwrap();
+    let output = workplace.harness(&["run", "all", "--record", "none", "-q", "--baseline", "baseline.json"]);
+    assert_eq!(code(&output), 2);
+    let xml = fs::read_to_string(workplace.path("out/junit.xml")).unwrap();
+    for part in
+        ["worse-than-baseline", "no-plan", "bad-input", "name=\"flight.separation.margin\" value=\"79.967", "hostname="]
+    {
+        assert!(xml.contains(part), "`{part}` is missing in {xml}");
+    }
+    assert!(xml.lines().any(|line| line.starts_with("pass ") && line.contains("flight.separation: measured")), "{xml}");
+    if Command::new("xmllint").arg("--version").output().is_err() {
+        return crate::workplace::skip_without("xmllint (libxml2-utils)");
+    }
+    for schema in ["jenkins", "ant"] {
+        let schema = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/junit/{schema}.xsd"));
+        let mut command = Command::new("xmllint");
+        let output = command.args(["--noout", "--schema"]).arg(&schema).arg(workplace.path("out/junit.xml")).output();
+        let output = output.unwrap();
+        assert!(output.status.success(), "{}: {}", schema.display(), stderr(&output));
+    }
 }

@@ -12,6 +12,7 @@ mod machine_faults;
 mod planning;
 #[cfg(feature = "mcap")]
 mod recordings;
+mod report_page;
 mod results;
 mod running;
 mod schemas;

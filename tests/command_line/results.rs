@@ -102,8 +102,9 @@ fn one_seed_gives_one_report_on_any_number_of_threads_and_another_seed_another()
 fn the_folder_holds_the_results_of_the_last_run_and_no_temporary_file() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     if cfg!(feature = "rrd") {
-        run(&workplace, &[]);
-        assert_eq!(workplace.files(FOLDER), ["flight.rrd", "plan.csv", "plan.json", "report.json"]);
+        run(&workplace, &["--html"]);
+        assert!(workplace.path("out/index.html").exists());
+        assert_eq!(workplace.files(FOLDER), ["flight.rrd", "plan.csv", "plan.json", "report.json", "scene.json"]);
         assert!(fs::metadata(workplace.path(FOLDER).join("flight.rrd")).unwrap().len() > 1000);
     }
     run(&workplace, &["--record", "none"]);

@@ -50,7 +50,7 @@ fn a_bad_file_is_named_with_line_and_column_and_the_good_ones_still_run() {
     for part in ["all/deep/bad.toml:14:17", "models.fixed-wing.scout.body_radius_m", "found -1", "a number greater"] {
         assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
     }
-    assert!(stdout(&output).contains("1 passed, 1 refused as bad input"));
+    assert!(stdout(&output).contains("1 refused as bad input, 1 passed"));
     assert_eq!(workplace.json("out/pair/parallel-scp/report.json")["verdict"], "pass");
     let refused = &workplace.json("out/summary.json")["refused"][0];
     assert_eq!(refused["file"], "all/deep/bad.toml");
@@ -75,7 +75,7 @@ fn bad_usage_ends_with_code_2_and_leaves_nothing_behind() {
         (&["run", "pair.toml", "--planner", "paralel-scp"], "did you mean `parallel-scp`?"),
         (&["run", "missing.toml"], "missing.toml"),
         (&["run", "empty"], "empty: found no scenario file"),
-        (&["run", "pair.toml", "--record", "bag"], "possible values: rrd, mcap, parquet, none"),
+        (&["run", "pair.toml", "--record", "bag"], "possible values: rrd, mcap, parquet, page, none"),
         (&["run", "pair.toml", "--jobs", "0"], "--jobs"),
         (&["run", "pair.toml", "--seed", "x"], "--seed"),
     ];

@@ -80,12 +80,19 @@ pub fn code(output: &Output) -> i32 {
 pub fn has_python(modules: &str) -> bool {
     let import = format!("import {modules}");
     let found = Command::new("python3").args(["-c", &import]).output().is_ok_and(|output| output.status.success());
-    assert!(found || std::env::var_os("CI").is_none(), "python3 needs the modules {modules}");
     if !found {
-        // Not `eprintln!`, which the test runner captures.
-        let caller = std::panic::Location::caller();
-        let mut standard_error = std::io::stderr();
-        writeln!(standard_error, "SKIPPED {caller}: python3 needs the modules {modules}").unwrap();
+        skip_without(&format!("python3 with the modules {modules}"));
     }
     found
+}
+
+/// Says on standard error that a test is skipped because this machine lacks `what`; where the environment variable `CI` is
+/// set, the test fails instead.
+#[track_caller]
+pub fn skip_without(what: &str) {
+    assert!(std::env::var_os("CI").is_none(), "this test needs {what}");
+    // Not `eprintln!`, which the test runner captures.
+    let caller = std::panic::Location::caller();
+    let mut standard_error = std::io::stderr();
+    writeln!(standard_error, "SKIPPED {caller}: it needs {what}").unwrap();
 }

@@ -2,25 +2,66 @@
 
 use std::time::Duration;
 
+use chrono::Utc;
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite, XmlString};
 
 use super::{RefusedFile, headline};
 use crate::campaign::comparison::{Comparison, Difference};
+use crate::number_format::given_quantity;
 use crate::report::Report;
 use crate::verdict::{Check, Outcome, Status};
 
-/// The whole run as XML.
+/// The whole run as XML, valid against the schema of Jenkins' xUnit plugin (`junit-10.xsd`) and against that of Apache Ant
+/// (`JUnit.xsd` of Windy Road).
 ///
 /// - `comparison`: with the baseline, if there is one; every suite then has one more case, `baseline`
+///
+/// # Errors
+///
+/// Those of the XML writer.
 pub fn document(
     reports: &[Report],
     refused: &[RefusedFile],
     comparison: Option<&Comparison>,
 ) -> Result<String, quick_junit::SerializeError> {
+    let suites = reports.iter().map(|report| suite(report, comparison)).chain(refused.iter().map(refused_suite));
     let mut document = Document::new("harness");
-    document.add_test_suites(reports.iter().map(|report| suite(report, comparison)));
-    document.add_test_suites(refused.iter().map(refused_suite));
-    document.to_string()
+    document.add_test_suites(suites.enumerate().map(|(id, suite)| completed(suite, id)));
+    document.to_string().map(|xml| without_attributes_of_the_root(&xml))
+}
+
+/// The suite with everything that the schemas demand: identity, host and time, a duration of every case, both streams.
+fn completed(mut suite: TestSuite, id: usize) -> TestSuite {
+    let timestamp = Utc::now().format("%Y-%m-%dT%H:%M:%S").to_string();
+    let attributes =
+        [("id", id.to_string()), ("package", "harness".to_owned()), ("hostname", host()), ("timestamp", timestamp)];
+    suite.extra.extend(attributes.map(|(name, value)| (name.into(), value.into())));
+    suite.time.get_or_insert_default();
+    suite.test_cases.iter_mut().for_each(|case| {
+        case.time.get_or_insert_default();
+    });
+    suite.system_out.get_or_insert_with(|| XmlString::new(""));
+    suite.system_err.get_or_insert_with(|| XmlString::new(""));
+    suite
+}
+
+/// Jenkins' schema has no `skipped` on `testsuites`, Ant's has no attribute at all; readers add up the suites.
+fn without_attributes_of_the_root(xml: &str) -> String {
+    match xml.split_once("<testsuites ") {
+        Some((head, rest)) => format!("{head}<testsuites{}", rest.find('>').map_or(rest, |end| &rest[end..])),
+        None => xml.to_owned(),
+    }
+}
+
+#[cfg(unix)]
+fn host() -> String {
+    let name = rustix::system::uname().nodename().to_string_lossy().trim().to_owned();
+    if name.is_empty() { "localhost".to_owned() } else { name }
+}
+
+#[cfg(not(unix))]
+fn host() -> String {
+    "localhost".to_owned()
 }
 
 fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
@@ -35,13 +76,24 @@ fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
         suite.add_test_case(case(report, "plan", status));
     }
     suite.add_test_cases(report.checks.iter().map(|check| case(report, &check.name, status(report, check))));
-    let notes = headline::notes(report);
-    if !notes.is_empty() {
-        suite.set_system_out(notes.join("\n"));
+    for check in report.checks.iter().filter(|check| check.status != Status::Skip) {
+        let figures = [("value", check.value), ("limit", check.limit), ("margin", check.margin)];
+        for (what, value) in figures.into_iter().filter_map(|(what, value)| Some((what, value?))) {
+            let name = format!("{}.{what}", check.name);
+            suite.add_property((name.as_str(), given_quantity(value, &check.unit).as_str()));
+        }
     }
+    suite.set_system_out(standard_output(report));
     let losses = comparison.map(|comparison| comparison.losses(&report.scenario, &report.planner));
     suite.add_test_cases(losses.map(|losses| case(report, "baseline", against_baseline(&losses))));
     suite
+}
+
+/// Every check in a line, and the notes: Ant's schema has no output of single cases.
+fn standard_output(report: &Report) -> String {
+    let checks = report.checks.iter().filter(|check| check.status != Status::Skip);
+    let lines = checks.map(|check| format!("{:<9} {}", check.status, headline::sentence(check)));
+    lines.chain(headline::notes(report)).collect::<Vec<_>>().join("\n")
 }
 
 fn case(report: &Report, name: &str, status: TestCaseStatus) -> TestCase {
@@ -90,6 +142,7 @@ fn failure(kind: &str, check: &Check) -> TestCaseStatus {
 
 fn refused_suite(refused: &RefusedFile) -> TestSuite {
     let mut suite = TestSuite::new(refused.file.clone());
+    suite.add_property(("verdict", "refused as bad input"));
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
     status.set_type("bad-input").set_message(refused.faults.first().cloned().unwrap_or_default());
     status.set_description(XmlString::new(refused.faults.join("\n")));

@@ -8,12 +8,27 @@ use crate::verdict::{Check, Outcome};
 /// Largest number of failed jobs whose checks are listed.
 const MAX_DETAILS: usize = 20;
 
+/// What the scenarios in `summary.md` are linked to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Links {
+    /// Nothing: the result folder cannot be reached from where the page is shown.
+    None,
+    /// `report.json`.
+    Reports,
+    /// The report page.
+    Page,
+}
+
 /// The whole page.
 ///
 /// - `reports`: of the jobs in the summary
-/// - `has_links`: link scenarios to their reports, which are in folders beside the page?
-pub(super) fn page(summary: &Summary, reports: &[Report], has_links: bool) -> String {
+/// - `links`: where the scenarios lead to
+pub(super) fn page(summary: &Summary, reports: &[Report], links: Links) -> String {
     let mut lines = vec![format!("# {}", summary.counts_line()), String::new()];
+    if links == Links::Page {
+        lines.push("[The report page](index.html) shows the flights, every check and the series.".into());
+        lines.push(String::new());
+    }
     if !summary.refused.is_empty() {
         lines.push("## Refused as bad input".into());
         lines.push(String::new());
@@ -24,8 +39,8 @@ pub(super) fn page(summary: &Summary, reports: &[Report], has_links: bool) -> St
     if !summary.runs.is_empty() {
         lines.push("| verdict | scenario | planner | seed | flight time | why |".into());
         lines.push("|---|---|---|---:|---:|---|".into());
-        let (good, bad): (Vec<_>, Vec<_>) = summary.runs.iter().partition(|run| run.verdict == Outcome::Pass);
-        lines.extend(bad.into_iter().chain(good).map(|run| row(run, has_links)));
+        let (good, bad): (Vec<_>, Vec<_>) = summary.runs.iter().partition(|run| run.is_good());
+        lines.extend(bad.into_iter().chain(good).map(|run| row(run, links)));
         lines.push(String::new());
     }
     let failed: Vec<&Report> = reports.iter().filter(|report| report.verdict == Outcome::Fail).collect();
@@ -47,12 +62,21 @@ pub(super) fn truncate(page: &str, max_bytes: usize) -> String {
     format!("{kept}{NOTE}")
 }
 
-fn row(run: &SummaryRun, has_links: bool) -> String {
+fn row(run: &SummaryRun, links: Links) -> String {
     let flight_time = run.flight_time_s.map_or_else(String::new, |time_s| quantity(time_s, "s"));
     let claim = if run.overclaimed { " (the planner calls this plan solved)" } else { "" };
     let SummaryRun { verdict, scenario, planner, seed, folder, .. } = run;
-    let why = cell(&format!("{}{claim}", run.reason));
-    let scenario = if has_links { format!("[{scenario}]({folder}/report.json)") } else { scenario.clone() };
+    let losses = match run.losses.as_slice() {
+        [] => String::new(),
+        losses => format!("worse than the baseline: {}; ", losses.join("; ")),
+    };
+    let verdict = if losses.is_empty() { verdict.to_string() } else { format!("{verdict}, worse") };
+    let why = cell(&format!("{losses}{}{claim}", run.reason));
+    let scenario = match links {
+        Links::None => scenario.clone(),
+        Links::Reports => format!("[{scenario}]({folder}/report.json)"),
+        Links::Page => format!("[{scenario}](index.html#{folder})"),
+    };
     format!("| {verdict} | {scenario} | {planner} | {seed} | {flight_time} | {why} |")
 }
 

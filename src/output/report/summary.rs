@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{headline, markdown};
+use super::{Links, headline, markdown};
+use crate::campaign::comparison::{Comparison, Difference};
 use crate::error::{Error, Exit};
 use crate::jobs::RejectedJob;
 use crate::report::{Report, SCHEMA};
@@ -47,6 +48,16 @@ pub struct SummaryRun {
     pub folder: String,
     /// Time that the job took, s.
     pub wall_s: f64,
+    /// What got worse than the baseline, a sentence each; empty without a baseline.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub losses: Vec<String>,
+}
+
+impl SummaryRun {
+    /// Did the verdict pass, and is nothing worse than the baseline?
+    pub fn is_good(&self) -> bool {
+        self.verdict == Outcome::Pass && self.losses.is_empty()
+    }
 }
 
 /// A file that could not be run.
@@ -79,7 +90,17 @@ impl Summary {
             flight_time_s: report.plan.flight_time_s,
             folder: format!("{}/{}", report.scenario, report.planner),
             wall_s: report.timings.total_s(),
+            losses: Vec::new(),
         });
+    }
+
+    /// Notes what got worse than the baseline.
+    pub fn set_baseline(&mut self, comparison: &Comparison) {
+        self.worse_than_baseline = Some(comparison.worse_results());
+        for run in &mut self.runs {
+            let losses = comparison.losses(&run.scenario, &run.planner);
+            run.losses = losses.into_iter().map(Difference::sentence).collect();
+        }
     }
 
     /// Adds a file that could not be run.
@@ -98,17 +119,19 @@ impl Summary {
         self.runs.iter().filter(|run| run.verdict == outcome).count()
     }
 
-    /// `3 passed, 1 failed, 1 refused as bad input`: zeros are left out, except for the first.
+    /// `1 refused as bad input, 1 failed, 3 passed`: the worst first, so that the line of a run that is not good never begins
+    /// with what passed. Zeros are left out.
     pub fn counts_line(&self) -> String {
         let counts = [
+            (self.refused.len(), "refused as bad input"),
             (self.count(Outcome::Fail), "failed"),
             (self.count(Outcome::NoPlan), "without a plan"),
-            (self.refused.len(), "refused as bad input"),
             (self.worse_than_baseline.unwrap_or(0), "worse than the baseline"),
+            (self.count(Outcome::Pass), "passed"),
         ];
-        let others = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
-        let passed = format!("{} passed", self.count(Outcome::Pass));
-        std::iter::once(passed).chain(others).collect::<Vec<_>>().join(", ")
+        let counts: Vec<String> =
+            counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        if counts.is_empty() { "nothing was run".to_owned() } else { counts.join(", ") }
     }
 
     /// Did every verdict pass, without refused files and without a loss against the baseline?
@@ -130,13 +153,8 @@ impl Summary {
     /// `summary.md`.
     ///
     /// - `reports`: of the same jobs
-    pub fn markdown(&self, reports: &[Report]) -> String {
-        markdown::page(self, reports, true)
-    }
-
-    /// [`markdown`](Self::markdown) for a page from which the result folder cannot be reached.
-    pub fn markdown_without_links(&self, reports: &[Report]) -> String {
-        markdown::page(self, reports, false)
+    pub fn markdown(&self, reports: &[Report], links: Links) -> String {
+        markdown::page(self, reports, links)
     }
 }
 
@@ -144,6 +162,7 @@ impl Summary {
 mod tests {
     use super::{RefusedFile, Summary, SummaryRun};
     use crate::error::Exit;
+    use crate::output::report::Links;
     use crate::verdict::Outcome;
 
     fn run(verdict: Outcome) -> SummaryRun {
@@ -159,6 +178,7 @@ mod tests {
             flight_time_s: Some(50.0),
             folder: "pair/by-hand".into(),
             wall_s: 0.1,
+            losses: Vec::new(),
         }
     }
 
@@ -180,23 +200,38 @@ mod tests {
         assert_eq!((against(0).exit(), against(1).exit()), (Exit::Passed, Exit::Failed));
         assert_eq!(
             (against(0).counts_line(), against(1).counts_line()),
-            ("2 passed".into(), "2 passed, 1 worse than the baseline".into())
+            ("2 passed".into(), "1 worse than the baseline, 2 passed".into())
         );
     }
 
     #[test]
     fn counts_leave_out_zeros() {
         assert_eq!(summary(&[Outcome::Pass], 0).counts_line(), "1 passed");
-        assert_eq!(summary(&[Outcome::Fail], 2).counts_line(), "0 passed, 1 failed, 2 refused as bad input");
+        assert_eq!(summary(&[Outcome::Fail], 2).counts_line(), "2 refused as bad input, 1 failed");
     }
 
     #[test]
     fn the_page_names_every_run_and_every_fault() {
-        let page = summary(&[Outcome::NoPlan], 1).markdown(&[]);
+        let page = summary(&[Outcome::NoPlan], 1).markdown(&[], Links::Reports);
         assert!(
             page.contains("| NO PLAN | [pair](pair/by-hand/report.json) | by-hand | 0 | 50.000 s | a \\| b |"),
             "{page}"
         );
         assert!(page.contains("- `bad.toml:1:1: no`"), "{page}");
+        let page = summary(&[Outcome::NoPlan], 0).markdown(&[], Links::Page);
+        assert!(page.contains("[pair](index.html#pair/by-hand)") && page.contains("(index.html)"), "{page}");
+        assert!(!summary(&[Outcome::NoPlan], 0).markdown(&[], Links::None).contains("]("));
+    }
+
+    #[test]
+    fn a_run_that_is_only_worse_than_the_baseline_is_listed_before_those_that_are_good() {
+        let mut summary = summary(&[Outcome::Pass, Outcome::Pass], 0);
+        summary.worse_than_baseline = Some(1);
+        summary.runs[1].losses = vec!["margin of flight.separation: 9 m before, 1 m now".into()];
+        let page = summary.markdown(&[], Links::None);
+        assert!(page.starts_with("# 1 worse than the baseline, 2 passed"), "{page}");
+        let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| PASS")).collect();
+        assert!(rows[0].starts_with("| PASS, worse |") && rows[0].contains("9 m before, 1 m now"), "{page}");
+        assert!(rows[1].starts_with("| PASS |"), "{page}");
     }
 }

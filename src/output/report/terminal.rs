@@ -53,7 +53,7 @@ fn no_plan(report: &Report, log: Option<&str>) -> String {
 
 /// The whole run: the jobs that did not pass (if there are several jobs), counts, and the result folder.
 pub fn summary(summary: &Summary, out: &Path) -> String {
-    let bad: Vec<&SummaryRun> = summary.runs.iter().filter(|run| run.verdict != Outcome::Pass).collect();
+    let bad: Vec<&SummaryRun> = summary.runs.iter().filter(|run| !run.is_good()).collect();
     let repeated = if summary.runs.len() > 1 { bad.as_slice() } else { &[] };
     let repeated: String =
         repeated.iter().map(|run| verdict_line(run.verdict, &run.scenario, &run.planner) + "\n").collect();
@@ -77,10 +77,9 @@ fn row(check: &Check) -> Vec<Cell> {
     };
     let remarks = [Some(check.between.join(", ")), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
     let remarks: Vec<String> = remarks.into_iter().flatten().filter(|remark| !remark.is_empty()).collect();
-    let (status, color) = status(check);
     vec![
         Cell::new(&check.name),
-        Cell::new(status).fg(color),
+        Cell::new(check.status).fg(color(check)),
         shown(check.value, number),
         shown(check.limit, number),
         shown(check.margin, signed),
@@ -90,13 +89,12 @@ fn row(check: &Check) -> Vec<Cell> {
     ]
 }
 
-fn status(check: &Check) -> (&'static str, Color) {
+fn color(check: &Check) -> Color {
     match check.status {
-        Status::Pass => ("pass", Color::Green),
-        Status::Fail if check.advisory => ("fail", Color::Yellow),
-        Status::Fail => ("fail", Color::Red),
-        Status::Undecided => ("undecided", Color::Yellow),
-        Status::Skip => ("skip", Color::Reset),
+        Status::Pass => Color::Green,
+        Status::Fail if !check.advisory => Color::Red,
+        Status::Fail | Status::Undecided => Color::Yellow,
+        Status::Skip => Color::Reset,
     }
 }
 

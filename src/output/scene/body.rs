@@ -1,5 +1,6 @@
 //! Rigid bodies that move: vehicles, loads, obstacles.
 
+use serde::Serialize;
 use sim::Sample;
 
 use super::{ItemPath, Shape, is_finite};
@@ -21,7 +22,8 @@ pub struct Body<'a> {
 }
 
 /// Kinds of bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum BodyKind {
     /// A vehicle, or the load that it carries.
     Vehicle,
@@ -30,7 +32,7 @@ pub enum BodyKind {
 }
 
 /// A shape that moves with a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
     /// Its path below that of the body; empty for the only part of a body.
     pub name: &'static str,

@@ -1,6 +1,6 @@
 //! Builds the scene of a run.
 
-use super::{Scene, closest, end_s, events, map, obstacles, paths};
+use super::{Scene, closest, end_s, events, focus, map, obstacles, paths, wind};
 use crate::families;
 use crate::output::run::JudgedRun;
 
@@ -11,12 +11,19 @@ pub fn build<'a>(run: &JudgedRun<'a>) -> Scene<'a> {
     map::add(&mut scene, run.scenario);
     obstacles::add(&mut scene, run);
     paths::add_planned(&mut scene, run);
+    scene.legend = (family.legend)(run);
     if let Some(flight) = run.flight {
         paths::add_flown(&mut scene, flight);
         closest::add(&mut scene, run, flight);
         (family.add)(&mut scene, run, flight);
     }
+    scene.action = focus::action(&scene);
+    let decisive = focus::decisive(run);
+    scene.focus_s = focus::instant_s(decisive, scene.end_s);
+    scene.decisive_check = decisive.map(|check| check.name.clone());
+    if let Some(flight) = run.flight {
+        wind::add(&mut scene, flight);
+    }
     scene.events = events::all(run, family.end_of_plan);
-    scene.legend = (family.legend)(run);
     scene
 }

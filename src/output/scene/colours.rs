@@ -22,6 +22,10 @@ pub const MOVING: [u8; 3] = [235, 140, 60];
 pub const LOAD: [u8; 3] = [245, 190, 70];
 /// A slack cable.
 pub const SLACK: [u8; 3] = [150, 155, 165];
+/// Arrows of the wind.
+pub const WIND: [u8; 3] = [150, 200, 235];
+/// A plan flown open loop.
+pub const OPEN_LOOP: [u8; 3] = [225, 120, 210];
 /// The edges of a planner's cost map.
 pub const COST_MAP: [u8; 3] = [62, 84, 104];
 

@@ -1,5 +1,6 @@
 //! The text log: the flight's events and the worst instants that the judge found.
 
+use serde::Serialize;
 use sim::{EventKind, Flight};
 
 use crate::number_format::{given_quantity, quantity};
@@ -7,7 +8,7 @@ use crate::output::run::JudgedRun;
 use crate::verdict::{Check, Status};
 
 /// A line of the log.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
     /// Time, s: finite.
     pub t_s: f64,
@@ -18,7 +19,8 @@ pub struct Event {
 }
 
 /// How serious an event is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Level {
     /// As expected.
     Info,

@@ -1,6 +1,7 @@
 //! Fixed-wing aircraft: airframe with name and safety volume, load factors, speed, altitude.
 
 mod airframe;
+mod open_loop;
 mod quantity;
 
 use scenarios::Scenario;
@@ -39,6 +40,7 @@ pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan
 
 fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     add_bodies(scene, run.scenario, flight);
+    open_loop::add(scene, run);
     let distances = distances::add(scene, run, SeparationShape::Horizontal, clearance_over_time);
     for quantity in Quantity::ALL {
         for (name, value) in quantity.limits(run.scenario) {

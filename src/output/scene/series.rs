@@ -1,5 +1,7 @@
 //! Quantities over time that are not sampled at the steps of a log, their limits, and the plots that show them.
 
+use serde::Serialize;
+
 use super::curve::Curve;
 use crate::number_format::given_quantity;
 use crate::output::scene::colours;
@@ -26,7 +28,8 @@ pub struct Series {
 }
 
 /// Kinds of series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SeriesKind {
     /// A quantity.
     Quantity,
@@ -35,7 +38,7 @@ pub enum SeriesKind {
 }
 
 /// A discrete state over time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StateSeries {
     /// What it is the state of.
     pub group: &'static str,

@@ -1,7 +1,10 @@
 //! The shapes that a scene is made of. Lengths in m; widths and radii marked as such in points on the screen.
 
+use serde::Serialize;
+
 /// A shape.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Shape {
     /// Polylines.
     Lines(Lines),
@@ -18,7 +21,7 @@ pub enum Shape {
 }
 
 /// A colour with opacity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Paint {
     /// Red, green, blue.
     pub rgb: [u8; 3],
@@ -27,7 +30,7 @@ pub struct Paint {
 }
 
 /// Text beside a shape.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Label {
     /// The text.
     pub text: String,
@@ -36,7 +39,7 @@ pub struct Label {
 }
 
 /// Polylines.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lines {
     /// The points of each line.
     pub strips: Vec<Vec<[f64; 3]>>,
@@ -49,7 +52,7 @@ pub struct Lines {
 }
 
 /// Points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Points {
     /// Where they are.
     pub positions_m: Vec<[f64; 3]>,
@@ -64,7 +67,8 @@ pub struct Points {
 }
 
 /// Size of a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Radius {
     /// Points on the screen, at any distance.
     Screen(f32),
@@ -73,7 +77,7 @@ pub enum Radius {
 }
 
 /// Upright cylinders, translucent with visible edges.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cylinders {
     /// Each of them.
     pub cylinders: Vec<Cylinder>,
@@ -84,7 +88,7 @@ pub struct Cylinders {
 }
 
 /// An upright cylinder.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cylinder {
     /// Middle of its axis.
     pub centre_m: [f64; 3],
@@ -97,7 +101,7 @@ pub struct Cylinder {
 }
 
 /// The edges of an axis-aligned box.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BoxOutline {
     /// Centre.
     pub centre_m: [f64; 3],
@@ -112,7 +116,7 @@ pub struct BoxOutline {
 }
 
 /// A sphere, drawn as a wire frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sphere {
     /// Radius.
     pub radius_m: f64,
@@ -123,7 +127,7 @@ pub struct Sphere {
 }
 
 /// A triangle mesh in one colour, visible from both sides.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Triangles {
     /// Corners of each triangle.
     pub triangles: Vec<[[f64; 3]; 3]>,
@@ -131,6 +135,19 @@ pub struct Triangles {
     pub normals: Vec<[f64; 3]>,
     /// Colour.
     pub paint: Paint,
+}
+
+impl Shape {
+    /// Number of points that it is made of.
+    pub fn point_count(&self) -> usize {
+        match self {
+            Self::Lines(lines) => lines.strips.iter().map(Vec::len).sum(),
+            Self::Points(points) => points.positions_m.len(),
+            Self::Cylinders(cylinders) => cylinders.cylinders.len(),
+            Self::Triangles(triangles) => 3 * triangles.triangles.len(),
+            Self::Box(_) | Self::Sphere(_) => 1,
+        }
+    }
 }
 
 impl Paint {
