@@ -10,11 +10,13 @@ use crate::verdict::Knot;
 
 /// Points of a planned path between two nodes.
 const POINTS_PER_INTERVAL: usize = 8;
-/// Time between the points of a flown path and of a trail, s.
+/// Time between the points of a trail, and largest time between those of a flown path, s.
 const POINT_INTERVAL_S: f64 = 0.5;
-/// The same for a flight shorter than [`SHORT_FLIGHT_S`], s.
+/// Smallest time between the points of a flown path, s.
 const SHORT_INTERVAL_S: f64 = 0.02;
-/// Flights shorter than this have a finer path and no trail, s.
+/// Points of a flown path between these two intervals.
+const POINTS_OF_PATH: f64 = 1000.0;
+/// Flights shorter than this have no trail, s.
 const SHORT_FLIGHT_S: f64 = 30.0;
 /// Length of a trail, s.
 pub const TRAIL_S: f64 = 20.0;
@@ -45,11 +47,11 @@ pub(super) fn add_flown(scene: &mut Scene<'_>, flight: &Flight) {
     let is_short = scene.end_s < SHORT_FLIGHT_S;
     for (index, log) in flight.vehicles.iter().enumerate() {
         let paint = Paint::opaque(colours::vehicle(index, flight.vehicles.len()));
-        let samples = spaced(&log.samples, if is_short { SHORT_INTERVAL_S } else { POINT_INTERVAL_S });
-        let points = samples.iter().map(|sample| sample.position_m).collect();
+        let interval_s = (scene.end_s / POINTS_OF_PATH).clamp(SHORT_INTERVAL_S, POINT_INTERVAL_S);
+        let points = spaced(&log.samples, interval_s).iter().map(|sample| sample.position_m).collect();
         scene.add_item(&["flown", &log.vehicle], Lines::new(vec![points], paint, 1.2));
         if !is_short {
-            let (times_s, strips) = trails(&samples);
+            let (times_s, strips) = trails(&spaced(&log.samples, POINT_INTERVAL_S));
             let path = item_path(&["trail", &log.vehicle]);
             scene.animations.push(Animation { path, times_s, strips, paints: vec![paint], radius: 2.6 });
         }
