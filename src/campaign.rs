@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod comparison;
 pub mod failure_threshold;
+pub mod figures;
 #[cfg(feature = "parquet")]
 pub mod first_difference;
 pub mod generate;

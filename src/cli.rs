@@ -7,6 +7,7 @@ mod compare;
 mod completions;
 #[cfg(feature = "parquet")]
 mod diverge;
+mod figures;
 mod generate;
 mod list;
 #[cfg(feature = "parquet")]
@@ -63,6 +64,8 @@ enum Command {
     #[command(name = "report")]
     Report(report::ReportCommand),
     Bench(bench::Bench),
+    #[command(name = "figures")]
+    Figures(figures::FiguresCommand),
     Generate(generate::Generate),
     #[cfg(feature = "parquet")]
     Diverge(diverge::Diverge),
@@ -96,6 +99,7 @@ impl Cli {
             Command::Baseline(baseline) => baseline.execute(),
             Command::Report(report) => report.execute(),
             Command::Bench(bench) => bench.execute(),
+            Command::Figures(figures) => figures.execute(),
             Command::Generate(generate) => generate.execute(),
             #[cfg(feature = "parquet")]
             Command::Diverge(diverge) => diverge.execute(),

@@ -10,10 +10,15 @@ const SIGNIFICANT_DIGITS: usize = 7;
 /// Units of counts.
 const COUNTED: [&str; 3] = ["crashes", "numbers", "vehicles"];
 
+/// Is this the unit of a count?
+pub fn is_count(unit: &str) -> bool {
+    COUNTED.contains(&unit)
+}
+
 /// A measured value in `unit`, without the unit: three digits after the point, or scientific notation if it would be
 /// rounded to zero. Counts are whole numbers.
 pub fn number(value: f64, unit: &str) -> String {
-    if COUNTED.contains(&unit) && value.fract() == 0.0 {
+    if is_count(unit) && value.fract() == 0.0 {
         format!("{value:.0}")
     } else if value != 0.0 && value.abs() < 5e-4 {
         format!("{value:.1e}")

@@ -1,10 +1,11 @@
 //! Everything that is written: files, recordings, reports.
 
 mod files;
+pub mod ghost;
 pub mod page;
 pub mod recording;
 pub mod report;
-mod run;
+pub mod run;
 pub mod scene;
 pub mod tum;
 

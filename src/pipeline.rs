@@ -4,7 +4,7 @@
 //! Scenario -> planner -> Plan -> sim -> Flight -> judge -> Verdict -> recording + reports
 //! ```
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use scenarios::Plan;
@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::jobs::Job;
 use crate::metrics;
 use crate::output;
+use crate::output::ghost::Ghost;
 use crate::output::recording::{self, Recorder, Run};
 use crate::output::tum;
 use crate::plan_source::{Flown, Guidance, PlanSource, PlannerOutput};
@@ -37,6 +38,8 @@ pub struct Outputs {
     pub refine_step: bool,
     /// Whether to compute the margin budgets.
     pub waterfall: bool,
+    /// Result folder of an earlier run, whose flights are shown beside the new ones.
+    pub ghost: Option<PathBuf>,
 }
 
 /// Result of a job.
@@ -72,7 +75,10 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     let budgets =
         || margin_budget::budgets(&job.scenario, &job.plan_source.fixed_to(answer.clone()), job.seed, &verdict);
     let waterfall = if outputs.waterfall { budgets() } else { Vec::new() };
-    let run = Run { scenario: &job.scenario, plan, flight, verdict: &verdict, waterfall: &waterfall };
+    let own = Path::new(&job.scenario.name).join(job.plan_source.name());
+    let ghost = outputs.ghost.as_ref().map(|results| Ghost::read(results, &own)).transpose()?.flatten();
+    let run =
+        Run { scenario: &job.scenario, plan, flight, verdict: &verdict, waterfall: &waterfall, ghost: ghost.as_ref() };
     timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
     export(flight, outputs, folder)?;
     let report = Report { waterfall, ..Report::new(&answer, flight, verdict, metrics, timings) };

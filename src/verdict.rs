@@ -183,10 +183,21 @@ impl Check {
         KEY_CHECKS.contains(&self.question())
     }
 
+    /// Between whom, for people, each once: `uav-3 and uav-5`; nothing if nobody is named.
+    pub fn who(&self) -> Option<String> {
+        let mut named: Vec<&str> = Vec::new();
+        self.between.iter().for_each(|name| {
+            if !named.contains(&name.as_str()) {
+                named.push(name);
+            }
+        });
+        (!named.is_empty()).then(|| named.join(" and "))
+    }
+
     /// When and between whom, for people: `83.10 s, uav-3 and uav-5`; nothing if neither is known.
     pub fn place(&self) -> Option<String> {
         let when = self.at_s.map(|at_s| format!("{at_s:.2} s"));
-        let who = (!self.between.is_empty()).then(|| self.between.join(" and "));
+        let who = self.who();
         let parts: Vec<String> = when.into_iter().chain(who).collect();
         (!parts.is_empty()).then(|| parts.join(", "))
     }

@@ -12,7 +12,8 @@ use crate::output::page;
 use crate::output::recording::Recorder;
 use crate::output::recording::scene_json::SceneJson;
 use crate::output::report::json_lines::Event;
-use crate::output::report::{Links, Summary, comparison_table, github, json_lines, junit, terminal};
+use crate::output::report::terminal::{self, Detail};
+use crate::output::report::{Links, Summary, comparison_table, github, json_lines, junit};
 use crate::pipeline;
 use crate::pipeline::Outputs;
 use crate::progress::Progress;
@@ -42,12 +43,19 @@ pub struct Session {
     /// Compare with a baseline file or an earlier result folder; the exit code is 1 if anything got worse
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
+    /// Show the flights of an earlier result folder, or of one of its jobs, as ghosts in the recordings [default: those of
+    /// --baseline, if it is a folder]
+    #[arg(long, value_name = "DIR")]
+    ghost: Option<PathBuf>,
     /// Number of worker threads [default: one per core]; results do not depend on it
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Format of standard output
     #[arg(long, value_enum, value_name = "FORMAT", default_value = "text")]
     format: Format,
+    /// List every check; without it, failures and the closest margins
+    #[arg(short, long)]
+    verbose: bool,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
@@ -105,6 +113,7 @@ impl Session {
             waterfall: self.waterfall,
             recorders: self.recorders()?,
             tum: self.tum,
+            ghost: self.ghost.clone().or_else(|| self.baseline.clone().filter(|baseline| baseline.is_dir())),
             refine_step: self.second_integrator == SecondIntegrator::Full,
         };
         let baseline = self.baseline.as_deref().map(Snapshot::read).transpose()?;
@@ -135,7 +144,8 @@ impl Session {
         let done = pipeline::run(job, outputs, &folder, &mut progress)?;
         interrupt::complete_job();
         progress.finish();
-        self.show(&terminal::report(&done.report, done.log.as_deref()))?;
+        let detail = if self.verbose { Detail::All } else { Detail::Decisive };
+        self.show(&terminal::report(&done.report, done.log.as_deref(), detail))?;
         self.event(&Event::Report { report: &done.report })?;
         Ok(done.report)
     }
@@ -153,7 +163,7 @@ impl Session {
         output::write_file(&self.out.join("summary.md"), |writer| {
             write!(writer, "{}\n{compared_page}", summary.markdown(reports, links))
         })?;
-        let xml = junit::document(reports, &summary.refused, compared.as_ref());
+        let xml = junit::document(reports, summary);
         output::replace_file(&self.out.join("junit.xml"), |partial| Ok(std::fs::write(partial, xml?)?))?;
         github::add_to_job_summary(&format!("{}\n{compared_page}", summary.markdown(reports, Links::None)))?;
         page::write_comparison(&self.out, self.baseline.as_deref().zip(compared.as_ref()))?;

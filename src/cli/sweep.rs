@@ -80,10 +80,10 @@ pub struct ResultArgs {
     at_least: f64,
     /// Write the report page DIR/index.html, with histograms of the margins; `harness report` does so afterwards
     #[arg(long)]
-    html: bool,
+    pub html: bool,
     /// Print errors only
     #[arg(short, long)]
-    quiet: bool,
+    pub quiet: bool,
 }
 
 const EXAMPLES: &str = "\

@@ -11,6 +11,7 @@ use sim::Flight;
 use crate::campaign::margin_budget::MarginBudget;
 use crate::error::Error;
 use crate::output;
+use crate::output::ghost::Ghost;
 use crate::output::run::JudgedRun;
 use crate::verdict::Verdict;
 
@@ -35,6 +36,8 @@ pub struct Run<'a> {
     pub verdict: &'a Verdict,
     /// The margin budgets; empty unless they were asked for.
     pub waterfall: &'a [MarginBudget],
+    /// An earlier flight to show beside this one.
+    pub ghost: Option<&'a Ghost>,
 }
 
 /// A recording format.
@@ -64,8 +67,8 @@ pub fn record(recorder: &dyn Recorder, run: &Run<'_>, folder: &Path) -> Result<P
 impl<'a> Run<'a> {
     /// Without the margin budgets.
     fn judged(&self) -> JudgedRun<'a> {
-        let Self { scenario, plan, flight, verdict, .. } = *self;
-        JudgedRun { scenario, plan, flight, verdict }
+        let Self { scenario, plan, flight, verdict, ghost, .. } = *self;
+        JudgedRun { scenario, plan, flight, verdict, ghost }
     }
 }
 

@@ -3,6 +3,7 @@
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
+use crate::output::ghost::Ghost;
 use crate::verdict::Verdict;
 
 /// A plan, its flight and the verdict on both.
@@ -16,4 +17,6 @@ pub struct JudgedRun<'a> {
     pub flight: Option<&'a Flight>,
     /// The verdict.
     pub verdict: &'a Verdict,
+    /// An earlier flight to show beside this one.
+    pub ghost: Option<&'a Ghost>,
 }

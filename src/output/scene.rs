@@ -25,6 +25,8 @@ mod distances;
 pub mod events;
 pub mod fixed_wing;
 mod focus;
+mod ghosts;
+mod labels;
 mod map;
 pub mod multirotor;
 mod obstacles;

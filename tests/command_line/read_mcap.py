@@ -52,11 +52,11 @@ def pair():
         "/vehicles/uav-2": "aircraft.Aircraft",
         "/distances": "distances.Distances",
         "/log": "foxglove.Log",
-        "/plots/separation/fleet": "point.Point",
-        "/limits/separation/limit R =": "point.Point",
-        "/limits/tracking/limit": "point.Point",
+        "/plots/separation_m/fleet": "point.Point",
+        "/limits/separation_m/limit": "point.Point",
+        "/limits/tracking_m/limit": "point.Point",
     }
-    for quantity in ["n_x", "n_y", "n_z", "airspeed", "altitude"]:
+    for quantity in ["n_x", "n_y", "n_z", "airspeed_mps", "altitude_m"]:
         topics |= {f"/limits/{quantity}/{bound}": "point.Point" for bound in ["lowest", "highest"]}
     if 30e9 <= times[-1]:  # shorter flights have no trail
         topics |= {f"/trail/{vehicle}": "foxglove.SceneUpdate" for vehicle in ["uav-1", "uav-2"]}
@@ -80,7 +80,7 @@ def corridor_moving():
     assert carts and frames.keys() >= {"uav-1", *carts}, frames.keys()
     assert {entity.id for entity in messages["/moving"][0][1].entities} == set(carts)
     has({f"/{kind}/uav-1": "foxglove.SceneUpdate" for kind in ["horizon", "candidates", "route", "cost_map"]})
-    has({"/vehicles/uav-1": "pointmass.PointMass", "/plots/replan/uav-1": "point.Point"})
+    has({"/vehicles/uav-1": "pointmass.PointMass", "/plots/planning_time_ms/uav-1": "point.Point"})
     # of everything, what moves included
     assert abs(smallest("clearance_m") - checks["flight.clearance"]["value"]) < 1e-3
     speeds = [vehicle.airspeed_mps for _, vehicle in messages["/vehicles/uav-1"]]
@@ -100,9 +100,9 @@ def gate():
     windows = {f"gates/{gate}/{of}" for gate in gates for of in ["quadrotor", "load"]}
     assert windows and windows | {"map/ground"} <= scene.keys(), scene.keys()
     assert frames.keys() >= {"carrier", "carrier/load"}, frames.keys()
-    has({"/cables/carrier": "foxglove.SceneUpdate", "/envelope/carrier": "foxglove.SceneUpdate"})
+    has({"/cables/carrier": "foxglove.SceneUpdate", "/envelopes/carrier": "foxglove.SceneUpdate"})
     has({"/vehicles/carrier": "quadrotor.Quadrotor", "/state/cable/flown": "state.State"})
-    has({"/plots/tension/flown": "point.Point", "/plots/clearance/body": "point.Point"})
+    has({"/plots/tension_n/flown": "point.Point", "/plots/clearance_m/body": "point.Point"})
     tensions = [vehicle.tension_n for _, vehicle in messages["/vehicles/carrier"]]
     assert max(tensions) > 0, tensions
 

@@ -113,3 +113,90 @@ fn the_page_of_a_comparison_holds_both_runs() {
     );
     assert_eq!(workplace.json("new/comparison.json")["counts"], "1 result compared: 5 worse, 0 better");
 }
+
+/// Two machines ran two scenarios: the merged folder is that of one run of both, with its exit code.
+#[cfg(feature = "parquet")]
+#[test]
+fn result_folders_merge() {
+    let other = failing().replace("\"pair\"", "\"other\"");
+    let workplace = Workplace::new(&[("pair.toml", PAIR), ("other.toml", &other)]);
+    workplace.harness(&["run", "pair.toml", "-q", "--record", "page", "-o", "one"]);
+    workplace.harness(&["run", "other.toml", "-q", "--record", "page", "-o", "two"]);
+    assert_eq!(code(&workplace.harness(&["merge", "one", "two", "-o", "all", "--html", "-q"])), 1);
+    let names = ["index.html", "junit.xml", "other", "pair", "summary.json", "summary.md"];
+    assert_eq!(workplace.files("all"), names);
+    let junit = fs::read_to_string(workplace.path("all/junit.xml")).unwrap();
+    assert!(junit.contains("pair · parallel-scp") && junit.contains("other · parallel-scp"), "{junit}");
+    assert!(fs::read_to_string(workplace.path("all/summary.md")).unwrap().starts_with("# 1 failed, 1 passed"));
+    let output = workplace.harness(&["merge", "one", "all", "-o", "twice"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("pair/parallel-scp is also in one"), "{}", stderr(&output));
+}
+
+/// The samples of a sweep and the levels of a stress test are on the page.
+#[cfg(feature = "parquet")]
+#[test]
+fn campaigns_have_a_page_too() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    let output = workplace.harness(&["sweep", "pair.toml", "-n", "6", "--html", "-q"]);
+    assert!(code(&output) < 2, "{}", stderr(&output));
+    let output = workplace.harness(&["stress", "pair.toml", "--over", "noise", "--html", "-q"]);
+    assert!(code(&output) < 2, "{}", stderr(&output));
+    let page = fs::read_to_string(workplace.path("out/index.html")).unwrap();
+    for part in [
+        "\"kind\":\"sweep\"",
+        "\"kind\":\"stress\"",
+        "standard deviation of the measured position [m]",
+        "\"margins\":[[",
+    ] {
+        assert!(page.contains(part), "`{part}` is missing");
+    }
+}
+
+/// The flight of an earlier run is in a recording beside the new one, and in no table.
+#[cfg(feature = "rrd")]
+#[test]
+fn an_earlier_flight_is_shown_as_a_ghost() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    workplace.harness(&["run", "pair.toml", "-q", "-o", "old"]);
+    let size = |out: &str| fs::metadata(workplace.path(out).join("pair/parallel-scp/flight.rrd")).unwrap().len();
+    let output = workplace.harness(&["run", "pair.toml", "-q", "-o", "new", "--ghost", "old"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(size("new") > size("old") + 5_000, "{} and {} bytes", size("new"), size("old"));
+    let scene = workplace.json("new/pair/parallel-scp/scene.json");
+    assert!(scene["bodies"].as_array().unwrap().iter().all(|body| body["kind"] == "vehicle"));
+}
+
+/// Every figure of the list is written and shows something.
+#[test]
+fn the_papers_figures_are_drawn() {
+    let workplace = Workplace::new(&[]);
+    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let output = workplace.harness(&["figures", scenarios.to_str().unwrap(), "--quick", "-q", "-o", "drawn", "--html"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let names: Vec<String> = harness::campaign::figures::names().iter().map(|name| format!("{name}.svg")).collect();
+    assert_eq!(workplace.files("drawn/figures"), names);
+    let list = fs::read_to_string(workplace.path("drawn/papers.md")).unwrap();
+    for name in names {
+        let svg = fs::read_to_string(workplace.path("drawn/figures").join(&name)).unwrap();
+        assert!(svg.contains("<polyline") || svg.contains("<path"), "{name} is empty: {svg}");
+        assert!(list.contains(&name), "{name} is not on the page");
+    }
+    assert!(workplace.path("drawn/index.html").exists());
+}
+
+/// What a picture has to show depends on the run: the open-loop path where it ends elsewhere, the wind where there is any.
+#[test]
+fn the_scene_holds_the_open_loop_path_and_the_wind_only_where_they_differ_from_nothing() {
+    let kinds = |scenario: &str, list: &str| -> Vec<String> {
+        let workplace = Workplace::new(&[("pair.toml", scenario)]);
+        workplace.harness(&["run", "pair.toml", "-q", "--record", "page"]);
+        let scene = workplace.json("out/pair/parallel-scp/scene.json");
+        let items = scene[list].as_array().unwrap();
+        items.iter().map(|item| item["path"][0].as_str().unwrap().to_owned()).collect()
+    };
+    let strict = PAIR.to_owned() + "\n[verdict]\nrollout_m = 0.5\n";
+    let has = |kinds: &[String], kind: &str| kinds.iter().any(|it| it == kind);
+    assert!(has(&kinds(&strict, "items"), "open_loop") && !has(&kinds(PAIR, "items"), "open_loop"));
+    assert!(has(&kinds(&failing(), "animations"), "wind") && !has(&kinds(PAIR, "animations"), "wind"));
+}

@@ -142,3 +142,27 @@ fn bad_input_is_exit_code_2_even_if_nobody_reads_the_errors() {
         .expect("the harness starts");
     assert_eq!(status.code(), Some(2));
 }
+
+#[test]
+fn the_table_shows_what_decides_in_80_columns_and_every_check_on_demand() {
+    let workplace = Workplace::new(&[("strict.toml", &strict_pair())]);
+    let brief = stdout(&workplace.harness(&["run", "strict.toml", "--record", "none"]));
+    let table: Vec<&str> = brief.lines().take_while(|line| !line.contains("more checks passed")).collect();
+    assert!(table.len() > 3 && table.iter().all(|line| line.chars().count() <= 80), "{brief}");
+    assert!(table.iter().any(|line| line.starts_with("flight.tracking_max") && line.contains("fail")), "{brief}");
+    assert!(!brief.contains("nodes.finite") && !brief.contains("plan.finite"), "{brief}");
+    assert!(!brief.contains("uav-1 and uav-1"), "{brief}");
+    let all = stdout(&workplace.harness(&["run", "strict.toml", "--record", "none", "-v"]));
+    assert!(all.contains("plan.finite") && !all.contains("more checks passed"), "{all}");
+}
+
+/// What happened to the flight comes before what was wrong with the plan.
+#[test]
+fn the_headline_begins_with_the_flight() {
+    let both = strict_pair() + "rollout_m = 1e-6\n";
+    let workplace = Workplace::new(&[("strict.toml", &both)]);
+    let page = stdout(&workplace.harness(&["run", "strict.toml", "--record", "none"]));
+    let verdict = page.lines().find(|line| line.starts_with("FAIL  strict")).expect("a verdict line");
+    let place = |check: &str| verdict.find(check).unwrap_or_else(|| panic!("{check} is missing in {verdict}"));
+    assert!(place("flight.tracking_max") < place("plan.rollout"), "{verdict}");
+}

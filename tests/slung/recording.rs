@@ -15,6 +15,7 @@ fn recorded(case: &Case) -> u64 {
         flight: case.flight.as_ref(),
         verdict: &verdict,
         waterfall: &[],
+        ghost: None,
     };
     let path = record(&Rrd, &run, folder.path()).unwrap();
     std::fs::metadata(path).unwrap().len()

@@ -29,8 +29,9 @@ const MAX_CURVE_POINTS: usize = 120_000;
 const MAX_POINTS_OF_CURVE: usize = 700;
 /// Largest number of points of a shape that is replaced or deformed over time, over all times.
 const MAX_POINTS_OF_CHANGES: usize = 30_000;
-/// Kinds of items that a picture can do without: the trail follows from the poses, the others hide what matters.
-const LEFT_OUT: [&str; 3] = ["trail", "candidates", "cost_map"];
+/// Kinds of items that a picture can do without: the trail follows from the poses, the page has the ghost
+/// from its own scene, the others hide what matters.
+const LEFT_OUT: [&str; 4] = ["trail", "candidates", "cost_map", "ghost"];
 
 /// Writes `scene.json`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -134,7 +135,8 @@ impl<'a> SceneFile<'a> {
 fn bodies<'a>(scene: &'a Scene<'_>) -> Vec<BodyData<'a>> {
     let count = scene.bodies.len().max(1) as f64;
     let interval_s = scene.end_s / (MAX_POSES / count).min(MAX_POSES_OF_BODY);
-    scene.bodies.iter().map(|body| body_data(body, interval_s.max(body.interval_s))).collect()
+    let drawn = scene.bodies.iter().filter(|body| body.kind != BodyKind::Ghost);
+    drawn.map(|body| body_data(body, interval_s.max(body.interval_s))).collect()
 }
 
 fn body_data<'a>(body: &'a Body<'_>, interval_s: f64) -> BodyData<'a> {

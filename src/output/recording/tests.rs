@@ -44,7 +44,7 @@ fn with_run(test: impl FnOnce(&Run<'_>)) {
     };
     let plan = Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };
-    test(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[] });
+    test(&Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[], ghost: None });
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use scenarios::PlanStatus;
 
-use crate::number_format::{given_quantity, quantity, signed_quantity};
+use crate::number_format::{given_quantity, is_count, quantity, signed_quantity};
 use crate::report::Report;
 use crate::verdict::{Check, KEY_CHECKS, Outcome, Status};
 
@@ -74,12 +74,20 @@ fn smallest_margin(checks: &[Check], name: &str) -> Option<String> {
 }
 
 fn failures(report: &Report) -> String {
-    let failed: Vec<&Check> = failed(report).collect();
+    let mut failed: Vec<&Check> = failed(report).collect();
+    failed.sort_by_key(|check| precedence(check));
     let asked = report.checks.iter().filter(|check| check.status != Status::Skip).count();
     let first: Vec<String> = failed.iter().take(FAILURES_NAMED).map(|check| line(check)).collect();
     let others = failed.len().saturating_sub(FAILURES_NAMED);
     let rest = if others > 0 { format!("; and {others} more") } else { String::new() };
     format!("{} of {asked} checks failed: {}{rest}", failed.len(), first.join("; "))
+}
+
+/// What happened comes before what was planned; a crash, or a flight that is not whole, before what follows from it.
+fn precedence(check: &Check) -> usize {
+    let order =
+        ["flight.crash", "flight.complete", "flight.separation", "flight.clearance", "flight.", "plan.", "nodes."];
+    order.iter().position(|prefix| check.name.starts_with(prefix)).unwrap_or(order.len())
 }
 
 /// The last lines of a text, indented; empty if it is blank.
@@ -95,14 +103,16 @@ pub(super) fn sentence(check: &Check) -> String {
     let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));
     let margin = check.margin.map(|margin| format!("margin {}", signed_quantity(margin, &check.unit)));
     let at_s = check.at_s.map(|at_s| format!("at {at_s:.2} s"));
-    let who = (!check.between.is_empty()).then(|| check.between.join(" and "));
+    let who = check.who();
     let parts = [value, limit, margin, at_s, who, check.reason.clone()];
     format!("{}: {}", check.name, parts.into_iter().flatten().collect::<Vec<_>>().join(", "))
 }
 
 /// `flight.separation +4.200 m (83.10 s, uav-3 and uav-5)`, `plan.clearance undecided +0.001 m`.
 pub(super) fn line(check: &Check) -> String {
-    let margin = check.margin.map(|margin| format!(" {}", signed_quantity(margin, &check.unit)));
+    // "-1 crashes" says nothing that the name does not say.
+    let margin = check.margin.filter(|_| !is_count(&check.unit));
+    let margin = margin.map(|margin| format!(" {}", signed_quantity(margin, &check.unit)));
     let place = check.place().map(|place| format!(" ({place})"));
     let undecided = if check.status == Status::Undecided { " undecided" } else { "" };
     format!("{}{undecided}{}{}", check.name, margin.unwrap_or_default(), place.unwrap_or_default())

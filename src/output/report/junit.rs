@@ -5,8 +5,7 @@ use std::time::Duration;
 use chrono::Utc;
 use quick_junit::{NonSuccessKind, Report as Document, TestCase, TestCaseStatus, TestSuite, XmlString};
 
-use super::{RefusedFile, headline};
-use crate::campaign::comparison::{Comparison, Difference};
+use super::{RefusedFile, Summary, headline};
 use crate::number_format::given_quantity;
 use crate::report::Report;
 use crate::verdict::{Check, Outcome, Status};
@@ -14,17 +13,14 @@ use crate::verdict::{Check, Outcome, Status};
 /// The whole run as XML, valid against the schema of Jenkins' xUnit plugin (`junit-10.xsd`) and against that of Apache Ant
 /// (`JUnit.xsd` of Windy Road).
 ///
-/// - `comparison`: with the baseline, if there is one; every suite then has one more case, `baseline`
+/// - `summary`: of the same jobs; if they were compared with a baseline, every suite has one more case, `baseline`
 ///
 /// # Errors
 ///
 /// Those of the XML writer.
-pub fn document(
-    reports: &[Report],
-    refused: &[RefusedFile],
-    comparison: Option<&Comparison>,
-) -> Result<String, quick_junit::SerializeError> {
-    let suites = reports.iter().map(|report| suite(report, comparison)).chain(refused.iter().map(refused_suite));
+pub fn document(reports: &[Report], summary: &Summary) -> Result<String, quick_junit::SerializeError> {
+    let suites = reports.iter().map(|report| suite(report, summary));
+    let suites = suites.chain(summary.refused.iter().map(refused_suite));
     let mut document = Document::new("harness");
     document.add_test_suites(suites.enumerate().map(|(id, suite)| completed(suite, id)));
     document.to_string().map(|xml| without_attributes_of_the_root(&xml))
@@ -64,7 +60,7 @@ fn host() -> String {
     "localhost".to_owned()
 }
 
-fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
+fn suite(report: &Report, summary: &Summary) -> TestSuite {
     let mut suite = TestSuite::new(format!("{} · {}", report.scenario, report.planner));
     suite.set_time(Duration::try_from_secs_f64(report.timings.total_s()).unwrap_or_default());
     suite.add_property(("seed", report.seed.to_string().as_str()));
@@ -84,8 +80,9 @@ fn suite(report: &Report, comparison: Option<&Comparison>) -> TestSuite {
         }
     }
     suite.set_system_out(standard_output(report));
-    let losses = comparison.map(|comparison| comparison.losses(&report.scenario, &report.planner));
-    suite.add_test_cases(losses.map(|losses| case(report, "baseline", against_baseline(&losses))));
+    if summary.worse_than_baseline.is_some() {
+        suite.add_test_case(case(report, "baseline", against_baseline(summary.losses(report))));
+    }
     suite
 }
 
@@ -117,14 +114,13 @@ fn status(report: &Report, check: &Check) -> TestCaseStatus {
 }
 
 /// Passes unless something got worse.
-fn against_baseline(losses: &[&Difference]) -> TestCaseStatus {
+fn against_baseline(losses: &[String]) -> TestCaseStatus {
     if losses.is_empty() {
         return TestCaseStatus::success();
     }
-    let sentences: Vec<String> = losses.iter().map(|loss| loss.sentence()).collect();
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-    status.set_type("worse-than-baseline").set_message(format!("worse than the baseline: {}", sentences[0]));
-    status.set_description(XmlString::new(sentences.join("\n")));
+    status.set_type("worse-than-baseline").set_message(format!("worse than the baseline: {}", losses[0]));
+    status.set_description(XmlString::new(losses.join("\n")));
     status
 }
 

@@ -103,6 +103,12 @@ impl Summary {
         }
     }
 
+    /// What got worse of a job than the baseline.
+    pub fn losses(&self, report: &Report) -> &[String] {
+        let run = self.runs.iter().find(|run| run.scenario == report.scenario && run.planner == report.planner);
+        run.map_or(&[], |run| &run.losses)
+    }
+
     /// Adds a file that could not be run.
     pub fn refuse(&mut self, refusal: &RejectedJob) -> &RefusedFile {
         let faults = match &refusal.error {

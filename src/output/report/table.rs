@@ -5,7 +5,7 @@ use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Ta
 /// Width of tables that are not printed to a terminal, characters.
 const PAGE_WIDTH: u16 = 120;
 /// Smallest width of the last column, characters; on a narrower terminal lines overflow.
-const MIN_TEXT_WIDTH: u16 = 24;
+const MIN_TEXT_WIDTH: u16 = 14;
 
 /// An empty table with a line below its header, at most as wide as the terminal. Only the last column is wrapped.
 ///
@@ -28,4 +28,12 @@ pub fn with_header(header: &[&str], numbers: &[usize]) -> Table {
         }
     }
     table
+}
+
+/// The text with lines that are longer than the terminal broken between words and indented; unchanged elsewhere.
+pub fn wrapped(text: &str) -> String {
+    let terminal = Table::new();
+    let Some(width) = terminal.width().filter(|_| terminal.is_tty()) else { return text.to_owned() };
+    let options = textwrap::Options::new(usize::from(width)).subsequent_indent("    ").break_words(false);
+    textwrap::fill(text, options)
 }

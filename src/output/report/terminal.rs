@@ -13,17 +13,31 @@ use crate::number_format::{number, quantity, signed, signed_quantity};
 use crate::report::Report;
 use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, RoundedRows, Status};
 
+/// Width of the table of checks where it is not printed to a terminal, characters.
+const CHECKS_WIDTH: u16 = 80;
 /// Number of lines of an external planner's log that are shown if there is no plan.
 const LOG_LINES: usize = 20;
+
+/// Which checks are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// Failures, and the closest margins of what passed.
+    Decisive,
+    /// All that were made.
+    All,
+}
 
 /// Everything about one job.
 ///
 /// - `log`: standard error of an external planner; its end is shown if there is no plan
-pub fn report(report: &Report, log: Option<&str>) -> String {
+pub fn report(report: &Report, log: Option<&str>, detail: Detail) -> String {
     if report.verdict == Outcome::NoPlan {
         return no_plan(report, log);
     }
-    let mut lines = vec![checks_table(report).trim_fmt()];
+    let (shown, hidden): (Vec<&Check>, Vec<&Check>) =
+        made(report).partition(|check| detail == Detail::All || is_decisive(check));
+    let mut lines = vec![checks_table(&shown).trim_fmt()];
+    lines.extend((!hidden.is_empty()).then(|| format!("{} more checks passed; -v lists them", hidden.len())));
     lines.extend(skipped(report));
     lines.push(plan_line(report));
     lines.extend(flight_line(report));
@@ -39,7 +53,15 @@ pub fn report(report: &Report, log: Option<&str>) -> String {
         lines.push(note(&format!("advisory checks failed: {}", warnings.join(", "))));
     }
     lines.extend(headline::overclaim(report).into_iter().chain(headline::notes(report)).map(|text| note(&text)));
-    format!("{}\n", lines.join("\n"))
+    format!("{}\n", table::wrapped(&lines.join("\n")))
+}
+
+fn made(report: &Report) -> impl Iterator<Item = &Check> {
+    report.checks.iter().filter(|check| check.status != Status::Skip)
+}
+
+fn is_decisive(check: &Check) -> bool {
+    check.is_bad() || check.is_key()
 }
 
 /// Without a plan every check has failed for the same reason, which is shown with the end of the planner's log.
@@ -61,31 +83,33 @@ pub fn summary(summary: &Summary, out: &Path) -> String {
     format!("{repeated}{}; results in {}", painted(&summary.counts_line(), color), out.display())
 }
 
-fn checks_table(report: &Report) -> Table {
-    let header = ["check", "status", "value", "limit", "margin", "unit", "at s", "between, remarks"];
-    let mut table = table::with_header(&header, &[2, 3, 4, 6]);
-    table.enforce_styling();
-    for check in report.checks.iter().filter(|check| check.status != Status::Skip) {
-        table.add_row(row(check));
+fn checks_table(checks: &[&Check]) -> Table {
+    let header = ["check", "status", "value", "limit", "margin", "where, remarks"];
+    let mut table = table::with_header(&header, &[2, 3, 4]);
+    if !table.is_tty() {
+        table.set_width(CHECKS_WIDTH);
     }
+    table.enforce_styling();
+    table.add_rows(checks.iter().map(|check| row(check)));
     table
 }
 
+/// The unit stands once, behind the margin, or behind the value where there is no margin.
 fn row(check: &Check) -> Vec<Cell> {
-    let shown = |value: Option<f64>, form: fn(f64, &str) -> String| {
-        Cell::new(value.map_or_else(String::new, |value| form(value, &check.unit)))
+    let bare = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, &check.unit));
+    let value = match check.margin {
+        None => check.value.map_or_else(String::new, |value| quantity(value, &check.unit)),
+        Some(_) => bare(check.value),
     };
-    let remarks = [Some(check.between.join(", ")), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
-    let remarks: Vec<String> = remarks.into_iter().flatten().filter(|remark| !remark.is_empty()).collect();
+    let margin = check.margin.map_or_else(String::new, |margin| signed_quantity(margin, &check.unit));
+    let remarks = [check.place(), check.reason.clone(), check.advisory.then(|| "advisory".to_owned())];
     vec![
         Cell::new(&check.name),
         Cell::new(check.status).fg(color(check)),
-        shown(check.value, number),
-        shown(check.limit, number),
-        shown(check.margin, signed),
-        Cell::new(&check.unit),
-        shown(check.at_s, |at_s, _| format!("{at_s:.2}")),
-        Cell::new(remarks.join("; ")),
+        Cell::new(value),
+        Cell::new(bare(check.limit)),
+        Cell::new(margin),
+        Cell::new(remarks.into_iter().flatten().collect::<Vec<_>>().join("; ")),
     ]
 }
 
@@ -114,10 +138,11 @@ fn skipped(report: &Report) -> Vec<String> {
 fn plan_line(report: &Report) -> String {
     let plan = &report.plan;
     let iterations = if plan.iterations > 0 { format!(", {} iterations", plan.iterations) } else { String::new() };
-    let wall = if plan.wall_s > 0.0 { format!(" in {:.3} s", plan.wall_s) } else { String::new() };
+    let wall = if plan.wall_s > 0.0 { format!(" in {:.3} s on this machine", plan.wall_s) } else { String::new() };
     let mut parts = vec![format!("plan: {}{iterations}{wall}", plan.status)];
-    if plan.distributed_s > 0.0 {
-        parts.push(format!("{:.3} s if every vehicle had its own computer", plan.distributed_s));
+    // A machine with a core for every vehicle is no slower than one computer per vehicle.
+    if plan.distributed_s > 0.0 && plan.distributed_s < plan.wall_s {
+        parts.push(format!("{:.3} s with one computer per vehicle", plan.distributed_s));
     }
     parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
     parts.extend(plan.reconstruction.as_ref().map(Reconstruction::describe));

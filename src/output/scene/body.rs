@@ -29,6 +29,8 @@ pub enum BodyKind {
     Vehicle,
     /// A moving obstacle.
     Obstacle,
+    /// A vehicle of an earlier run.
+    Ghost,
 }
 
 /// A shape that moves with a body.

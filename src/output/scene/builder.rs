@@ -1,6 +1,6 @@
 //! Builds the scene of a run.
 
-use super::{Scene, closest, end_s, events, focus, map, obstacles, paths, wind};
+use super::{Scene, closest, end_s, events, focus, ghosts, labels, map, obstacles, paths, wind};
 use crate::families;
 use crate::output::run::JudgedRun;
 
@@ -18,11 +18,15 @@ pub fn build<'a>(run: &JudgedRun<'a>) -> Scene<'a> {
         (family.add)(&mut scene, run, flight);
     }
     scene.action = focus::action(&scene);
+    labels::separate(&mut scene);
     let decisive = focus::decisive(run);
     scene.focus_s = focus::instant_s(decisive, scene.end_s);
     scene.decisive_check = decisive.map(|check| check.name.clone());
     if let Some(flight) = run.flight {
         wind::add(&mut scene, flight);
+    }
+    if let Some(ghost) = run.ghost {
+        ghosts::add(&mut scene, ghost);
     }
     scene.events = events::all(run, family.end_of_plan);
     scene

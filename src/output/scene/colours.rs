@@ -22,6 +22,8 @@ pub const MOVING: [u8; 3] = [235, 140, 60];
 pub const LOAD: [u8; 3] = [245, 190, 70];
 /// A slack cable.
 pub const SLACK: [u8; 3] = [150, 155, 165];
+/// The flight of an earlier run.
+pub const GHOST: [u8; 3] = [165, 170, 180];
 /// Arrows of the wind.
 pub const WIND: [u8; 3] = [150, 200, 235];
 /// A plan flown open loop.

@@ -30,12 +30,12 @@ pub(super) fn add(
         ..Series::new(group, "fleet", colours::FLEET, curve.clone().decimated(MAX_POINTS))
     };
     if let (Some(curve), Some(limit_m)) = (&distances.separation, run.scenario.fleet.separation_m) {
-        scene.series.push(fleet("separation", "smallest separation", curve));
-        scene.series.push(Series::limit("separation", "limit R =", limit_m, "m", end_s));
+        scene.series.push(fleet("separation_m", "smallest separation", curve));
+        scene.series.push(Series::limit("separation_m", "limit", limit_m, "m", end_s));
     }
     if let Some(curve) = &distances.clearance {
-        scene.series.push(fleet("clearance", "smallest clearance", curve));
-        scene.series.push(Series::limit("clearance", "surface,", 0.0, "m", end_s));
+        scene.series.push(fleet("clearance_m", "smallest clearance", curve));
+        scene.series.push(Series::limit("clearance_m", "surface", 0.0, "m", end_s));
     }
     distances
 }

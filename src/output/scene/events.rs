@@ -48,7 +48,10 @@ pub(super) fn all(run: &JudgedRun<'_>, end_of_plan: &str) -> Vec<Event> {
 }
 
 fn phases(flight: &Flight, end_of_plan: &str) -> [Event; 2] {
-    let start = format!("start of {} vehicles", flight.vehicles.len());
+    let start = match flight.vehicles.as_slice() {
+        [vehicle] => format!("start of {}", vehicle.vehicle),
+        vehicles => format!("start of {} vehicles", vehicles.len()),
+    };
     let info = |t_s, text: &str| Event { t_s, level: Level::Info, text: text.to_owned() };
     [info(0.0, &start), info(flight.plan_end_s, end_of_plan)]
 }
@@ -114,6 +117,7 @@ fn sentence(check: &Check) -> String {
     };
     let value = check.value.map(|value| quantity(value, &check.unit));
     let limit = check.limit.map(|limit| format!("limit {}", given_quantity(limit, &check.unit)));
-    let parts: Vec<String> = [value, limit, check.place(), check.reason.clone()].into_iter().flatten().collect();
+    let who = check.who();
+    let parts: Vec<String> = [value, limit, who, check.reason.clone()].into_iter().flatten().collect();
     format!("{} {result}: {}", check.name, parts.join("; "))
 }

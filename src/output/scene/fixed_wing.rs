@@ -73,7 +73,7 @@ fn add_bodies<'a>(scene: &mut Scene<'a>, scenario: &Scenario, flight: &'a Flight
     for (index, log) in flight.vehicles.iter().enumerate() {
         scene.bodies.push(Body {
             frame: log.vehicle.clone(),
-            path: item_path(&["fleet", &log.vehicle]),
+            path: item_path(&["vehicles", &log.vehicle]),
             kind: BodyKind::Vehicle,
             parts: parts(scenario, log, colours::vehicle(index, flight.vehicles.len())),
             interval_s,
@@ -116,11 +116,11 @@ fn drawn_span_m(scenario: &Scenario) -> f64 {
 fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distances: &distances::Distances) {
     use Quantity::{Airspeed, Altitude, Nx, Ny, Nz, Tracking};
     if let (Some(curve), Some(limit_m)) = (&distances.separation, scenario.fleet.separation_m) {
-        let plot = PlotView::new("separation", "Smallest separation of the fleet, horizontal [m]", 1.0);
+        let plot = PlotView::new("separation_m", "Smallest separation of the fleet, horizontal [m]", 1.0);
         scene.verdict_plots.push(plot.zoomed(curve, 4.0 * limit_m));
     }
     if let Some(curve) = &distances.clearance {
-        let plot = PlotView::new("clearance", "Smallest clearance to an obstacle [m]", 1.0);
+        let plot = PlotView::new("clearance_m", "Smallest clearance to an obstacle [m]", 1.0);
         let radii_m = scenario.world.cylinders.iter().map(|cylinder| cylinder.radius_m);
         scene.verdict_plots.push(plot.zoomed(curve, radii_m.fold(0.0, f64::max)));
     }

@@ -19,6 +19,10 @@ const CLEARANCE_WINDOW_M: f64 = 2.5;
 /// In larger fleets the low plots below the verdict have no legend.
 const MAX_ENTRIES_OF_LOW_PLOT: usize = 3;
 
+/// Groups of the controls: of point masses, and of vehicles with rotors.
+const ACCELERATION: &str = "acceleration_mps2";
+const THRUST: &str = "thrust_n";
+
 /// What multirotors add to a scene.
 pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the flight is over" };
 
@@ -30,7 +34,7 @@ fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     let distances = distances::add(scene, run, SeparationShape::Spatial, clearance_in_space_over_time);
     let end_s = scene.end_s;
     let tracking_max_m = run.scenario.limits().tracking_max_m;
-    scene.series.push(Series::limit("tracking", "limit", tracking_max_m, "m", end_s));
+    scene.series.push(Series::limit("tracking_m", "limit", tracking_max_m, "m", end_s));
     let count = flight.vehicles.len();
     for (index, (log, vehicle)) in flight.vehicles.iter().zip(&run.scenario.vehicles).enumerate() {
         scene.channels.push(channels(run.scenario, vehicle, log, colours::vehicle(index, count), flight.plan_end_s));
@@ -51,12 +55,12 @@ fn channels<'a>(
     let always = f64::INFINITY;
     let mut channels = vec![
         Channel::number("tracking_error_m", |step| tracking_error_m(&samples[step])).plotted(plot(
-            "tracking",
+            "tracking_m",
             log.vehicle.clone(),
             plan_end_s,
         )),
         Channel::number("airspeed_mps", |step| norm(samples[step].air_velocity_mps())).plotted(plot(
-            "speed",
+            "airspeed_mps",
             log.vehicle.clone(),
             always,
         )),
@@ -66,11 +70,11 @@ fn channels<'a>(
     if has_rotors {
         const THRUSTS: [&str; 4] = ["thrust_1_n", "thrust_2_n", "thrust_3_n", "thrust_4_n"];
         channels.extend(THRUSTS.into_iter().enumerate().map(|(rotor, field)| {
-            let plot = plot("control", format!("{} F_{}", log.vehicle, rotor + 1), always);
+            let plot = plot(THRUST, format!("{} F_{}", log.vehicle, rotor + 1), always);
             Channel::number(field, move |step| thrust_n(&samples[step], rotor)).plotted(plot)
         }));
     } else {
-        let plot = plot("control", log.vehicle.clone(), always);
+        let plot = plot(ACCELERATION, log.vehicle.clone(), always);
         channels.push(Channel::number("acceleration_mps2", |step| acceleration_mps2(&samples[step])).plotted(plot));
     }
     channels.push(Channel::flag("is_saturated", |step| samples[step].is_saturated()));
@@ -86,13 +90,15 @@ fn add_limits(scene: &mut Scene<'_>, scenario: &Scenario, vehicle: &Vehicle) {
             scene.series.push(limit);
         }
     };
-    limit("speed", &format!("{} at most", model.limits.speed_mps), model.limits.speed_mps, "m/s");
+    let is_alone = scenario.vehicles.iter().all(|other| other.model == vehicle.model);
+    let named = |bound: &str| if is_alone { bound.to_owned() } else { format!("{bound} of {}", vehicle.model) };
+    limit("airspeed_mps", &named("highest"), model.limits.speed_mps, "m/s");
     match &model.airframe {
         Some(airframe) if has_rotors(scenario, vehicle) => {
-            limit("control", "lowest", airframe.thrust_n.min, "N");
-            limit("control", "highest", airframe.thrust_n.max, "N");
+            limit(THRUST, &named("lowest"), airframe.thrust_n.min, "N");
+            limit(THRUST, &named("highest"), airframe.thrust_n.max, "N");
         }
-        _ => limit("control", "highest", model.limits.acceleration_mps2, "m/s²"),
+        _ => limit(ACCELERATION, &named("highest"), model.limits.acceleration_mps2, "m/s²"),
     }
 }
 
@@ -122,27 +128,27 @@ fn thrust_n(sample: &Sample, rotor: usize) -> f64 {
 
 fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distances: &distances::Distances) {
     if let (Some(curve), Some(limit_m)) = (&distances.separation, scenario.fleet.separation_m) {
-        let plot = PlotView::new("separation", "Smallest separation of the fleet, horizontal [m]", 1.0);
+        let plot = PlotView::new("separation_m", "Smallest separation of the fleet, horizontal [m]", 1.0);
         scene.verdict_plots.push(plot.zoomed(curve, 4.0 * limit_m));
     }
     if let Some(curve) = &distances.clearance {
-        let plot = PlotView::new("clearance", "Smallest clearance to an obstacle [m]", 1.0);
+        let plot = PlotView::new("clearance_m", "Smallest clearance to an obstacle [m]", 1.0);
         scene.verdict_plots.push(plot.zoomed(curve, CLEARANCE_WINDOW_M));
     }
     let has_legend = scenario.vehicles.len() <= MAX_ENTRIES_OF_LOW_PLOT;
-    let tracking = PlotView::new("tracking", "Tracking error: distance from the plan [m]", 1.0);
+    let tracking = PlotView::new("tracking_m", "Tracking error: distance from the plan [m]", 1.0);
     let errors_m = flight.vehicles.iter().flat_map(|log| &log.samples).map(tracking_error_m);
     let tracking = tracking.spanning(errors_m.chain([scenario.limits().tracking_max_m]));
     scene.verdict_plots.push(PlotView { has_legend, ..tracking });
-    let motion = vec![
-        PlotView::new("speed", "Speed through the air [m/s]", 1.0),
-        PlotView::new("control", "Acceleration [m/s²], or thrust of each rotor [N]", 1.0),
-    ];
+    let mut motion = vec![PlotView::new("airspeed_mps", "Speed through the air [m/s]", 1.0)];
+    let has = |rotors: bool| scenario.vehicles.iter().any(|vehicle| has_rotors(scenario, vehicle) == rotors);
+    motion.extend(has(false).then(|| PlotView::new(ACCELERATION, "Acceleration [m/s²]", 1.0)));
+    motion.extend(has(true).then(|| PlotView::new(THRUST, "Thrust of each rotor [N]", 1.0)));
     scene.tabs.push(Tab { name: "Motion", plots: motion });
     if flight.planning.is_some() {
         let planning = vec![
-            PlotView::new("replan", "Wall time of each answer on this machine [ms]", 1.0),
-            PlotView::new("delay", "Time from observation to effect, in the simulation [ms]", 1.0),
+            PlotView::new("planning_time_ms", "Wall time of each answer on this machine [ms]", 1.0),
+            PlotView::new("delay_ms", "Time from observation to effect, in the simulation [ms]", 1.0),
         ];
         scene.tabs.push(Tab { name: "Planning", plots: planning });
     }

@@ -17,14 +17,14 @@ fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     }
     series::add(scene, run, flight);
     scene.verdict_plots = vec![
-        PlotView::new("clearance", "Clearance of parts and envelope [m]", 1.0),
-        PlotView::new("tracking", "Tracking error: distance from the plan [m]", 1.0),
+        PlotView::new("clearance_m", "Clearance of parts and envelope [m]", 1.0),
+        PlotView::new("tracking_m", "Tracking error: distance from the plan [m]", 1.0),
         PlotView::new("cable", "Cable: 1 taut, 0 slack", 0.7),
     ];
     let forces = vec![
-        PlotView::new("thrust", "Thrust of each rotor [N]", 1.4),
-        PlotView::new("tension", "Tension of the cable, mean over 20 ms [N]", 1.0),
-        PlotView::new("swing", "Angle of the cable from straight down [deg]", 1.0),
+        PlotView::new("thrust_n", "Thrust of each rotor [N]", 1.4),
+        PlotView::new("tension_n", "Tension of the cable, mean over 20 ms [N]", 1.0),
+        PlotView::new("swing_deg", "Angle of the cable from straight down [deg]", 1.0),
     ];
     scene.tabs.push(Tab { name: "Forces", plots: forces });
 }

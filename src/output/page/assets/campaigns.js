@@ -78,7 +78,7 @@ function chart(title, columns, yLabel, series, { x, xLabel } = {}, hook) {
     drawn = new uPlot({
       width: node.clientWidth, height: PLOT_HEIGHT + 40,
       scales: { x: { time: false, range: x } },
-      axes: [axis(xLabel || title), { ...axis(yLabel), size: 58 }],
+      axes: [axis(xLabel || title), { ...axis(yLabel), size: 50 }],
       series: [{ label: xLabel || "margin", value: (_, value) => (value === null ? "--" : number(value)) }, ...[series].flat()],
       hooks: hook ? { draw: [hook] } : {},
     }, columns, node);
@@ -113,13 +113,13 @@ function worstSamples(samples) {
 
 function stressContent({ result }) {
   const trials = [...result.trials].sort((a, b) => a.level - b.level);
-  const found = result.bracket;
+  const found = result.turns;
   const headline = found
-    ? `passes at ${number(found.passes)} ${result.unit}, fails at ${number(found.fails)} ${result.unit}${found.red ? ` by ${found.red.join(", ")}` : ""}`
+    ? `passes at ${number(found.passes)} ${result.unit}, fails at ${number(found.fails)} ${result.unit} by ${found.red.join(", ")}`
     : trials.every((trial) => trial.passed) ? "passes at every level that was tried" : "fails without the disturbance";
   const rows = trials.map((trial) => [
     { text: number(trial.level), class: "number" }, element("span", { class: `badge ${trial.passed ? "pass" : "fail"}` }, trial.passed ? "pass" : "fail"),
-    (trial.red || trial.failed_checks || []).join(", "),
+    trial.red.join(", "),
   ]);
   return [element("p", { class: "headline" }, `${result.over}: ${headline}`), table([`${result.over} [${result.unit}]`, "verdict", "failed checks"], rows)];
 }

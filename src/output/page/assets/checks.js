@@ -99,7 +99,7 @@ function statusBadge(check) {
 }
 
 function remarks(check) {
-  const parts = [(check.between || []).join(" and "), check.reason, check.advisory ? "advisory" : null];
+  const parts = [[...new Set(check.between || [])].join(" and "), check.reason, check.advisory ? "advisory" : null];
   return parts.filter((part) => part).join("; ");
 }
 

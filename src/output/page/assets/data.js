@@ -16,9 +16,18 @@ async function unpack(base64) {
   return JSON.parse(await new Response(stream).text());
 }
 
-/** The runs of the summary with their jobs, failures first. */
+/** What a comparison found to be worse. */
+function losses() {
+  return data.comparison ? data.comparison.differences.filter((it) => it.rating === "worse") : [];
+}
+
+/** The runs of the summary with their jobs, failures first. What a comparison made afterwards found is among their losses. */
 function resultsFailuresFirst() {
   const runs = data.summary ? data.summary.runs : [];
+  for (const run of runs) {
+    const own = losses().filter((it) => it.scenario === run.scenario && it.planner === run.planner);
+    if ((run.losses || []).length === 0) run.losses = own.map((it) => `${it.what}: ${it.old} before, ${it.new} now`);
+  }
   const results = runs.map((run, index) => ({ run, job: data.jobs[index], id: run.folder }));
   const rank = ({ run }) => (run.verdict !== "pass" ? 0 : (run.losses || []).length > 0 ? 1 : 2);
   return results.sort((a, b) => rank(a) - rank(b));

@@ -13,7 +13,7 @@ class Labels {
   write(text, [x, y], colour, must = false, isCentred = false) {
     this.context.font = LABEL_FONT;
     const length = this.context.measureText(text).width;
-    const places = isCentred ? [[-length / 2, 4]] : [[8, 4], [-length - 8, 4], [-length / 2, -10], [-length / 2, 20], [8, -10], [8, 18], [-length - 8, -10]];
+    const places = isCentred ? [[-length / 2, 4]] : [[10, 4], [-length - 10, 4], [-length / 2, -12], [-length / 2, 22], [10, -12], [10, 20], [-length - 10, -12]];
     const isInside = ([left, top, right, bottom]) => left >= 0 && top >= 0 && right <= this.width && bottom <= this.height;
     const isFree = (box) => this.taken.every((other) => !overlaps(box, other));
     const boxes = places.map(([dx, dy]) => [x + dx, y + dy - LABEL_HEIGHT + 3, x + dx + length, y + dy + 3]);

@@ -7,8 +7,10 @@ const detail = element("main");
 function overview() {
   const bad = results.filter(({ run }) => run.verdict !== "pass" || (run.losses || []).length > 0);
   const refused = data.summary ? data.summary.refused : [];
-  const isGood = bad.length === 0 && refused.length === 0;
-  const title = data.counts ? element("h1", { class: isGood ? "good" : "bad" }, data.counts) : element("h1", {}, "Campaigns");
+  const isGood = bad.length === 0 && refused.length === 0 && losses().length === 0;
+  const isNews = losses().length > 0 && !data.counts.includes("worse");
+  const worse = isNews ? "worse than before: " : "";
+  const title = data.counts ? element("h1", { class: isGood ? "good" : "bad" }, worse + data.counts) : element("h1", {}, "Campaigns");
   return element("header", { class: "overview" },
     element("p", { class: "muted" }, `harness ${data.harness}`), title,
     refused.length > 0 ? element("ul", { class: "bad" }, refused.flatMap(({ faults }) => faults.map((fault) => element("li", {}, element("code", {}, fault))))) : null,

@@ -179,6 +179,7 @@ class SceneView {
     if (!check || check.at_s === undefined) return;
     const isBad = check.status === "fail" || check.status === "undecided";
     const colour = themed(isBad ? "bad" : "good");
+    let isFirst = true;
     for (const body of this.picture.scene.bodies.filter((body) => (check.between || []).includes(body.frame))) {
       const pose = poseAt(body, check.at_s);
       if (!pose) continue;
@@ -188,7 +189,8 @@ class SceneView {
       context.beginPath();
       context.arc(x, y, 12, 0, 2 * Math.PI);
       context.stroke();
-      labels.write(`${check.name} ${seconds(check.at_s)}`, [x + 8, y], colour);
+      if (isFirst) labels.write(`${check.name} ${seconds(check.at_s)}`, [x + 8, y], colour);
+      isFirst = false;
     }
   }
 

@@ -45,7 +45,7 @@ function drawLines(pen, { strips, paints, radii, label }, path, place) {
     const colour = paints[Math.min(index, paints.length - 1)];
     context.beginPath();
     trace(pen, strip, place);
-    context.lineWidth = Math.max(0.5, 2 * radii[Math.min(index, radii.length - 1)]);
+    context.lineWidth = Math.max(path[0].startsWith("planned") ? 1.5 : 0.5, 2 * radii[Math.min(index, radii.length - 1)]);
     context.strokeStyle = css(colour);
     context.setLineDash(pen.isGhost ? [6, 5] : path[0] === "open_loop" ? [9, 4] : []);
     context.stroke();

@@ -11,7 +11,7 @@ use crate::output::scene::{Body, BodyKind, Part, Pose};
 
 /// Logs parts (once) and transforms.
 pub fn log(context: &Arc<Context>, bodies: &[Body<'_>], artist: &Artist) {
-    for (kind, topic) in [(BodyKind::Vehicle, "/fleet"), (BodyKind::Obstacle, "/moving")] {
+    for (kind, topic) in [(BodyKind::Vehicle, "/fleet"), (BodyKind::Obstacle, "/moving"), (BodyKind::Ghost, "/ghost")] {
         let of_kind = bodies.iter().filter(|body| body.kind == kind);
         let entities: Vec<SceneEntity> = of_kind.flat_map(|body| entities(body, artist)).collect();
         if !entities.is_empty() {

@@ -84,8 +84,8 @@ fn log_series(context: &Arc<Context>, series: &Series) {
 /// Separation and clearance of the fleet together, at every time of either; between its own times a value is held.
 fn log_distances(context: &Arc<Context>, scene: &Scene<'_>) {
     let fleet = |group: &str| scene.series.iter().find(|series| series.group == group && series.name == "fleet");
-    let [separation, clearance] = ["separation", "clearance"].map(|group| fleet(group).map(|series| &series.curve));
-    let is_limit = |series: &&Series| series.kind == SeriesKind::Limit && series.group == "separation";
+    let [separation, clearance] = ["separation_m", "clearance_m"].map(|group| fleet(group).map(|series| &series.curve));
+    let is_limit = |series: &&Series| series.kind == SeriesKind::Limit && series.group == "separation_m";
     let separation_limit_m = scene.series.iter().find(is_limit).and_then(|series| series.curve.values.first().copied());
     let mut times_s: Vec<f64> =
         [separation, clearance].into_iter().flatten().flat_map(|curve| curve.times_s.iter().copied()).collect();

@@ -17,8 +17,6 @@ use crate::output::scene::{
 
 /// Diameter of a point of radius 4 on the screen as a fraction of the map's larger side: Foxglove's spheres have sizes in m.
 const POINT_OF_MAP: f64 = 0.007;
-/// Names of topics that differ from those of the items.
-const TOPICS: [(&str, &str); 1] = [("cable", "cables")];
 
 /// Draws shapes on a map.
 pub struct Artist {
@@ -54,8 +52,7 @@ pub fn update(entities: Vec<SceneEntity>) -> SceneUpdate {
 /// The first two names of a path: parts of one item share a topic.
 fn topic(path: &[String]) -> String {
     let names = path.iter().take(2).map(String::as_str);
-    let renamed = |name| TOPICS.iter().find(|(item, _)| *item == name).map_or(name, |(_, topic)| *topic);
-    names.map(|name| format!("/{}", renamed(name))).collect()
+    names.map(|name| format!("/{name}")).collect()
 }
 
 /// The shape of an animation every [`INTERVAL_S`] on average.

@@ -6,7 +6,7 @@ use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::external::re_sdk_types::blueprint::archetypes as archetype;
 use rerun::external::re_sdk_types::blueprint::components as component;
 use rerun::external::re_sdk_types::components::Range1D;
-use rerun::external::re_sdk_types::datatypes::{Float32, TimeRange, TimeRangeBoundary};
+use rerun::external::re_sdk_types::datatypes::{AbsoluteTimeRange, Float32, TimeInt, TimeRange, TimeRangeBoundary};
 use rerun::log::LogMsg;
 use rerun::sink::MemorySinkStorage;
 use rerun::{AsComponents, RecordingStream, RecordingStreamBuilder};
@@ -48,6 +48,15 @@ impl ViewClass {
 pub struct Part {
     path: String,
     id: Uuid,
+}
+
+/// How a recording plays.
+#[derive(Clone, Copy, Debug)]
+pub struct Playback {
+    /// Relative to real time.
+    pub speed: f64,
+    /// The part that is played, s; `None`: the whole recording.
+    pub window_s: Option<[f64; 2]>,
 }
 
 /// A layout under construction.
@@ -118,9 +127,8 @@ impl Blueprint {
         self.container(kind, name, parts)
     }
 
-    /// Makes `root` the whole window and sends the layout with the recording `to`, which plays from its start at
-    /// `playback_speed` times real time.
-    pub fn send(self, root: &Part, playback_speed: f64, to: &RecordingStream) -> Logged {
+    /// Makes `root` the whole window and sends the layout with the recording `to`, which plays in a loop.
+    pub fn send(self, root: &Part, playback: &Playback, to: &RecordingStream) -> Logged {
         let viewport = archetype::ViewportBlueprint::new()
             .with_root_container(component::RootContainer(root.id.into()))
             .with_auto_layout(false)
@@ -129,9 +137,16 @@ impl Blueprint {
         let time_panel = archetype::TimePanelBlueprint::new()
             .with_timeline(SIM_TIME)
             .with_state(component::PanelState::Collapsed)
-            .with_playback_speed(playback_speed)
-            .with_loop_mode(component::LoopMode::All)
+            .with_playback_speed(playback.speed)
             .with_play_state(component::PlayState::Playing);
+        let time_panel = match playback.window_s {
+            None => time_panel.with_loop_mode(component::LoopMode::All),
+            Some(window_s) => {
+                let [min, max] = window_s.map(|t_s| TimeInt::from((1e9 * t_s) as i64));
+                let window = component::AbsoluteTimeRange(AbsoluteTimeRange { min, max });
+                time_panel.with_loop_mode(component::LoopMode::Selection).with_time_selection(window)
+            }
+        };
         self.stream.log("time_panel", &time_panel)?;
         let hidden = archetype::PanelBlueprint::new().with_state(component::PanelState::Hidden);
         self.stream.log("selection_panel", &hidden)?;

@@ -88,7 +88,8 @@ fn plan(run: &Run<'_>) -> String {
     let reason = plan.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
     let distributed = match plan.timings.distributed_s {
         0.0 => String::new(),
-        distributed_s => format!(" ({} if every vehicle had its own computer)", quantity(distributed_s, "s")),
+        distributed_s if distributed_s >= plan.timings.wall_s => String::new(),
+        distributed_s => format!(" ({} with one computer per vehicle)", quantity(distributed_s, "s")),
     };
     [
         "## Plan".to_owned(),

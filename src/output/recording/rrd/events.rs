@@ -11,7 +11,7 @@ pub fn log(stream: &RecordingStream, events: &[Event]) -> Logged {
         return Ok(());
     }
     let log = TextLog::update_fields()
-        .with_many_text(events.iter().map(|event| event.text.as_str()))
+        .with_many_text(events.iter().map(|event| format!("{:7.2} s  {}", event.t_s, event.text)))
         .with_many_level(events.iter().map(|event| level(event.level)));
     let times = sim_times(events.iter().map(|event| event.t_s));
     Ok(stream.send_columns("events", [times], log.columns_of_unit_batches()?)?)

@@ -31,7 +31,9 @@ fn log_series(stream: &RecordingStream, series: &Series) -> Logged {
         SeriesKind::Quantity => "plots",
         SeriesKind::Limit => "limits",
     };
-    let style = style(&series.title, color(Paint::opaque(series.colour)), series.width);
+    // A legend of limits without their values: the axis shows them.
+    let title = if series.kind == SeriesKind::Limit { &series.name } else { &series.title };
+    let style = style(title, color(Paint::opaque(series.colour)), series.width);
     let style = if series.is_stepped { style.with_interpolation_mode(InterpolationMode::StepAfter) } else { style };
     log_curve(stream, entity(&format!("{root}/{}", series.group), &series.name), &style, series.curve.clone())
 }

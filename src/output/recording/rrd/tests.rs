@@ -57,16 +57,16 @@ fn the_recording_holds_every_part_of_the_scene() {
     let (folder, _) = recorded(&made_up.run());
     let entities = entities(&read(folder.path()));
     for vehicle in ["uav-1", "uav-2", "uav-3"] {
-        for group in ["world/planned", "world/flown", "world/trail", "world/fleet"] {
+        for group in ["world/planned", "world/flown", "world/trail", "world/vehicles"] {
             assert!(entities.iter().any(|path| path.starts_with(&format!("/{group}/{vehicle}"))), "{group}/{vehicle}");
         }
-        for group in ["tracking", "n_x", "n_y", "n_z", "airspeed", "altitude"] {
+        for group in ["tracking_m", "n_x", "n_y", "n_z", "airspeed_mps", "altitude_m"] {
             assert!(entities.contains(&format!("/plots/{group}/{vehicle}")), "{group} of {vehicle}");
             assert!(entities.iter().any(|path| path.starts_with(&format!("/limits/{group}"))));
         }
     }
     for entity in
-        ["/world/map/grid", "/world/obstacles", "/plots/separation/fleet", "/events", "/verdict", "/convergence"]
+        ["/world/map/grid", "/world/obstacles", "/plots/separation_m/fleet", "/events", "/verdict", "/convergence"]
     {
         assert!(entities.contains(entity), "{entity} is missing in {entities:#?}");
     }
@@ -82,7 +82,7 @@ fn the_worst_instant_survives_decimation() {
     factors(spiked).control.n_z = 7.5;
     let (folder, _) = recorded(&made_up.run());
     let store = read(folder.path());
-    let lowest = scalars(&store, "/plots/separation/fleet").into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+    let lowest = scalars(&store, "/plots/separation_m/fleet").into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     assert!((lowest.0 - 31.4159).abs() < 1e-9 && lowest.1 == 2.5, "{lowest:?}");
     let highest = scalars(&store, "/plots/n_z/uav-2").into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     assert!((highest.0 - 12.34).abs() < 1e-9 && highest.1 == 7.5, "{highest:?}");
@@ -102,7 +102,7 @@ fn a_crash_is_marked_where_it_happened() {
         store.iter_physical_chunks().find(|chunk| *chunk.entity_path() == EntityPath::from("/world/crashed/uav-2"));
     let marked = chunk.expect("a mark").iter_slices::<[f32; 3]>(component).next().expect("a position")[0];
     assert_eq!(marked, to_f32(made_up.flight.vehicles[1].samples[2499].position_m));
-    let flown = scalars(&store, "/plots/altitude/uav-2");
+    let flown = scalars(&store, "/plots/altitude_m/uav-2");
     assert!((flown.last().unwrap().0 - 24.99).abs() < 1e-9, "{:?}", flown.last());
 }
 
@@ -126,7 +126,7 @@ fn a_run_without_a_plan_is_recorded_with_its_world_and_its_verdict() {
     let (folder, _) = recorded(&run);
     let entities = entities(&read(folder.path()));
     assert!(entities.contains("/world/obstacles") && entities.contains("/verdict"), "{entities:#?}");
-    assert!(!entities.iter().any(|path| path.starts_with("/world/fleet")), "{entities:#?}");
+    assert!(!entities.iter().any(|path| path.starts_with("/world/vehicles")), "{entities:#?}");
 }
 
 #[test]

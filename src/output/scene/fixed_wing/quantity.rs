@@ -31,12 +31,12 @@ impl Quantity {
     /// The plot that it belongs to.
     pub fn group(self) -> &'static str {
         match self {
-            Self::Tracking => "tracking",
+            Self::Tracking => "tracking_m",
             Self::Nx => "n_x",
             Self::Ny => "n_y",
             Self::Nz => "n_z",
-            Self::Airspeed => "airspeed",
-            Self::Altitude => "altitude",
+            Self::Airspeed => "airspeed_mps",
+            Self::Altitude => "altitude_m",
         }
     }
 

@@ -86,7 +86,7 @@ fn add_times(scene: &mut Scene<'_>, vehicle: &str, colour: [u8; 3], replans: &[&
     let wall_ms: Curve = replans.iter().map(|replan| (replan.asked_s, 1e3 * replan.wall_s)).collect();
     let delay_ms: Curve =
         replans.iter().map(|replan| (replan.asked_s, 1e3 * (replan.takes_effect_s - replan.asked_s))).collect();
-    for (group, curve) in [("replan", wall_ms), ("delay", delay_ms)] {
+    for (group, curve) in [("planning_time_ms", wall_ms), ("delay_ms", delay_ms)] {
         scene.series.push(Series { width: 1.2, ..Series::new(group, vehicle, colour, curve) });
     }
 }

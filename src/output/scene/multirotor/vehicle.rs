@@ -17,7 +17,7 @@ pub(super) fn add<'a>(scene: &mut Scene<'a>, scenario: &Scenario, flight: &'a Fl
     for (index, (log, vehicle)) in flight.vehicles.iter().zip(&scenario.vehicles).enumerate() {
         scene.bodies.push(Body {
             frame: log.vehicle.clone(),
-            path: item_path(&["craft", &log.vehicle]),
+            path: item_path(&["vehicles", &log.vehicle]),
             kind: BodyKind::Vehicle,
             parts: parts(scenario, vehicle, colours::vehicle(index, count)),
             interval_s: FRAME_S,

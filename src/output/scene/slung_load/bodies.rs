@@ -37,13 +37,13 @@ pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, log: &'a Vehic
         scene.animations.push(Animation { path: item_path(&[name, &log.vehicle]), times_s, strips, paints, radius });
     };
     animate(
-        "cable",
+        "cables",
         2.0,
         frames.iter().map(|frame| cable(model, frame)).collect(),
         frames.iter().map(|frame| tension_paint(model, frame.load)).collect(),
     );
     animate(
-        "envelope",
+        "envelopes",
         1.0,
         frames.iter().map(|frame| envelope(model, frame)).collect(),
         vec![Paint::opaque(colours::FLEET)],
@@ -78,7 +78,7 @@ fn quadrotor<'a>(model: &Model, log: &'a VehicleLog) -> Body<'a> {
     ];
     Body {
         frame: log.vehicle.clone(),
-        path: item_path(&["quadrotor", &log.vehicle]),
+        path: item_path(&["vehicles", &log.vehicle]),
         kind: BodyKind::Vehicle,
         parts,
         interval_s: FRAME_S,
@@ -101,7 +101,7 @@ fn load<'a>(model: &Model, log: &'a VehicleLog) -> Body<'a> {
     };
     Body {
         frame: format!("{}/load", log.vehicle),
-        path: item_path(&["load", &log.vehicle]),
+        path: item_path(&["loads", &log.vehicle]),
         kind: BodyKind::Vehicle,
         parts: vec![Part::upright("ball", ball)],
         interval_s: FRAME_S,

@@ -23,13 +23,13 @@ pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Fl
     let (model, end_s) = (run.scenario.slung_load_model(vehicle), scene.end_s);
     scene.channels.push(channels(log, flight.plan_end_s));
     let mut limit = |group, name, value, unit| scene.series.push(Series::limit(group, name, value, unit, end_s));
-    limit("thrust", "lowest", model.limits.thrust_n.min, "N");
-    limit("thrust", "highest", model.limits.thrust_n.max, "N");
-    limit("thrust", "lowest planned", model.planning_limits.thrust_n.min, "N");
-    limit("thrust", "highest planned", model.planning_limits.thrust_n.max, "N");
-    limit("tracking", "limit", run.scenario.limits().tracking_max_m, "m");
-    limit("tension", "highest", model.limits.tension_n, "N");
-    limit("clearance", "surface,", 0.0, "m");
+    limit("thrust_n", "lowest", model.limits.thrust_n.min, "N");
+    limit("thrust_n", "highest", model.limits.thrust_n.max, "N");
+    limit("thrust_n", "lowest planned", model.planning_limits.thrust_n.min, "N");
+    limit("thrust_n", "highest planned", model.planning_limits.thrust_n.max, "N");
+    limit("tracking_m", "limit", run.scenario.limits().tracking_max_m, "m");
+    limit("tension_n", "highest", model.limits.tension_n, "N");
+    limit("clearance_m", "surface", 0.0, "m");
     add_tension(scene, run, log);
     add_distances(scene, run, model, flight);
     add_states(scene, run, flight);
@@ -49,8 +49,8 @@ fn channels(log: &VehicleLog, plan_end_s: f64) -> Channels<'_> {
     let number = |field, value: fn(&Sample, &LoadSample) -> f64| {
         Channel::number(field, move |step| loads.get(step).map_or(f64::NAN, |load| value(&samples[step], load)))
     };
-    let tracking = plot("tracking", "quadrotor", colours::vehicle(0, 1), plan_end_s);
-    let load_tracking = plot("tracking", "load", colours::FLEET, plan_end_s);
+    let tracking = plot("tracking_m", "quadrotor", colours::vehicle(0, 1), plan_end_s);
+    let load_tracking = plot("tracking_m", "load", colours::FLEET, plan_end_s);
     let mut channels = vec![
         number("tracking_error_m", |sample, _| distance_m(sample.position_m, sample.reference_position_m))
             .plotted(tracking),
@@ -60,10 +60,10 @@ fn channels(log: &VehicleLog, plan_end_s: f64) -> Channels<'_> {
     ];
     const THRUSTS: [&str; 4] = ["thrust_1_n", "thrust_2_n", "thrust_3_n", "thrust_4_n"];
     for (rotor, field) in THRUSTS.into_iter().enumerate() {
-        let plot = plot("thrust", &format!("F_{}", rotor + 1), colours::vehicle(rotor, 4), f64::INFINITY);
+        let plot = plot("thrust_n", &format!("F_{}", rotor + 1), colours::vehicle(rotor, 4), f64::INFINITY);
         channels.push(Channel::number(field, move |step| thrust_n(&samples[step], rotor)).plotted(plot));
     }
-    let swing = plot("swing", "flown", colours::vehicle(0, 1), f64::INFINITY);
+    let swing = plot("swing_deg", "flown", colours::vehicle(0, 1), f64::INFINITY);
     channels.extend([
         number("tension_n", |_, load| load.tension_n),
         number("cable_deg", cable_deg).plotted(swing),
@@ -94,12 +94,12 @@ fn add_tension(scene: &mut Scene<'_>, run: &JudgedRun<'_>, log: &VehicleLog) {
     };
     let logged = log.samples.len().min(log.loads.len());
     let flown: Curve = (0..logged).map(|i| (log.samples[i].t_s, mean_n(i))).collect();
-    add_curve(scene, "tension", "flown", colours::vehicle(0, 1), flown);
+    add_curve(scene, "tension_n", "flown", colours::vehicle(0, 1), flown);
     let is_flyable = is_flyable(run.scenario, run.plan).is_ok();
     let planned = is_flyable.then(|| PlannedMotion::new(run.scenario, run.plan).ok()).flatten();
     if let Some(planned) = planned {
         let curve: Curve = planned.knots.iter().map(|knot| (knot.t_s, knot.tension_n)).collect();
-        add_curve(scene, "tension", "planned, without impacts", colours::FLEET, curve);
+        add_curve(scene, "tension_n", "planned, without impacts", colours::FLEET, curve);
     }
 }
 
@@ -119,10 +119,10 @@ fn add_distances(scene: &mut Scene<'_>, run: &JudgedRun<'_>, model: &Model, flig
             let height_m = if part == Part::Body { parts.height_m(body) - ground_m } else { f64::INFINITY };
             nearest(&|obstacle| parts.distance_m(part, body, obstacle)).min(height_m)
         });
-        add_curve(scene, "clearance", part.name(), colours::vehicle(index, 3), distances);
+        add_curve(scene, "clearance_m", part.name(), colours::vehicle(index, 3), distances);
     }
     let envelope = curve(&|body| nearest(&|obstacle| parts.envelope_distance_m(body, obstacle)));
-    add_curve(scene, "clearance", "envelope", colours::FLEET, envelope);
+    add_curve(scene, "clearance_m", "envelope", colours::FLEET, envelope);
 }
 
 /// The planned and the flown state of the cable, as states and as a curve of steps.

@@ -37,6 +37,7 @@ impl Synthetic {
             flight: Some(&self.flight),
             verdict: &self.verdict,
             waterfall: &[],
+            ghost: None,
         }
     }
 
