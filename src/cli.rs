@@ -22,6 +22,7 @@ mod session;
 mod stress;
 #[cfg(feature = "parquet")]
 mod sweep;
+mod version;
 
 use clap::{Parser, Subcommand};
 
@@ -29,7 +30,7 @@ use crate::error::{Error, Exit};
 
 /// Tests UAV trajectory planners: plans are flown in simulation and judged, with a margin for every limit.
 #[derive(Debug, Parser)]
-#[command(name = "harness", version, arg_required_else_help = true, after_help = EXAMPLES)]
+#[command(name = "harness", version, long_version = version::long(), arg_required_else_help = true, after_help = EXAMPLES)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -84,6 +85,11 @@ enum Command {
 }
 
 impl Cli {
+    /// Parses a command line, the name of the program first. Help, version and bad usage end the process.
+    pub fn from_arguments(arguments: Vec<String>) -> Self {
+        Self::parse_from(arguments)
+    }
+
     /// Executes the command.
     ///
     /// # Errors

@@ -26,3 +26,5 @@ mod progress;
 pub mod report;
 mod statistics;
 pub mod verdict;
+
+pub use verdict::multirotor::guard;

@@ -1,6 +1,7 @@
 //! Everything that is written: files, recordings, reports.
 
 mod files;
+pub mod flight_table;
 pub mod ghost;
 pub mod page;
 pub mod recording;

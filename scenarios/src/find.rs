@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::shipped::{self, ShippedFile};
+
 /// Why the scenario files could not be listed.
 #[derive(Debug, Error, Diagnostic)]
 pub enum FindError {
@@ -15,6 +17,15 @@ pub enum FindError {
         path: PathBuf,
         /// The error of the operating system.
         reason: std::io::Error,
+    },
+    /// A request for shipped scenarios that matches none.
+    #[error("{}: found no shipped scenario or folder of this name{}", path.display(), did_you_mean(*closest))]
+    #[diagnostic(help("`harness list shipped:` lists the shipped scenarios"))]
+    NoShipped {
+        /// What was asked for, with the prefix.
+        path: PathBuf,
+        /// The closest name.
+        closest: Option<&'static str>,
     },
     /// A folder without scenario files.
     #[error("{}: found no scenario file (*.toml) in or below this folder", path.display())]
@@ -36,10 +47,14 @@ pub enum FindError {
     },
 }
 
+fn did_you_mean(closest: Option<&str>) -> String {
+    closest.map_or_else(String::new, |closest| format!("; did you mean `shipped:{closest}`?"))
+}
+
 /// All scenario files that `paths` denote, without duplicates, sorted by folder and name.
 ///
 /// A file denotes itself. A folder denotes every `*.toml` in or below it, except `Cargo.toml` and except files and
-/// folders whose names begin with a dot.
+/// folders whose names begin with a dot. `shipped:` denotes the [`shipped`] scenarios, `shipped:NAME` one of them.
 ///
 /// # Errors
 ///
@@ -57,6 +72,12 @@ pub fn find(paths: &[impl AsRef<Path>]) -> Result<Vec<PathBuf>, FindError> {
 }
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), FindError> {
+    if let Some(request) = shipped::request(path) {
+        let selected = shipped::select(request);
+        let selected = selected.map_err(|closest| FindError::NoShipped { path: path.to_owned(), closest })?;
+        files.extend(selected.iter().map(ShippedFile::to_path));
+        return Ok(());
+    }
     let metadata = std::fs::metadata(path).map_err(|reason| FindError::Read { path: path.to_owned(), reason })?;
     if !metadata.is_dir() {
         files.push(path.to_owned());
@@ -138,6 +159,15 @@ mod tests {
     fn two_files_with_the_same_name_are_rejected() {
         let folder = folder_with(&["a/one.toml", "b/one.toml"]);
         assert!(matches!(find(&[folder.path()]), Err(FindError::SameName { name, .. }) if name == "one"));
+    }
+
+    #[test]
+    fn shipped_scenarios_need_no_folder() {
+        let one = find(&["shipped:rendezvous-7"]).unwrap();
+        assert_eq!(one, [Path::new("shipped:fixed-wing/rendezvous-7.toml")]);
+        assert!(find(&["shipped:"]).unwrap().len() > 40);
+        let error = find(&["shipped:rendezvous7"]).unwrap_err().to_string();
+        assert!(error.contains("did you mean `shipped:rendezvous-7`?"), "{error}");
     }
 
     #[test]

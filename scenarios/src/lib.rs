@@ -24,6 +24,7 @@ mod planner_settings;
 mod random;
 mod range;
 mod scenario;
+pub mod shipped;
 mod simulation;
 pub mod slung_load;
 mod trajectory;

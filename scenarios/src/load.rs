@@ -14,7 +14,7 @@ use toml::de::{DeTable, Deserializer};
 
 pub use error::{InvalidScenario, LoadError, LocatedIssue};
 
-use crate::{Issue, Scenario, validate};
+use crate::{Issue, Scenario, shipped, validate};
 
 /// Reads and validates a scenario file.
 ///
@@ -56,12 +56,18 @@ impl ScenarioFile {
         Self { name: name.into(), text: text.into() }
     }
 
-    /// Reads the file.
+    /// Reads the file; `shipped:NAME` is one of the [`shipped`] ones.
     ///
     /// # Errors
     ///
-    /// The file cannot be read.
+    /// The file cannot be read, or there is no shipped scenario of that name.
     pub fn read(path: &Path) -> Result<Self, LoadError> {
+        if let Some(request) = shipped::request(path) {
+            return match shipped::select(request).as_deref() {
+                Ok([file]) => Ok(Self::new(file.to_path().display().to_string(), file.text)),
+                _ => Err(LoadError::NoShipped { path: path.to_owned() }),
+            };
+        }
         let text = std::fs::read_to_string(path).map_err(|reason| LoadError::Read { path: path.to_owned(), reason })?;
         Ok(Self::new(path.display().to_string(), text))
     }

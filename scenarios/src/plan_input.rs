@@ -184,6 +184,19 @@ pub fn parse_csv(
     finish(name, csv::read(text, scenario), scenario)
 }
 
+/// Like [`read()`], from tables in memory. `name` is their name in messages.
+///
+/// # Errors
+///
+/// The tables are not a plan for `scenario`.
+pub fn from_tables(
+    name: &str,
+    document: PlanDocument,
+    scenario: &Scenario,
+) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
+    finish(name, Ok(document), scenario)
+}
+
 fn finish(
     name: &str,
     document: Result<PlanDocument, Vec<PlanIssue>>,

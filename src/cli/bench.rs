@@ -124,7 +124,7 @@ impl Bench {
     }
 
     fn ipm(&self) -> Result<Exit, Error> {
-        let scenario = self.scenario("scenarios/fixed-wing/rendezvous-7.toml", &planners::scp::parallel::PLANNER)?;
+        let scenario = self.scenario("shipped:rendezvous-7", &planners::scp::parallel::PLANNER)?;
         let plan = if self.quick { ipm::Plan::quick() } else { ipm::Plan::full() };
         let results = ipm::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
         self.publish("ipm", &results, &ipm::markdown(&results), &ipm::text(&results))?;
@@ -133,7 +133,7 @@ impl Bench {
     }
 
     fn slung(&self) -> Result<Exit, Error> {
-        let scenario = self.scenario("scenarios/slung/rectangle.toml", &planners::slung::PLANNER)?;
+        let scenario = self.scenario("shipped:rectangle", &planners::slung::PLANNER)?;
         let plan = if self.quick { slung::Plan::quick() } else { slung::Plan::full() };
         let results = slung::run(&scenario, &plan, &mut |stage| self.tell(&format!("{}: {stage}", scenario.name)));
         self.publish("slung", &results, &slung::markdown(&results), &slung::text(&results))
@@ -189,13 +189,13 @@ impl Bench {
 
     /// A fleet from the folder of scenarios.
     fn fleet(&self, name: &str) -> Result<Scenario, Error> {
-        let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/fixed-wing"));
+        let folder = self.path.as_deref().unwrap_or(Path::new("shipped:fixed-wing"));
         load(&folder.join(format!("{name}.toml")), &planners::scp::parallel::PLANNER)
     }
 
     /// A multirotor scenario from the folder of scenarios.
     fn multirotor(&self, name: &str) -> Result<Scenario, Error> {
-        let folder = self.path.as_deref().unwrap_or(Path::new("scenarios/multirotor"));
+        let folder = self.path.as_deref().unwrap_or(Path::new("shipped:multirotor"));
         load(&folder.join(format!("{name}.toml")), &planners::horizon::RHC)
     }
 

@@ -1,16 +1,20 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use glob::Pattern;
-use scenarios::Scenario;
+use scenarios::{Scenario, shipped};
 
 use crate::error::Error;
+
+/// Folder of scenarios in a checkout of the repository.
+const FOLDER: &str = "scenarios";
 
 /// The selected scenarios.
 #[derive(Args, Debug)]
 pub struct Selection {
-    /// Scenario files, or folders that are searched recursively for *.toml
-    #[arg(value_name = "PATH", default_value = "scenarios")]
+    /// Scenario files, or folders that are searched recursively for *.toml; `shipped:` are the scenarios that are part of
+    /// the program, `shipped:NAME` is one of them [default: the folder scenarios if there is one, else shipped:]
+    #[arg(value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Select scenarios with this tag; repeat the option to allow several tags
     #[arg(short, long = "tag", value_name = "TAG")]
@@ -23,7 +27,8 @@ pub struct Selection {
 impl Selection {
     /// The files whose names match, sorted.
     pub fn files(&self) -> Result<Vec<PathBuf>, Error> {
-        let mut files = scenarios::find(&self.paths)?;
+        let mut files =
+            if self.paths.is_empty() { scenarios::find(&[default_path()]) } else { scenarios::find(&self.paths) }?;
         let matches = |name: &str| self.names.is_empty() || self.names.iter().any(|glob| glob.matches(name));
         files.retain(|file| matches(&file.file_stem().unwrap_or_default().to_string_lossy()));
         if files.is_empty() { Err(self.nothing()) } else { Ok(files) }
@@ -42,4 +47,9 @@ impl Selection {
         });
         Error::NothingSelected { options: given.collect::<Vec<_>>().join(" ") }
     }
+}
+
+/// Where scenarios are searched unless the command line names a place.
+fn default_path() -> &'static str {
+    if Path::new(FOLDER).is_dir() { FOLDER } else { shipped::PREFIX }
 }

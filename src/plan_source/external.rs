@@ -11,6 +11,7 @@
 pub(crate) mod group;
 mod in_loop;
 mod process;
+pub mod protocol;
 mod reply;
 pub(crate) mod request;
 

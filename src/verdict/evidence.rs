@@ -83,22 +83,20 @@ pub trait Decide {
 
 impl Decide for CheckSpec {
     fn at_least(&self, measured: Measurement, limit: f64) -> Check {
-        let least = limit - tolerance::beyond(self, limit);
-        let status = decide(measured.lower >= least, measured.lower < least && measured.upper >= least);
+        let status = status_at_least(self, [measured.lower, measured.upper], limit);
         let (value, margin) = (measured.lower, measured.lower - limit);
         compared(self, status, value, limit, margin, measured)
     }
 
     fn at_most(&self, measured: Measurement, limit: f64) -> Check {
-        let most = limit + tolerance::beyond(self, limit);
-        let status = decide(measured.upper <= most, measured.upper > most && measured.lower <= most);
+        let status = status_at_most(self, [measured.lower, measured.upper], limit);
         let (value, margin) = (measured.upper, limit - measured.upper);
         compared(self, status, value, limit, margin, measured)
     }
 
     fn inside(&self, measured: Measurement, limit: f64, margin: f64) -> Check {
         let value = measured.lower;
-        compared(self, decide(margin >= -tolerance::beyond(self, limit), false), value, limit, margin, measured)
+        compared(self, status_inside(self, limit, margin), value, limit, margin, measured)
     }
 
     fn skip(&self, reason: impl fmt::Display) -> Check {
@@ -141,6 +139,23 @@ fn compared(spec: &CheckSpec, status: Status, value: f64, limit: f64, margin: f6
     let margin = if status == Status::Pass { margin.max(0.0) } else { margin };
     let (value, limit, margin) = (Some(value), Some(limit), Some(margin));
     Check { status, value, lower, upper, limit, margin, at_s, between, reason, ..without_value(spec, status, "") }
+}
+
+/// Whether bounds, lower and upper, are at least `limit`, up to the [`tolerance`]. NaN fails.
+pub fn status_at_least(spec: &CheckSpec, [lower, upper]: [f64; 2], limit: f64) -> Status {
+    let least = limit - tolerance::beyond(spec, limit);
+    decide(lower >= least, lower < least && upper >= least)
+}
+
+/// Whether bounds, lower and upper, are at most `limit`, up to the [`tolerance`]. NaN fails.
+pub fn status_at_most(spec: &CheckSpec, [lower, upper]: [f64; 2], limit: f64) -> Status {
+    let most = limit + tolerance::beyond(spec, limit);
+    decide(upper <= most, upper > most && lower <= most)
+}
+
+/// Whether a `margin` to `limit` is kept, up to the [`tolerance`]. NaN fails.
+pub fn status_inside(spec: &CheckSpec, limit: f64, margin: f64) -> Status {
+    decide(margin >= -tolerance::beyond(spec, limit), false)
 }
 
 /// Neither comparison holds for NaN, which leaves a failure.

@@ -1,5 +1,7 @@
 //! The motion of a vehicle as a continuous curve.
 
+use std::fmt;
+
 use crate::verdict::bernstein;
 use crate::verdict::missing_evidence::MissingEvidence;
 
@@ -17,6 +19,46 @@ pub struct Knot {
     pub position_m: [f64; 3],
     /// Velocity, m/s.
     pub velocity_mps: [f64; 3],
+}
+
+/// Why knots are no motion that can be judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum KnotDefect {
+    /// Fewer than two; how many.
+    TooFew(usize),
+    /// A number is not finite or larger than 1e9, at this time, s.
+    OutOfRange(f64),
+    /// Time decreases after this time, s.
+    DecreasingTime(f64),
+}
+
+impl fmt::Display for KnotDefect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.of("the candidate").fmt(f)
+    }
+}
+
+impl KnotDefect {
+    fn find(knots: &[Knot]) -> Option<Self> {
+        if knots.len() < 2 {
+            return Some(Self::TooFew(knots.len()));
+        }
+        if let Some(knot) = knots.iter().find(|knot| !is_judgeable(knot)) {
+            return Some(Self::OutOfRange(knot.t_s));
+        }
+        let backwards = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s);
+        backwards.map(|pair| Self::DecreasingTime(pair[0].t_s))
+    }
+
+    /// The same, with the name of the vehicle.
+    fn of(self, vehicle: &str) -> MissingEvidence {
+        let body = vehicle.to_owned();
+        match self {
+            Self::TooFew(knots) => MissingEvidence::TooFewKnots { body, knots },
+            Self::OutOfRange(t_s) => MissingEvidence::OutOfRange { body, t_s },
+            Self::DecreasingTime(t_s) => MissingEvidence::DecreasingTime { body, t_s },
+        }
+    }
 }
 
 /// A curve through knots: between two of them the cubic Hermite of their positions and velocities.
@@ -41,17 +83,26 @@ impl Motion {
     ///
     /// Fewer than two knots; decreasing times; values that are not finite or larger than 1e9.
     pub fn new(vehicle: &str, knots: Vec<Knot>) -> Result<Self, MissingEvidence> {
-        let body = vehicle.to_owned();
-        if knots.len() < 2 {
-            return Err(MissingEvidence::TooFewKnots { body, knots: knots.len() });
-        }
-        if let Some(Knot { t_s, .. }) = knots.iter().find(|knot| !is_judgeable(knot)) {
-            return Err(MissingEvidence::OutOfRange { body, t_s: *t_s });
-        }
-        if let Some(pair) = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s) {
-            return Err(MissingEvidence::DecreasingTime { body, t_s: pair[0].t_s });
+        if let Some(defect) = KnotDefect::find(&knots) {
+            return Err(defect.of(vehicle));
         }
         Ok(Self { vehicle: vehicle.to_owned(), knots, deviation_m: 0.0, tube_m: Vec::new() })
+    }
+
+    /// The exact motion of the same vehicle through other knots, in the memory of this one.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new); the motion is then unchanged.
+    pub fn refill(&mut self, knots: &[Knot]) -> Result<(), KnotDefect> {
+        if let Some(defect) = KnotDefect::find(knots) {
+            return Err(defect);
+        }
+        self.knots.clear();
+        self.knots.extend_from_slice(knots);
+        self.tube_m.clear();
+        self.deviation_m = 0.0;
+        Ok(())
     }
 
     /// Treats the knots as samples of a smooth motion. Bounds of distances are widened by the interpolation error:
@@ -143,6 +194,15 @@ impl Motion {
         Some(segment.during(segment.t_s[0], t_s).points_m[3])
     }
 
+    /// State at `t_s`; `None` before the first knot and after the last.
+    pub fn state(&self, t_s: f64) -> Option<Knot> {
+        let position_m = self.position_m(t_s)?;
+        let after = self.knots.partition_point(|knot| knot.t_s < t_s).max(1);
+        let segment = self.segment(after - 1);
+        let velocity_mps = if segment.lasts() { segment.velocity_mps(t_s) } else { self.knots[after].velocity_mps };
+        Some(Knot { t_s, position_m, velocity_mps })
+    }
+
     /// The motion, followed by rest in its last position until `end_s`.
     pub fn hovering_until(mut self, end_s: f64) -> Self {
         let last = self.knots[self.knots.len() - 1];
@@ -217,6 +277,17 @@ impl Segment {
             }
         }
         Self { t_s: [from_s, to_s], points_m, ..*self }
+    }
+
+    /// Velocity at `t_s`, m/s. The segment must [last](Self::lasts).
+    fn velocity_mps(&self, t_s: f64) -> [f64; 3] {
+        let duration_s = self.t_s[1] - self.t_s[0];
+        let u = (t_s - self.t_s[0]) / duration_s;
+        std::array::from_fn(|axis| {
+            let p = self.points_m.map(|point| point[axis]);
+            let derivative = [p[1] - p[0], p[2] - p[1], p[3] - p[2]].map(|difference| 3.0 * difference / duration_s);
+            bernstein::split(&derivative, u).0[2]
+        })
     }
 
     /// Third derivative, constant over the segment, m/s³.

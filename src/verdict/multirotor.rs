@@ -1,6 +1,7 @@
 //! The judge of multirotors, with plans made before the flight or in the loop.
 
 mod clearance;
+pub mod guard;
 mod limits;
 mod physics;
 mod reference;

@@ -37,18 +37,29 @@ struct Candidate<'a> {
 
 /// A value of a vehicle at a time.
 #[derive(Clone)]
-struct Found<'a> {
+pub struct Found<'a> {
     vehicle: &'a str,
-    quantity: Quantity,
-    value: f64,
+    /// What is limited.
+    pub quantity: Quantity,
+    /// Its value, in the unit of the quantity.
+    pub value: f64,
     error: f64,
-    t_s: f64,
+    /// When, s.
+    pub t_s: f64,
 }
 
 impl<'a> Worst<'a> {
-    fn new() -> Self {
+    /// Nothing has been considered.
+    pub fn new() -> Self {
         let none = Candidate { relative: f64::INFINITY, found: None };
         Self { possible: none.clone(), certain: none }
+    }
+
+    /// The value that decides; `None` if there was none.
+    pub fn into_deciding(self) -> Option<Found<'a>> {
+        let Worst { possible, certain } = self;
+        let decides = if certain.relative < 0.0 { certain } else { possible };
+        decides.found
     }
 
     /// Keeps `value` if it uses more of its range than those before it. Margins of different units are compared as fractions of
@@ -80,10 +91,16 @@ impl<'a> Candidate<'a> {
 }
 
 impl Found<'_> {
+    /// The end of the range that is nearer.
+    pub fn limit(&self) -> f64 {
+        let Range { min, max } = self.quantity.range;
+        if self.value - min < max - self.value { min } else { max }
+    }
+
     fn into_check(self, spec: &CheckSpec) -> Check {
+        let limit = self.limit();
         let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, error, t_s } = self;
         let is_low = value - range.min < range.max - value;
-        let limit = if is_low { range.min } else { range.max };
         let exact = Measurement::value(value).at(t_s).with(vehicle);
         let bounded = Measurement::bounds(value - error, value + error).at(t_s).with(vehicle);
         let spec = &CheckSpec { unit, ..*spec };
@@ -106,7 +123,5 @@ impl Found<'_> {
 pub fn check_limits<'a>(spec: &CheckSpec, consider: impl FnOnce(&mut Worst<'a>)) -> CheckResult {
     let mut worst = Worst::new();
     consider(&mut worst);
-    let Worst { possible, certain } = worst;
-    let decides = if certain.relative < 0.0 { certain } else { possible };
-    Ok(decides.found.ok_or(MissingEvidence::NoValue)?.into_check(spec))
+    Ok(worst.into_deciding().ok_or(MissingEvidence::NoValue)?.into_check(spec))
 }

@@ -16,6 +16,7 @@ mod report_page;
 mod results;
 mod running;
 mod schemas;
+mod shipped;
 #[cfg(unix)]
 mod stopping;
 mod sweeping;

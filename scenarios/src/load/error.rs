@@ -18,6 +18,13 @@ pub enum LoadError {
         /// The error of the operating system.
         reason: std::io::Error,
     },
+    /// There is no shipped scenario of this name.
+    #[error("{}: found no shipped scenario of this name", path.display())]
+    #[diagnostic(help("`harness list shipped:` lists them"))]
+    NoShipped {
+        /// What was asked for, with the prefix.
+        path: PathBuf,
+    },
     /// The content of the file is not a valid scenario.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -28,7 +35,7 @@ impl LoadError {
     /// One line per issue: `file:line:column: field: found ..., expected ...; remedy`.
     pub fn lines(&self) -> Vec<String> {
         match self {
-            Self::Read { .. } => vec![self.to_string()],
+            Self::Read { .. } | Self::NoShipped { .. } => vec![self.to_string()],
             Self::Invalid(invalid) => {
                 let line = |issue: &LocatedIssue| {
                     format!("{}:{}:{}: {}", invalid.name, issue.line, issue.column, issue.summary())
@@ -41,7 +48,7 @@ impl LoadError {
     /// The issues of the content, in the order of the file; empty if the file could not be read.
     pub fn issues(&self) -> &[LocatedIssue] {
         match self {
-            Self::Read { .. } => &[],
+            Self::Read { .. } | Self::NoShipped { .. } => &[],
             Self::Invalid(invalid) => &invalid.issues,
         }
     }

@@ -40,6 +40,14 @@ impl Obstacles {
         }
     }
 
+    /// Whether an obstacle is static and convex, so that the signed distance to it is a convex function of the position.
+    pub fn is_convex(&self, obstacle: usize) -> bool {
+        match self.kind(obstacle) {
+            Kind::Cylinder(_) | Kind::Prism(_) => true,
+            Kind::Moving(_) => false,
+        }
+    }
+
     /// Signed distance from a point to the surface of an obstacle at an instant, m: negative inside.
     pub fn distance_m(&self, obstacle: usize, t_s: f64, position_m: [f64; 3]) -> f64 {
         match self.kind(obstacle) {

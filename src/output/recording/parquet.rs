@@ -2,8 +2,6 @@
 //!
 //! One row per vehicle and step, in row groups of one vehicle each, so that only one group is in memory beside the flight.
 
-mod columns;
-
 use std::fs::File;
 use std::ops::Range;
 use std::path::Path;
@@ -19,9 +17,9 @@ use parquet::record::RowAccessor;
 use parquet::schema::parser::parse_message_type;
 use sim::{Flight, VehicleLog};
 
-use self::columns::{columns, values};
 use super::{Recorder, Run};
 use crate::error::Error;
+use crate::output::flight_table::{columns, values};
 
 /// Writes `flight.parquet`.
 pub struct Parquet;

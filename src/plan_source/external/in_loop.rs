@@ -7,7 +7,7 @@
 //! {"request": "end"}, then end of file                              no reply; the program ends
 //! ```
 
-mod message;
+pub(super) mod message;
 mod session;
 
 use std::sync::{Arc, Mutex, PoisonError};

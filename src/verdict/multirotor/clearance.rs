@@ -1,27 +1,26 @@
 //! Clearance: the smallest distance from the surface of any vehicle's sphere to any obstacle, sensed or not, static or moving,
 //! and to the map's frame, over continuous time.
 //!
-//! The search is branch and bound. Within an interval of time a distance cannot decrease by more than vehicle and obstacle
-//! move, which bounds it from below. Intervals that could contain a smaller distance are halved. Distances to the frame are
-//! extremes of one coordinate. A flight is known at its samples only: its [deviation](Motion::deviation_m) from the curve
-//! through them enlarges the vehicle in the search and widens the bounds.
+//! A flight is known at its samples only: its [deviation](Motion::deviation_m) from the curve through them enlarges the
+//! vehicle in the [search] and widens the bounds.
+
+pub mod search;
 
 use scenarios::{CheckSpec, Scenario};
 use sim::multirotor::Obstacles;
 
+use self::search::{Approach, Body, Effort, PathLengths, Search};
 use crate::verdict::collision::{GRAZE_M, crash};
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
-use crate::verdict::map_bounds::{Extreme, extremes_m};
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::motion::Motion;
 
-/// The search stops when the bounds are this close, m.
-const RESOLUTION_M: f64 = 1e-4;
-/// Largest number of intervals searched; beyond it the bounds stay apart and the check may be undecided.
-const MAX_INTERVALS: usize = 20_000_000;
+/// The judge searches until the bounds are this close, m, and no more intervals than this; beyond them the bounds stay apart
+/// and the check may be undecided.
+const EFFORT: Effort = Effort { resolution_m: |_| 1e-4, uses_convexity: false, max_intervals: 20_000_000 };
 /// Name of the map's frame in reports.
-const FRAME: &str = "map frame";
+pub const FRAME: &str = "map frame";
 
 /// The closest approach of a vehicle to an obstacle.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,30 +63,18 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) ->
 
 /// The closest approach of any vehicle to any obstacle or to the frame. `None` without vehicles.
 pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ObstacleApproach> {
-    let surroundings = Obstacles::new(&scenario.world);
-    let mut best = None;
-    let (mut intervals, mut given_up_m) = (0, f64::INFINITY);
+    let obstacles = Obstacles::new(&scenario.world);
+    let mut search = Search::new(&obstacles, EFFORT);
+    let mut lengths = PathLengths::default();
     for (vehicle, motion) in motions.iter().enumerate() {
         let reach_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m + motion.deviation_m();
-        to_frame(scenario, vehicle, motion, reach_m, &mut best);
-        for obstacle in 0..surroundings.count() {
-            let mut search = Search {
-                surroundings: &surroundings,
-                obstacle,
-                reach_m,
-                vehicle,
-                best: &mut best,
-                intervals: &mut intervals,
-                given_up_m: &mut given_up_m,
-            };
-            motion.segments().filter(Segment::lasts).for_each(|segment| search.search(&segment, [0.0, 1.0]));
-        }
+        lengths.measure(motion);
+        search.add(&scenario.world.map, Body { vehicle, motion, lengths: &lengths, reach_m });
     }
-    best.map(|best| ObstacleApproach {
-        lower_m: (best.upper_m - RESOLUTION_M).min(given_up_m),
-        upper_m: best.upper_m + 2.0 * motions[best.vehicle].deviation_m(),
-        ..best
-    })
+    let (Approach { distance_m, at_s, vehicle, obstacle }, lower_m) = search.found()?;
+    let upper_m = distance_m + 2.0 * motions[vehicle].deviation_m();
+    let obstacle = obstacle.map_or(FRAME, |obstacle| obstacles.name(obstacle)).to_owned();
+    Some(ObstacleApproach { lower_m, upper_m, at_s, vehicle, obstacle })
 }
 
 fn check_closest(spec: &CheckSpec, scenario: &Scenario, closest: Option<ObstacleApproach>) -> CheckResult {
@@ -142,61 +129,4 @@ impl<'a> Clearances<'a> {
         }
         (nearest.0 - radius_m, nearest.1)
     }
-}
-
-fn to_frame(scenario: &Scenario, vehicle: usize, motion: &Motion, reach_m: f64, best: &mut Option<ObstacleApproach>) {
-    for (axis, range) in scenario.world.map.axes().into_iter().enumerate() {
-        for Extreme { value, t_s: at_s, .. } in extremes_m(motion, axis) {
-            let distance_m = range.margin(value) - reach_m;
-            consider(best, distance_m, || ObstacleApproach::exact(distance_m, at_s, vehicle, FRAME));
-        }
-    }
-}
-
-/// One vehicle against one obstacle.
-struct Search<'a> {
-    surroundings: &'a Obstacles,
-    obstacle: usize,
-    /// Radius of the vehicle plus the deviation of its motion from the curve, m.
-    reach_m: f64,
-    vehicle: usize,
-    best: &'a mut Option<ObstacleApproach>,
-    /// Number of intervals searched.
-    intervals: &'a mut usize,
-    /// Smallest lower bound of the intervals that were given up, m.
-    given_up_m: &'a mut f64,
-}
-
-impl Search<'_> {
-    /// Measures the distance at the middle of a part of a segment, and in its halves if they could contain a smaller one.
-    fn search(&mut self, segment: &Segment, [from, to]: [f64; 2]) {
-        let middle = f64::midpoint(from, to);
-        let t_s = segment.instant_s(middle);
-        let position_m = segment.during(segment.t_s[0], t_s).points_m[3];
-        let distance_m = self.surroundings.distance_m(self.obstacle, t_s, position_m) - self.reach_m;
-        consider(self.best, distance_m, || {
-            ObstacleApproach::exact(distance_m, t_s, self.vehicle, self.surroundings.name(self.obstacle))
-        });
-        let duration_s = segment.t_s[1] - segment.t_s[0];
-        let speed_mps = fastest_mps(segment) + self.surroundings.speed_mps(self.obstacle);
-        let moved_m = speed_mps * duration_s * (to - from) / 2.0;
-        let upper_m = self.best.as_ref().map_or(f64::INFINITY, |best| best.upper_m);
-        *self.intervals += 1;
-        if distance_m - moved_m < upper_m - RESOLUTION_M {
-            if *self.intervals >= MAX_INTERVALS {
-                *self.given_up_m = self.given_up_m.min(distance_m - moved_m);
-                return;
-            }
-            self.search(segment, [from, middle]);
-            self.search(segment, [middle, to]);
-        }
-    }
-}
-
-/// Upper bound of the speed in a segment: the derivative of a cubic lies in the convex hull of the differences of its control
-/// points.
-fn fastest_mps(segment: &Segment) -> f64 {
-    let duration_s = segment.t_s[1] - segment.t_s[0];
-    let difference_m = |pair: &[[f64; 3]]| (0..3).map(|i| (pair[1][i] - pair[0][i]).powi(2)).sum::<f64>().sqrt();
-    segment.points_m.windows(2).map(|pair| difference_m(pair) * 3.0 / duration_s).fold(0.0, f64::max)
 }

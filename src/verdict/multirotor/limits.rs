@@ -6,7 +6,7 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use scenarios::multirotor::{Airframe, Limits, Model, Plant};
-use scenarios::{CheckSpec, Group, Range, Scenario};
+use scenarios::{CheckSpec, Group, Range, Scenario, Vehicle};
 use sim::{Actuation, Commanded, Sample};
 
 use super::rest::RECORD;
@@ -43,13 +43,7 @@ pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motio
 /// States of the continuous plan against the physical limits.
 pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
     check_limits(spec, |worst| {
-        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
-            limited.map.path(worst, motion);
-            for segment in motion.segments().filter(Segment::lasts) {
-                let (speed_mps, t_s) = fastest(&segment);
-                limited.speed(worst, speed_mps, limited.physical().speed_mps, t_s);
-            }
-        }
+        limited_vehicles(scenario).zip(motions).for_each(|(limited, motion)| limited.planned_states(worst, motion));
     })
 }
 
@@ -77,15 +71,7 @@ pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Mot
     let check = check_limits(spec, |worst| {
         for (limited, motion) in limited_vehicles(scenario).zip(motions) {
             let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
-            for segment in motion.segments().filter(Segment::lasts) {
-                for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
-                    let value_mps2 = without_rounding(norm(value), limits.acceleration_mps2, &segment);
-                    limited.acceleration(worst, value_mps2, limits.acceleration_mps2, t_s);
-                }
-            }
-            for jump in motion.knots().windows(2).filter(|pair| is_jump(pair)) {
-                limited.acceleration(worst, f64::INFINITY, limits.acceleration_mps2, jump[0].t_s);
-            }
+            limited.planned_accelerations(worst, motion, limits.acceleration_mps2);
         }
     })?;
     Ok(Check { reason: jumps().next().map(jump_remark).or(check.reason), ..check })
@@ -111,17 +97,11 @@ pub fn check_flown_controls(spec: &CheckSpec, scenario: &Scenario, flown: &Flown
 }
 
 fn limited_vehicles(scenario: &Scenario) -> impl Iterator<Item = Limited<'_>> {
-    scenario.vehicles.iter().map(|vehicle| {
-        let model = scenario.multirotor_model(vehicle);
-        let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
-        let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
-        let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
-        Limited { vehicle: &vehicle.name, map: MapBounds::new(scenario, &vehicle.name), model, promised }
-    })
+    scenario.vehicles.iter().map(|vehicle| Limited::new(scenario, vehicle))
 }
 
 /// A vehicle and what it has to stay inside.
-struct Limited<'a> {
+pub struct Limited<'a> {
     vehicle: &'a str,
     map: MapBounds<'a>,
     model: &'a Model,
@@ -130,7 +110,39 @@ struct Limited<'a> {
 }
 
 impl<'a> Limited<'a> {
-    fn physical(&self) -> &Limits {
+    /// A vehicle of `scenario`.
+    pub fn new(scenario: &'a Scenario, vehicle: &'a Vehicle) -> Self {
+        let model = scenario.multirotor_model(vehicle);
+        let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
+        let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
+        let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
+        Self { vehicle: &vehicle.name, map: MapBounds::new(scenario, &vehicle.name), model, promised }
+    }
+
+    /// Considers position and speed of a planned motion over continuous time, against the physical limits.
+    pub fn planned_states(&self, worst: &mut Worst<'a>, motion: &Motion) {
+        self.map.path(worst, motion);
+        for segment in motion.segments().filter(Segment::lasts) {
+            let (speed_mps, t_s) = fastest(&segment);
+            self.speed(worst, speed_mps, self.physical().speed_mps, t_s);
+        }
+    }
+
+    /// Considers the accelerations of a planned motion, jumps included.
+    pub fn planned_accelerations(&self, worst: &mut Worst<'a>, motion: &Motion, limit_mps2: f64) {
+        for segment in motion.segments().filter(Segment::lasts) {
+            for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
+                let value_mps2 = without_rounding(norm(value), limit_mps2, &segment);
+                self.acceleration(worst, value_mps2, limit_mps2, t_s);
+            }
+        }
+        for jump in motion.knots().windows(2).filter(|pair| is_jump(pair)) {
+            self.acceleration(worst, f64::INFINITY, limit_mps2, jump[0].t_s);
+        }
+    }
+
+    /// The physical limits.
+    pub fn physical(&self) -> &Limits {
         &self.model.limits
     }
 
