@@ -11,3 +11,4 @@ pub mod margin_budget;
 #[cfg(feature = "parquet")]
 pub mod monte_carlo;
 pub mod selftest;
+pub mod typical_disturbances;

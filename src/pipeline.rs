@@ -124,9 +124,9 @@ fn attribute_replanning(timings: &mut Timings, job: &Job, followed: &Plan, fligh
 /// Repeats the flight with half and with a quarter of the plant's step, and measures the differences. What was planned in
 /// the loop is not planned again: the vehicles follow the same references, so that only the integrator differs.
 fn refine_step(job: &Job, plan: &Plan, flight: &Flight) -> Integration {
-    let guidance = || if flight.planning.is_some() { sim::Guidance::Recorded(flight) } else { plan.into() };
+    let source = || if flight.planning.is_some() { sim::ReferenceSource::Recorded(flight) } else { plan.into() };
     let finer =
-        |halvings| sim::fly_with(&job.scenario, guidance(), job.seed, &FlightOptions::finer(halvings), &mut |_| {});
+        |halvings| sim::fly_with(&job.scenario, source(), job.seed, &FlightOptions::finer(halvings), &mut |_| {});
     let (half, quarter) = rayon::join(|| finer(1), || finer(2));
     Integration::by_finer_steps(flight, [&half, &quarter])
 }

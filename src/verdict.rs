@@ -178,12 +178,12 @@ impl Check {
         self.name.split_once('.').map_or(self.name.as_str(), |(_, question)| question)
     }
 
-    /// Does its margin say how close it was, to one who asks for a single line?
+    /// Whether its margin belongs in a summary of one line.
     pub fn is_key(&self) -> bool {
         KEY_CHECKS.contains(&self.question())
     }
 
-    /// Between whom, for people, each once: `uav-3 and uav-5`; nothing if nobody is named.
+    /// The bodies that it names, each once, for people: `uav-3 and uav-5`; nothing without one.
     pub fn who(&self) -> Option<String> {
         let mut named: Vec<&str> = Vec::new();
         self.between.iter().for_each(|name| {
@@ -194,7 +194,7 @@ impl Check {
         (!named.is_empty()).then(|| named.join(" and "))
     }
 
-    /// When and between whom, for people: `83.10 s, uav-3 and uav-5`; nothing if neither is known.
+    /// Time and bodies, for people: `83.10 s, uav-3 and uav-5`; nothing if neither is known.
     pub fn place(&self) -> Option<String> {
         let when = self.at_s.map(|at_s| format!("{at_s:.2} s"));
         let who = self.who();

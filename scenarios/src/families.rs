@@ -34,6 +34,21 @@ impl Family {
         self.spec().key
     }
 
+    /// Whether a vehicle hovers at its goal once it has arrived; otherwise it flies on.
+    pub fn hovers(self) -> bool {
+        self.spec().hovers
+    }
+
+    /// Whether a vehicle carries a load.
+    pub fn carries_load(self) -> bool {
+        self.spec().carries_load
+    }
+
+    /// Whether a vehicle senses obstacles and other vehicles in flight.
+    pub fn senses_obstacles(self) -> bool {
+        self.spec().senses_obstacles
+    }
+
     /// What differs between the families.
     pub(crate) fn spec(self) -> &'static FamilySpec {
         match self {

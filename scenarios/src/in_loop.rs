@@ -185,6 +185,13 @@ pub enum ReplanStatus {
     },
 }
 
+impl ReplanStatus {
+    /// Whether the reference was flown, in time or late.
+    pub fn is_flown(&self) -> bool {
+        matches!(self, Self::InTime | Self::Late { .. })
+    }
+}
+
 /// The result of replanning for one observation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReplanResult {

@@ -6,18 +6,22 @@
 use scenarios::Family;
 
 use crate::flight::FleetLog;
-use crate::request::{FlightRequest, Guidance};
+use crate::request::{FlightRequest, ReferenceSource};
 use crate::{fixed_wing, multirotor, slung_load};
 
 /// Simulates the fleet of a scenario. `progress` is called about once per simulated second with the simulated time, s.
 ///
 /// # Panics
 ///
-/// If the guidance is not one that the family can follow.
-pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, progress: &mut dyn FnMut(f64)) -> FleetLog {
+/// If the source is not one that the family can follow.
+pub(crate) fn simulate(
+    request: &FlightRequest<'_>,
+    source: ReferenceSource<'_>,
+    progress: &mut dyn FnMut(f64),
+) -> FleetLog {
     match request.scenario.family() {
-        Family::FixedWing => fixed_wing::simulate(request, guidance.plan(), progress),
-        Family::SlungLoad => slung_load::simulate(request, guidance.plan(), progress),
-        Family::Multirotor => multirotor::simulate(request, guidance, progress),
+        Family::FixedWing => fixed_wing::simulate(request, source.plan(), progress),
+        Family::SlungLoad => slung_load::simulate(request, source.plan(), progress),
+        Family::Multirotor => multirotor::simulate(request, source, progress),
     }
 }

@@ -1,14 +1,14 @@
 use std::time::Instant;
 
-use scenarios::{Family, Plan, Scenario};
+use scenarios::{Plan, Scenario};
 
 use crate::families;
 use crate::flight::{FleetLog, Flight, InLoopLog};
-use crate::request::{FlightOptions, FlightRequest, Guidance};
+use crate::request::{FlightOptions, FlightRequest, ReferenceSource};
 
 /// Simulates the flight of a scenario's vehicles, in the wind and with the sensors and the mass of the scenario.
 ///
-/// `guidance` is one of
+/// `source` is one of
 ///
 /// - a plan, complete and checked: one trajectory per vehicle, in the order of the scenario, with at least two nodes.
 ///   Every vehicle starts in the first state of its trajectory and tracks it, until `coast_s` after the end of the plan
@@ -66,11 +66,11 @@ use crate::request::{FlightOptions, FlightRequest, Guidance};
 /// ```
 pub fn fly<'a>(
     scenario: &Scenario,
-    guidance: impl Into<Guidance<'a>>,
+    source: impl Into<ReferenceSource<'a>>,
     seed: u64,
     progress: &mut dyn FnMut(f64),
 ) -> Flight {
-    fly_with(scenario, guidance, seed, &FlightOptions::default(), progress)
+    fly_with(scenario, source, seed, &FlightOptions::default(), progress)
 }
 
 /// [`fly`] with another control mode, another start or a finer step.
@@ -80,17 +80,17 @@ pub fn fly<'a>(
 /// As [`fly`].
 pub fn fly_with<'a>(
     scenario: &Scenario,
-    guidance: impl Into<Guidance<'a>>,
+    source: impl Into<ReferenceSource<'a>>,
     seed: u64,
     options: &FlightOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Flight {
     let began = Instant::now();
-    let guidance = guidance.into();
-    assert_flyable(scenario, &guidance);
-    let planned_end_s = planned_end_s(&guidance);
-    let request = FlightRequest { scenario, seed, options, steps: max_steps(scenario, &guidance) };
-    let FleetLog { vehicles, mut events, in_loop } = families::simulate(&request, guidance, progress);
+    let source = source.into();
+    assert_flyable(scenario, &source);
+    let planned_end_s = planned_end_s(&source);
+    let request = FlightRequest { scenario, seed, options, steps: max_steps(scenario, &source) };
+    let FleetLog { vehicles, mut events, in_loop } = families::simulate(&request, source, progress);
     events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     let (plan_end_s, planning) = match in_loop {
         Some(InLoopLog { end_s, planning }) => (end_s, Some(planning)),
@@ -101,36 +101,36 @@ pub fn fly_with<'a>(
 }
 
 /// End of a plan that was made before the flight, s.
-fn planned_end_s(guidance: &Guidance<'_>) -> Option<f64> {
-    match guidance {
-        Guidance::Plan(plan) => Some(plan.flight_time_s().expect("a flyable plan has trajectories")),
-        Guidance::InLoop(_) => None,
-        Guidance::Recorded(flight) => Some(flight.plan_end_s),
+fn planned_end_s(source: &ReferenceSource<'_>) -> Option<f64> {
+    match source {
+        ReferenceSource::Plan(plan) => Some(plan.flight_time_s().expect("a flyable plan has trajectories")),
+        ReferenceSource::InLoop(_) => None,
+        ReferenceSource::Recorded(flight) => Some(flight.plan_end_s),
     }
 }
 
 /// Number of steps to the end of the coast, or to the maximum duration, or of an earlier flight.
-fn max_steps(scenario: &Scenario, guidance: &Guidance<'_>) -> usize {
-    if let Guidance::Recorded(flight) = guidance {
+fn max_steps(scenario: &Scenario, source: &ReferenceSource<'_>) -> usize {
+    if let ReferenceSource::Recorded(flight) = source {
         return flight.vehicles.iter().map(|log| log.samples.len().saturating_sub(1)).max().unwrap_or(0);
     }
-    let (simulation, planned_end_s) = (&scenario.simulation, planned_end_s(guidance));
+    let (simulation, planned_end_s) = (&scenario.simulation, planned_end_s(source));
     let end_s = planned_end_s
         .map_or(simulation.max_duration_s, |end_s| (end_s + simulation.coast_s).min(simulation.max_duration_s));
     // A thousandth of a step is rounding, not time.
     (end_s / simulation.step_s - 1e-3).ceil().max(0.0) as usize
 }
 
-/// Panics with the reason if the guidance does not fit the scenario.
-fn assert_flyable(scenario: &Scenario, guidance: &Guidance<'_>) {
+/// Panics with the reason if the source does not fit the scenario.
+fn assert_flyable(scenario: &Scenario, source: &ReferenceSource<'_>) {
     assert!(scenario.simulation.step_s > 0.0, "the step must be positive, not {}", scenario.simulation.step_s);
-    match guidance {
-        Guidance::Plan(plan) => assert_plan_is_flyable(scenario, plan),
-        Guidance::InLoop(planners) => {
-            assert_eq!(scenario.family(), Family::Multirotor, "only multirotors are planned for in the loop");
+    match source {
+        ReferenceSource::Plan(plan) => assert_plan_is_flyable(scenario, plan),
+        ReferenceSource::InLoop(planners) => {
+            assert!(scenario.family().senses_obstacles(), "only multirotors are planned for in the loop");
             assert_eq!(scenario.vehicles.len(), planners.len(), "every vehicle has a planner");
         }
-        Guidance::Recorded(flight) => {
+        ReferenceSource::Recorded(flight) => {
             assert!(flight.planning.is_some(), "the earlier flight was planned in the loop");
             assert_eq!(scenario.vehicles.len(), flight.vehicles.len(), "every vehicle has a log");
         }

@@ -34,5 +34,5 @@ pub use collision::GROUND;
 pub use flight::{Event, EventKind, Flight, LoadSample, Sample, VehicleLog};
 pub use fly::{fly, fly_with};
 pub use planning_log::{PlanningLog, Replan};
-pub use request::{ControlMode, FlightOptions, Guidance};
+pub use request::{ControlMode, FlightOptions, ReferenceSource};
 pub use state_hash::StateHash;

@@ -7,7 +7,7 @@ use scenarios::{Plan, Scenario, Vehicle};
 use crate::flight::Flight;
 
 /// Where the references of a flight come from.
-pub enum Guidance<'a> {
+pub enum ReferenceSource<'a> {
     /// A plan that was made before the flight.
     Plan(&'a Plan),
     /// In-loop planners, one per vehicle, in the order of the scenario.
@@ -16,7 +16,7 @@ pub enum Guidance<'a> {
     Recorded(&'a Flight),
 }
 
-impl<'a> Guidance<'a> {
+impl<'a> ReferenceSource<'a> {
     /// The plan.
     ///
     /// # Panics
@@ -30,13 +30,13 @@ impl<'a> Guidance<'a> {
     }
 }
 
-impl<'a> From<&'a Plan> for Guidance<'a> {
+impl<'a> From<&'a Plan> for ReferenceSource<'a> {
     fn from(plan: &'a Plan) -> Self {
         Self::Plan(plan)
     }
 }
 
-impl From<Vec<Box<dyn InLoopPlanner>>> for Guidance<'_> {
+impl From<Vec<Box<dyn InLoopPlanner>>> for ReferenceSource<'_> {
     fn from(planners: Vec<Box<dyn InLoopPlanner>>) -> Self {
         Self::InLoop(planners)
     }
@@ -74,7 +74,7 @@ impl FlightOptions {
     }
 }
 
-/// What every family's simulation needs to know, beside the guidance.
+/// What every family's simulation needs to know, besides the source of the references.
 #[derive(Clone, Copy)]
 pub(crate) struct FlightRequest<'a> {
     pub scenario: &'a Scenario,

@@ -7,6 +7,7 @@ mod geometry;
 pub mod horizon;
 pub mod ipm;
 mod log_log_chart;
+pub mod min_flight_time;
 pub mod slung;
 pub mod subproblems;
 pub mod suite;

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::plan_source::PlanSource;
 use crate::verdict::Outcome;
 
-pub use disturbance::{Disturbance, TypicalDisturbances};
+pub use disturbance::Disturbance;
 
 /// Levels of the grid.
 const GRID_LEVELS: usize = 20;

@@ -3,6 +3,7 @@
 //! A fault must fail the verdict by its target check. Near misses, just inside a limit, must pass. Every check that applies
 //! to a family must fail for at least one fault: a check that never fails is useless.
 
+mod edit_trajectory;
 mod family;
 mod fault;
 mod faults;
@@ -120,7 +121,7 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
         let mut applicable = BTreeSet::new();
         for reference in (tests.reference_cases)() {
             progress(&format!("{}: planning and flying", reference.scenario.name));
-            let reference = reference.flown(tests);
+            let reference = reference.flown(tests.edit);
             let untouched = approach(&reference, &NearMiss::new("nothing is changed", |_| {}));
             let is_good = untouched.passed;
             selftest.near_misses.push(untouched);
@@ -128,10 +129,10 @@ pub fn run(progress: &mut dyn FnMut(&str)) -> Selftest {
             if !is_good {
                 continue;
             }
-            let faults = faults::of(&reference);
+            let faults = faults::of(&reference, tests.faults);
             progress(&format!("{}: {} faults", reference.scenario.name, faults.len()));
             selftest.faults.par_extend(faults.par_iter().map(|fault| inject(&reference, fault)));
-            let near_misses = near_misses::of(&reference);
+            let near_misses = near_misses::of(&reference, tests.near_misses);
             selftest.near_misses.par_extend(near_misses.par_iter().map(|near_miss| approach(&reference, near_miss)));
         }
         let of_family = |fault: &&FaultResult| fault.family == family.to_string();

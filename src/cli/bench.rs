@@ -19,7 +19,7 @@ use crate::output;
 ///
 /// `cooperative`: fleets of one to seven aircraft on two missions, with both solvers.
 ///
-/// `fleets`: the papers' methods to decouple a fleet and fleet-scp, over several fleet sizes, and the growth of the cost of
+/// `fleets`: the papers' decoupling methods and fleet-scp, over several fleet sizes, and the growth of the cost of
 /// fleet-scp with the size of the fleet.
 ///
 /// `slung`: the nonlinear programs of the planner slung-lgr, by mesh and formulation.
@@ -89,7 +89,7 @@ enum Name {
     Ipm,
     /// Fleets of one to seven aircraft
     Cooperative,
-    /// Methods to decouple a fleet
+    /// Decoupling methods for fleets
     Fleets,
     /// Collocation meshes of the slung load
     Slung,

@@ -62,7 +62,7 @@ pub struct ClockArgs {
 enum PlannerClock {
     /// The scenario's model of planning times: the same flight on every machine
     Modelled,
-    /// The wall clock: a slow answer is flown late, and the flight depends on the machine
+    /// The wall clock: a slow replan is flown late, and the flight depends on the machine
     Measured,
 }
 

@@ -83,7 +83,7 @@ enum Recording {
 enum SecondIntegrator {
     /// Replay the log with an integrator of order 6, window by window
     Cheap,
-    /// Repeat the flight with a half and a quarter of the plant's step, the air sampled as much finer; after planning in the
+    /// Repeat the flight with a half and a quarter of the plant's step, with the air sampled as finely; after planning in the
     /// loop, with the same references
     Full,
 }

@@ -7,7 +7,7 @@ use crate::verdict::fixed_wing::clearance_at;
 use crate::verdict::multirotor::Clearances;
 use crate::verdict::{Motion, SeparationShape};
 
-/// The smallest distance at one instant, and between whom.
+/// The smallest distance at one instant, and the bodies between which it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceSample {
     /// When, s.
@@ -23,7 +23,7 @@ pub struct DistanceSample {
 /// For a plot: the smallest of all, over continuous time, is in the verdict.
 pub fn separation_over_time(motions: &[Motion], shape: SeparationShape, step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
-        // a sweep from west to east: nobody farther east than the best so far can be nearer
+        // A sweep from west to east: no vehicle farther east than the best distance can be nearer.
         present.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
         for (place, (i, first)) in present.iter().enumerate() {
             for (j, second) in &present[place + 1..] {

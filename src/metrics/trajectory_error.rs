@@ -18,7 +18,7 @@ const INTERVAL_S: f64 = 0.1;
 /// Poses between the two ends of a relative error: 1 s.
 const DELTA: usize = 10;
 
-/// Where somebody is at one instant.
+/// The pose of a body at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// When, s.

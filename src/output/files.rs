@@ -17,6 +17,10 @@ use tempfile::NamedTempFile;
 use crate::error::Error;
 use crate::interrupt::RemoveOnInterrupt;
 
+/// Name of the file that holds the scene of a flight: what the report page draws, and what a later recording shows as a
+/// ghost.
+pub const SCENE_FILE: &str = "scene.json";
+
 /// An error of whichever library writes the file.
 type WriteError = Box<dyn error::Error + Send + Sync>;
 
@@ -30,6 +34,10 @@ pub fn replace_file(path: &Path, write: impl FnOnce(&Path) -> Result<(), WriteEr
 }
 
 /// [`replace_file`] for content that is written to a buffered stream.
+///
+/// # Errors
+///
+/// As [`replace_file`].
 pub fn write_file(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Error> {
     replace_file(path, |partial| {
         let mut writer = BufWriter::new(File::create(partial)?);
@@ -39,6 +47,10 @@ pub fn write_file(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Resul
 }
 
 /// [`replace_file`] for `value` as indented JSON.
+///
+/// # Errors
+///
+/// As [`replace_file`].
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Error> {
     write_file(path, |writer| {
         serde_json::to_writer_pretty(&mut *writer, value)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::recording::scene_json;
+use super::files::SCENE_FILE;
 use crate::error::Error;
 
 /// The flight of an earlier run.
@@ -45,7 +45,7 @@ impl Ghost {
     ///
     /// [`Error::Results`] if `scene.json` is there and is not one of this version.
     pub fn read(results: &Path, job: &Path) -> Result<Option<Self>, Error> {
-        let files = [results.to_owned(), results.join(job)].map(|folder| folder.join(scene_json::FILE_NAME));
+        let files = [results.to_owned(), results.join(job)].map(|folder| folder.join(SCENE_FILE));
         let Some(path) = files.into_iter().find(|file| file.is_file()) else { return Ok(None) };
         let text = fs::read_to_string(&path).map_err(|reason| Error::results(&path, reason.to_string()))?;
         let scene: SceneFile = serde_json::from_str(&text)

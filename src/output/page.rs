@@ -9,6 +9,7 @@
 //! The page computes nothing: every figure is one of the judge's, and every line one of the scene's.
 
 mod campaigns;
+mod json_file;
 mod results;
 
 use std::io::{self, Write};

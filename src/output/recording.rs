@@ -41,6 +41,46 @@ pub struct Run<'a> {
 }
 
 /// A recording format.
+///
+/// # Examples
+///
+/// A table of altitudes, and its recording of a run whose plan could not be flown:
+///
+/// ```
+/// use std::error::Error;
+/// use std::fs;
+/// use std::path::Path;
+///
+/// use harness::output::recording::{Recorder, Run, record};
+///
+/// struct Altitudes;
+///
+/// impl Recorder for Altitudes {
+///     fn file_name(&self) -> &'static str {
+///         "altitudes.csv"
+///     }
+///
+///     fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
+///         let mut csv = "vehicle,t_s,z_m\n".to_owned();
+///         for log in run.flight.iter().flat_map(|flight| &flight.vehicles) {
+///             for sample in &log.samples {
+///                 csv += &format!("{},{},{}\n", log.vehicle, sample.t_s, sample.position_m[2]);
+///             }
+///         }
+///         Ok(fs::write(path, csv)?)
+///     }
+/// }
+///
+/// let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing/rendezvous-1.toml");
+/// let scenario = scenarios::load(file.as_ref())?;
+/// let plan = scenarios::Plan::no_plan(&scenario.name, "by-hand", 0, "not tried");
+/// let verdict = harness::verdict::judge(&scenario, &plan, None);
+/// let run = Run { scenario: &scenario, plan: &plan, flight: None, verdict: &verdict, waterfall: &[], ghost: None };
+/// let folder = tempfile::tempdir()?;
+/// let recording = record(&Altitudes, &run, folder.path())?;
+/// assert_eq!(fs::read_to_string(recording)?, "vehicle,t_s,z_m\n");
+/// # Ok::<(), Box<dyn Error>>(())
+/// ```
 pub trait Recorder {
     /// Name of its file in a result folder.
     fn file_name(&self) -> &'static str;

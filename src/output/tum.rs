@@ -16,6 +16,10 @@ use crate::output;
 const FOLDER: &str = "tum";
 
 /// Writes two files per vehicle into `tum/` in the result folder `folder`.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the folder or a file cannot be written.
 pub fn write(flight: &Flight, folder: &Path) -> Result<(), Error> {
     let folder = folder.join(FOLDER);
     output::create_folder(&folder)?;
@@ -29,6 +33,10 @@ pub fn write(flight: &Flight, folder: &Path) -> Result<(), Error> {
 }
 
 /// Removes the files of an earlier run.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the folder cannot be removed.
 pub fn remove_stale(folder: &Path) -> Result<(), Error> {
     let path = folder.join(FOLDER);
     match fs::remove_dir_all(&path) {

@@ -8,7 +8,7 @@ use sim::{PlanningLog, Replan};
 ///
 /// There is no plan if a vehicle never received a reference that could be flown. It is not converged if a planner failed.
 pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog) -> Plan {
-    let idle = (0..scenario.vehicles.len()).find(|index| !answers(log, *index).any(is_flown));
+    let idle = (0..scenario.vehicles.len()).find(|index| !answers(log, *index).any(|replan| replan.outcome.is_flown()));
     let wall_s = |vehicle: usize| answers(log, vehicle).map(|replan| replan.wall_s).sum::<f64>();
     let walls_s: Vec<f64> = (0..scenario.vehicles.len()).map(wall_s).collect();
     let failure = log.replans.iter().find_map(failure_reason);
@@ -26,11 +26,6 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
         },
         ..Plan::new(&scenario.name, planner, seed, log.followed.iter().cloned().map(Into::into).collect())
     }
-}
-
-/// Whether the reference of a replan was flown, in time or late.
-pub fn is_flown(replan: &Replan) -> bool {
-    matches!(replan.outcome, ReplanStatus::InTime | ReplanStatus::Late { .. })
 }
 
 fn failure_reason(replan: &Replan) -> Option<String> {

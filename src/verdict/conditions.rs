@@ -1,7 +1,7 @@
-//! Was it flown as the scenario says: in its air, seen through its sensors, and planned at the instants that it allows?
+//! Conditions of the flight: whether the logged air, sensor noise and planning in the loop are those of the scenario.
 //!
-//! A simulator that forgets the wind, or turns it round, makes every flight look better than it is, and everything else
-//! about its log is in order.
+//! A simulator that omits the wind, or reverses it, makes every flight look better than it is, and its log shows no other
+//! defect.
 
 use nalgebra::Vector3;
 use scenarios::{CheckSpec, GustPulse, Gusts, Plan, Scenario, Wind};
@@ -12,22 +12,22 @@ use crate::verdict::compare::exceeds;
 use crate::verdict::in_loop_planning;
 use crate::verdict::integrity::none_of;
 
-/// Air without gusts is known to this, m/s: what rounding leaves.
+/// Tolerance of air without turbulence, m/s: rounding.
 const AIR_MPS: f64 = 1e-6;
-/// Largest standard deviation of a component of low-altitude gusts, as a share of the wind at 20 ft: 0.1/0.177^0.4.
+/// Largest standard deviation of a component of low-altitude gusts, as a fraction of the wind at 20 ft: 0.1/0.177^0.4.
 ///                                                                                           [MIL-F-8785C, 3.7.3.4]
 const LOW_ALTITUDE_SIGMA: f64 = 0.2;
-/// Gusts are within so many standard deviations at every instant, and on average.
-const WILDEST_GUST: f64 = 8.0;
-const WILDEST_MEAN: f64 = 5.0;
-/// A standard deviation estimated from n numbers may be off by so many of its own, 1/sqrt(2n). Of a few numbers that says
-/// little, but that all of them are 0 it says of any.
-const WILDEST_ESTIMATE: f64 = 6.0;
+/// Largest turbulence at any instant, and of its mean, in standard deviations.
+const MAX_GUST: f64 = 8.0;
+const MAX_MEAN: f64 = 5.0;
+/// Largest relative error of a standard deviation that is estimated from n numbers, in its own standard deviations
+/// 1/sqrt(2n). A few numbers give a weak test, but even they are not all 0.
+const MAX_ESTIMATE_ERROR: f64 = 6.0;
 
-/// Number of vehicles in whose logs air or measurements are not those of the scenario, and one more if the planning in the
-/// loop is not.
+/// Number of vehicles whose logged air or measurements are not those of the scenario, plus one if the planning in the loop
+/// is not.
 ///
-/// - `plan`: what was flown; of one who plans in the loop what was followed
+/// - `plan`: the plan that was flown; of in-loop planners, the references that were followed
 pub fn check(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flight: &Flight) -> Check {
     let odd = |log: &VehicleLog| {
         let empty = log.samples.is_empty().then(|| "the log is empty".to_owned());
@@ -47,36 +47,36 @@ fn air_defect(wind: Option<&Wind>, log: &VehicleLog) -> Option<String> {
         let odd = gusts.iter().position(|gust| exceeds(gust.norm(), AIR_MPS))?;
         let sample = &log.samples[odd];
         return Some(format!(
-            "at {:.3} s the air moves with {:?} m/s, not as the scenario says",
+            "at {:.3} s the logged wind is {:?} m/s, which is not that of the scenario",
             sample.t_s, sample.wind_mps
         ));
     };
     let sigma_mps = largest_sigma_mps(asked);
-    if let Some(odd) = gusts.iter().position(|gust| exceeds(gust.norm(), WILDEST_GUST * sigma_mps + AIR_MPS)) {
+    if let Some(odd) = gusts.iter().position(|gust| exceeds(gust.norm(), MAX_GUST * sigma_mps + AIR_MPS)) {
         let (t_s, gust_mps) = (log.samples[odd].t_s, gusts[odd].norm());
-        return Some(format!("at {t_s:.3} s a gust of {gust_mps:.1} m/s, out of a wind of the scenario's intensity"));
+        return Some(format!("at {t_s:.3} s a gust of {gust_mps:.1} m/s, too strong for the scenario's turbulence"));
     }
     let mean_mps = gusts.iter().sum::<Vector3<f64>>() / gusts.len().max(1) as f64;
-    if exceeds(mean_mps.norm(), WILDEST_MEAN * sigma_mps + AIR_MPS) {
-        return Some(format!("its air differs from the scenario's mean wind by {:.1} m/s on average", mean_mps.norm()));
+    if exceeds(mean_mps.norm(), MAX_MEAN * sigma_mps + AIR_MPS) {
+        return Some(format!("the mean of its wind differs from the scenario's by {:.1} m/s", mean_mps.norm()));
     }
     let is_dead = sigma_mps > 0.0 && gusts.windows(2).all(|pair| pair[0] == pair[1]);
-    is_dead.then(|| "the scenario asks for gusts, and there are none".to_owned())
+    is_dead.then(|| "the scenario has gusts, the log has none".to_owned())
 }
 
-/// What the air does beyond the scenario's mean and its single gusts, m/s.
+/// The turbulence in a sample: its wind without the scenario's mean and single gusts, world frame, m/s.
 fn gust_mps(wind: Option<&Wind>, sample: &Sample) -> Vector3<f64> {
-    let ordered = wind.map_or_else(Vector3::zeros, |wind| {
+    let prescribed_mps = wind.map_or_else(Vector3::zeros, |wind| {
         let pulses = wind.pulses.iter().map(|pulse| pulse_mps(pulse, sample.t_s));
         pulses.fold(Vector3::from(wind.mean_mps), |sum, pulse| sum + pulse)
     });
-    Vector3::from(sample.wind_mps) - ordered
+    Vector3::from(sample.wind_mps) - prescribed_mps
 }
 
-/// A single gust: half its peak times 1 - cos.
+/// Velocity of a single gust, world frame, m/s: half its peak times 1 - cos.
 fn pulse_mps(pulse: &GustPulse, t_s: f64) -> Vector3<f64> {
-    let share = ((t_s - pulse.start_s) / pulse.duration_s).clamp(0.0, 1.0);
-    Vector3::from(pulse.peak_mps) * (0.5 - 0.5 * (std::f64::consts::TAU * share).cos())
+    let fraction = ((t_s - pulse.start_s) / pulse.duration_s).clamp(0.0, 1.0);
+    Vector3::from(pulse.peak_mps) * (0.5 - 0.5 * (std::f64::consts::TAU * fraction).cos())
 }
 
 fn largest_sigma_mps(gusts: &Gusts) -> f64 {
@@ -96,18 +96,18 @@ fn sensor_defect(scenario: &Scenario, log: &VehicleLog) -> Option<String> {
     ];
     series.iter().find_map(|(what, sigma, pairs)| {
         let errors = errors(pairs, late);
-        // Until news can arrive the first measurement is all that there is, again and again: of noise that is one.
+        // Until the delay has passed the first measurement is repeated, so that its noise counts once.
         let early = late.min(errors.len().saturating_sub(1));
-        let is_news = pairs[..early].iter().any(|[measured, _]| *measured != pairs[0][0]);
-        let news = || format!("the measured {what} changes before anything can be known of it");
-        is_news
-            .then(news)
+        let is_changed = pairs[..early].iter().any(|[measured, _]| *measured != pairs[0][0]);
+        let change = || format!("the measured {what} changes before the delay of the first measurement has passed");
+        is_changed
+            .then(change)
             .or_else(|| noise_defect(what, *sigma, if *sigma == 0.0 { &errors } else { &errors[early..] }))
     })
 }
 
-/// What measurements are off by, each against the truth of so many samples before; those of the beginning, when nothing
-/// could be known yet, against the first.
+/// Errors of the measurements, each against the true value `late` samples before; those of the first `late` samples against
+/// the first true value.
 fn errors(pairs: &[[[f64; 3]; 2]], late: usize) -> Vec<[f64; 3]> {
     let error = |(index, [measured, _]): (usize, &[[f64; 3]; 2])| {
         let [_, truth] = pairs[index.saturating_sub(late)];
@@ -116,23 +116,26 @@ fn errors(pairs: &[[[f64; 3]; 2]], late: usize) -> Vec<[f64; 3]> {
     pairs.iter().enumerate().map(error).collect()
 }
 
-/// Do measurements differ from the truth as noise of this standard deviation does? Without noise they are the truth.
+/// The defect of errors that are not noise of this standard deviation; without noise they must be 0.
 fn noise_defect(what: &str, sigma: f64, errors: &[[f64; 3]]) -> Option<String> {
     let count = 3 * errors.len();
     let errors = errors.iter().copied().flatten();
     let largest =
         errors.clone().fold(0.0, |worst: f64, error| if exceeds(error.abs(), worst) { error.abs() } else { worst });
     if sigma == 0.0 {
-        return (largest != 0.0).then(|| format!("the measured {what} is off by {largest:.3e}, without noise"));
+        return (largest != 0.0)
+            .then(|| format!("the measured {what} has an error of {largest:.3e}, but the scenario has no noise"));
     }
     if count == 0 {
         return None;
     }
     if largest == 0.0 {
-        return Some(format!("the measured {what} is the true one, although the scenario asks for noise"));
+        return Some(format!("the measured {what} has no error, but the scenario has noise"));
     }
     let estimate = (errors.map(|error| error * error).sum::<f64>() / count as f64).sqrt();
-    let tolerance = WILDEST_ESTIMATE / (2.0 * count as f64).sqrt();
+    let tolerance = MAX_ESTIMATE_ERROR / (2.0 * count as f64).sqrt();
     let is_off = exceeds((estimate / sigma - 1.0).abs(), tolerance);
-    is_off.then(|| format!("noise of the measured {what} has a standard deviation of {estimate:.3e}, not of {sigma}"))
+    is_off.then(|| {
+        format!("the noise of the measured {what} has a standard deviation of {estimate:.3e} instead of {sigma}")
+    })
 }

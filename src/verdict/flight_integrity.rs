@@ -193,7 +193,7 @@ mod tests {
         assert!(counts(20.0, &["uav-1"]) && !counts(21.0, &["uav-1"]));
         assert!(counts(21.0, &["uav-1", "uav-2"]) && counts(21.0, &["uav-2"]));
         assert!(!counts(41.0, &["uav-1", "uav-2"]));
-        assert!(counts(99.0, &[]), "nobody knows whom it concerns");
+        assert!(counts(99.0, &[]), "it names no vehicle");
         assert!(is_on_mission(
             &Event { t_s: 99.0, kind: EventKind::Crash { obstacle: None }, vehicles: vec!["uav-1".into()] },
             0.01,

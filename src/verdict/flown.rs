@@ -93,6 +93,7 @@ fn judged_part<'a>(
         return Err(MissingEvidence::LogOrder { found: log.vehicle.clone(), expected: vehicle.name.clone() });
     }
     let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?.sampled();
+    let hovers = trajectory.family().hovers();
     let planned_end_s = trajectory.end_s().unwrap_or(0.0);
     let window_s = planned_end_s - ARRIVAL_WINDOW_S;
     let mut flown = FlownVehicle {
@@ -101,13 +102,13 @@ fn judged_part<'a>(
         tracked: until(&log.samples, planned_end_s),
         judged_end_s: motion.end_s(),
         log_end_s: motion.end_s(),
-        approach: if matches!(trajectory, Trajectory::FixedWing(_)) {
-            closest::to_point(&motion, window_s, vehicle.goal.position_m())
-        } else {
+        approach: if hovers {
             hovering(&motion, planned_end_s, vehicle.goal.position_m())
+        } else {
+            closest::to_point(&motion, window_s, vehicle.goal.position_m())
         },
     };
-    let mission_end_s = if matches!(trajectory, Trajectory::FixedWing(_)) { planned_end_s } else { plan_end_s };
+    let mission_end_s = if hovers { plan_end_s } else { planned_end_s };
     let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(mission_end_s);
     motion.end_at(judged_end_s);
     flown.judged = until(&log.samples, judged_end_s);

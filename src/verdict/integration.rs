@@ -1,8 +1,8 @@
-//! How far would the flight be somewhere else if another integrator had flown it?
+//! Integration error of the flight: its distance from the same flight by another integrator.
 //!
 //! Cheap: the replay of `flight.dynamics`. Full: the whole flight again, feedback, wind and noise included, with the
-//! plant's steps halved and quartered, and the turbulence sampled as much more often. What was planned in the loop is
-//! followed again. A margin that is smaller than what two integrators disagree on decides nothing.
+//! plant's steps halved and quartered, and the turbulence sampled at the finer steps. References that were planned in the
+//! loop are followed again. A check whose margin is smaller than the difference is undecided.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,59 +12,59 @@ use crate::number_format::quantity;
 use crate::verdict::compare::{exceeds, is_larger};
 use crate::verdict::{Check, Status};
 
-/// What two integrators disagree on.
+/// The difference between two integrators.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Integration {
     /// How it was found.
     pub method: Method,
-    /// Largest distance between the flight and what the other integrator makes of it, m; absent where the two flights cannot
-    /// be compared, because only one of them ends in a crash.
+    /// Largest distance between the flight and that of the other integrator, m; absent if the two cannot be compared because
+    /// only one of them ends in a crash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub disagreement_m: Option<f64>,
-    /// Of the full form: largest distance between the flights with half and with a quarter of the plant's step, m. For an
-    /// integrator of second order it is a fifth of the above; in turbulence, which is rough at every scale, it is more.
+    /// Full form only: largest distance between the flights with half and with a quarter of the plant's step, m. For a
+    /// second-order integrator it is a fifth of the distance above; in turbulence, which is rough at every scale, it is larger.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_to_quarter_m: Option<f64>,
 }
 
-/// Ways to find the disagreement.
+/// Ways to estimate the difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Logged controls and air, through an integrator of order 6, restarted in windows.
+    /// Logged controls and air, integrated by a method of order 6, restarted in windows.
     Replay,
-    /// The flight repeated with half and a quarter of the plant's step; of one that was planned in the loop, with the same
+    /// The flight repeated with half and a quarter of the plant's step; if it was planned in the loop, with the same
     /// references.
     FinerSteps,
 }
 
 impl Integration {
-    /// The cheap form, from the check of the flight's dynamics; `None` if that did not pass: what its log does not explain is
-    /// not the integrator's doing, and has failed already.
+    /// The cheap form, from the check of the flight's dynamics; `None` if that did not pass: such a difference is not an
+    /// integration error, and has failed already.
     pub fn by_replay(checks: &[Check]) -> Option<Self> {
         let check = checks.iter().find(|check| check.name == DYNAMICS && check.status == Status::Pass)?;
         let disagreement_m = Some(check.value?);
         Some(Self { method: Method::Replay, disagreement_m, half_to_quarter_m: None })
     }
 
-    /// The full form: a flight, and the same with half and with a quarter of the plant's step.
+    /// The full form: from a flight, and the same flight with half and with a quarter of the plant's step.
     pub fn by_finer_steps(flight: &Flight, [half, quarter]: [&Flight; 2]) -> Self {
         let disagreement_m = distance_m(flight, quarter);
         Self { method: Method::FinerSteps, disagreement_m, half_to_quarter_m: distance_m(half, quarter) }
     }
 
-    /// Takes back what is decided by less than the disagreement: checks of the flight that are in metres.
+    /// Marks as undecided every check of the flight in metres whose margin is smaller than the difference.
     pub fn mark_undecided(&self, checks: &mut [Check]) {
         let of_flight =
             |check: &&mut Check| check.name.starts_with("flight.") && check.name != DYNAMICS && check.unit == "m";
         for check in checks.iter_mut().filter(of_flight) {
             let decided = matches!(check.status, Status::Pass | Status::Fail);
             let Some(margin_m) = check.margin.filter(|_| decided) else { continue };
-            let (unsure, by) = match self.disagreement_m {
-                Some(most_m) => (exceeds(most_m, margin_m.abs()), quantity(most_m, "m")),
+            let (is_unsure, by) = match self.disagreement_m {
+                Some(max_m) => (exceeds(max_m, margin_m.abs()), quantity(max_m, "m")),
                 None => (true, "more than a crash".to_owned()),
             };
-            if unsure {
+            if is_unsure {
                 check.status = Status::Undecided;
                 check.reason = Some(format!("two integrators disagree on the flight by {by}, more than the margin"));
             }
@@ -74,8 +74,7 @@ impl Integration {
 
 const DYNAMICS: &str = "flight.dynamics";
 
-/// Largest distance between vehicles and loads of two flights at the same instants, m. `None` if they do not hold the same
-/// instants.
+/// Largest distance between vehicles and loads of two flights at the same instants, m. `None` if their instants differ.
 fn distance_m(one: &Flight, other: &Flight) -> Option<f64> {
     let logs = one.vehicles.iter().zip(&other.vehicles);
     logs.map(|(one, other)| log_distance_m(one, other)).try_fold(0.0, |largest, distance_m| {
@@ -111,30 +110,30 @@ mod tests {
         check_spec("flight.clearance").unwrap().at_least(Measurement::value(value_m), 0.0)
     }
 
-    fn doubted(disagreement_m: Option<f64>, mut check: Check) -> Status {
+    fn status_after(disagreement_m: Option<f64>, mut check: Check) -> Status {
         let integration = Integration { method: Method::FinerSteps, disagreement_m, half_to_quarter_m: None };
         integration.mark_undecided(std::slice::from_mut(&mut check));
         check.status
     }
 
     #[test]
-    fn a_margin_below_the_disagreement_decides_nothing() {
+    fn a_margin_below_the_disagreement_is_undecided() {
         for value_m in [0.9e-3, -0.9e-3] {
-            assert_eq!(doubted(Some(1e-3), clearance(value_m)), Status::Undecided);
+            assert_eq!(status_after(Some(1e-3), clearance(value_m)), Status::Undecided);
         }
-        assert_eq!(doubted(Some(1e-3), clearance(1.1e-3)), Status::Pass);
-        assert_eq!(doubted(Some(1e-3), clearance(-1.1e-3)), Status::Fail);
-        assert_eq!(doubted(Some(f64::NAN), clearance(5.0)), Status::Undecided);
-        assert_eq!(doubted(None, clearance(5.0)), Status::Undecided);
+        assert_eq!(status_after(Some(1e-3), clearance(1.1e-3)), Status::Pass);
+        assert_eq!(status_after(Some(1e-3), clearance(-1.1e-3)), Status::Fail);
+        assert_eq!(status_after(Some(f64::NAN), clearance(5.0)), Status::Undecided);
+        assert_eq!(status_after(None, clearance(5.0)), Status::Undecided);
     }
 
     #[test]
-    fn what_was_not_flown_or_is_not_a_distance_is_not_doubted() {
+    fn checks_of_the_plan_and_other_units_keep_their_status() {
         let planned = check_spec("plan.clearance").unwrap().at_least(Measurement::value(1e-9), 0.0);
-        assert_eq!(doubted(Some(1.0), planned), Status::Pass);
+        assert_eq!(status_after(Some(1.0), planned), Status::Pass);
         let late = check_spec("flight.duration").unwrap().at_most(Measurement::value(1.0), 1.0);
-        assert_eq!(doubted(Some(1.0), late), Status::Pass);
+        assert_eq!(status_after(Some(1.0), late), Status::Pass);
         let failed = check_spec("flight.separation").unwrap().fail("no log");
-        assert_eq!(doubted(Some(1.0), failed), Status::Fail);
+        assert_eq!(status_after(Some(1.0), failed), Status::Fail);
     }
 }

@@ -12,16 +12,38 @@ use crate::verdict::{Check, Integration, Outcome, Provenance, Status, Verdict, c
 /// Every check of [`scenarios::check_names`] is answered, in that order. What does not apply to the scenario is skipped
 /// with the reason; what applies and cannot be measured, because something is missing, empty or not a number, fails
 /// with the reason. Nothing that a plan or a flight may hold makes it panic.
+///
+/// # Examples
+///
+/// A planned flight passes; the same flight with one sample 5 m to the north does not, because its log contradicts itself:
+///
+/// ```
+/// use harness::verdict::{Outcome, Status, judge};
+///
+/// let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing/rendezvous-1.toml");
+/// let scenario = scenarios::load(file.as_ref())?;
+/// let planner = planners::find(&scenario.planner.name).expect("a registered planner");
+/// let plan = planner.plan(&scenario.planner_view(), 0, &mut |_| {});
+/// let mut flight = sim::fly(&scenario, &plan, 0, &mut |_| {});
+/// assert_eq!(judge(&scenario, &plan, Some(&flight)).outcome, Outcome::Pass);
+///
+/// flight.vehicles[0].samples[100].position_m[1] += 5.0;
+/// let verdict = judge(&scenario, &plan, Some(&flight));
+/// let dynamics = verdict.checks.iter().find(|check| check.name == "flight.dynamics").expect("every check is answered");
+/// assert_eq!((verdict.outcome, dynamics.status), (Outcome::Fail, Status::Fail));
+/// # Ok::<(), scenarios::LoadError>(())
+/// ```
 pub fn judge(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Verdict {
     judge_imported(scenario, plan, &Provenance::whole(), flight)
 }
 
-/// [`judge`], of a plan that was not whole: what was reconstructed decides nothing that it cannot tell.
+/// As [`judge`], for a plan of which parts were reconstructed: checks whose margin is below the error of the reconstruction
+/// are undecided.
 pub fn judge_imported(scenario: &Scenario, plan: &Plan, provenance: &Provenance, flight: Option<&Flight>) -> Verdict {
     judge_with(scenario, plan, provenance, flight, None)
 }
 
-/// [`judge_imported`], with what a second integrator made of the flight; without it the disagreement is estimated.
+/// As [`judge_imported`], with the integration error found by a second integrator; `None` estimates it by a replay.
 pub fn judge_with(
     scenario: &Scenario,
     plan: &Plan,
@@ -49,7 +71,7 @@ pub fn judge_with(
     Verdict { outcome, overclaimed, checks, integration }
 }
 
-/// Applies what the scenario says of single checks: advisory ones do not decide, required ones must have been made.
+/// Applies the scenario's rules on single checks: advisory ones do not decide, required ones must have been made.
 fn apply_check_policy(scenario: &Scenario, checks: &mut Vec<Check>) {
     for name in &scenario.verdict.required {
         match checks.iter_mut().find(|check| check.name == *name) {

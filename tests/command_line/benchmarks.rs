@@ -55,7 +55,7 @@ fn bench_cooperative_measures_both_solvers_on_both_missions() {
         assert_eq!((&pair[0]["solver"], &pair[1]["solver"]), (&"block".into(), &"clarabel".into()));
         let flight_time_s = |row: &Value| row["metrics"]["flight_time_s"].as_f64();
         let own_s = flight_time_s(&pair[0]).unwrap();
-        // Clarabel may leave a plan off its start: then it has no figures.
+        // Clarabel's plan may miss its start: then it has no figures.
         let is_alike = flight_time_s(&pair[1]).is_none_or(|other_s| (own_s / other_s - 1.0).abs() < 0.01);
         assert!(is_alike, "{pair:?}");
         assert!(pair.iter().all(|row| row["planning_s"].as_f64().unwrap() > 0.0));

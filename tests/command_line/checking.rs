@@ -1,10 +1,10 @@
-//! `harness check`: somebody else's plan.
+//! `harness check`: plans from files.
 
 use std::fs;
 
 use crate::workplace::{PAIR, Workplace, code, shooting_pair, stderr, stdout};
 
-/// A workplace in which our own planner has planned the pair, and its plan with its first `columns` columns only.
+/// A workplace with a plan of the pair by a planner of the harness, reduced to its first `columns` columns.
 fn planned(columns: usize) -> Workplace {
     let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
     let output = workplace.harness(&["run", "pair.toml", "--record", "none", "-q"]);
@@ -21,7 +21,7 @@ fn check(workplace: &Workplace, plan: &str) -> (i32, String, String) {
 }
 
 #[test]
-fn our_own_plan_gets_the_verdict_that_it_had_in_either_form() {
+fn a_plan_of_the_harness_keeps_its_verdict_in_either_format() {
     let workplace = planned(11);
     for (plan, name) in [("theirs.csv", "theirs"), ("out/pair/parallel-scp/plan.json", "plan")] {
         let (code, page, errors) = check(&workplace, plan);
@@ -35,7 +35,7 @@ fn our_own_plan_gets_the_verdict_that_it_had_in_either_form() {
 }
 
 #[test]
-fn controls_that_were_not_given_are_reconstructed_and_said_to_be() {
+fn missing_controls_are_reconstructed_and_reported() {
     let workplace = planned(8);
     let (code, page, errors) = check(&workplace, "theirs.csv");
     assert_eq!(code, 0, "{page}{errors}");
@@ -64,7 +64,7 @@ fn a_required_check_that_the_plan_does_not_allow_fails() {
 }
 
 #[test]
-fn positions_alone_are_judged_with_what_they_allow() {
+fn plans_of_positions_are_judged_with_their_uncertainty() {
     let workplace = planned(5);
     let (_, page, errors) = check(&workplace, "theirs.csv");
     assert!(page.contains("skipped: nodes.state_limits (the plan gives no velocities)"), "{page}{errors}");
@@ -82,7 +82,7 @@ fn a_plan_that_ends_in_the_wrong_place_fails() {
 }
 
 #[test]
-fn a_file_that_is_no_plan_ends_with_code_2_and_leaves_nothing_behind() {
+fn an_invalid_plan_file_is_exit_code_2_and_leaves_nothing_behind() {
     let csv = "vehicle,t_s,x_m,y_m,z_m\nuav-1,0,0,-100,400\nuav-1,10,350,-100,400\nuav-3,0,0,100,400\n";
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("theirs.csv", csv), ("theirs.txt", csv)]);
     let (exit, _, errors) = check(&workplace, "theirs.csv");

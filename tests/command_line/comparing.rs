@@ -21,7 +21,7 @@ fn flown_time(report: &mut serde_json::Value) -> &mut serde_json::Value {
 }
 
 #[test]
-fn two_runs_of_one_version_do_not_differ_and_a_planted_loss_does() {
+fn two_runs_of_one_version_are_equal_and_an_injected_loss_is_found() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     run(&workplace, &["-o", "a", "--jobs", "1"]);
     run(&workplace, &["-o", "b", "--jobs", "2"]);
@@ -47,7 +47,7 @@ fn two_runs_of_one_version_do_not_differ_and_a_planted_loss_does() {
 }
 
 #[test]
-fn a_baseline_is_accepted_with_a_reason_and_held_against_later_runs() {
+fn a_baseline_is_accepted_with_a_reason_and_compared_with_later_runs() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     run(&workplace, &[]);
     let output = workplace.harness(&["baseline", "accept", "--reason", "the first"]);
@@ -59,7 +59,7 @@ fn a_baseline_is_accepted_with_a_reason_and_held_against_later_runs() {
     assert_eq!(exit, 0, "{page}");
     assert!(page.contains("1 result compared: 0 worse"), "{page}");
 
-    // the same aircraft, a longer way
+    // The same aircraft on a longer path.
     let longer = PAIR.replace("x_m = 1000,", "x_m = 1100,");
     fs::write(workplace.path("pair.toml"), longer).unwrap();
     let (exit, page) = run(&workplace, &["--baseline", "baseline.json"]);

@@ -1,4 +1,4 @@
-//! The edges of every input, from the file to the results.
+//! Edge cases of the input, from the file to the results.
 
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ fn without_the_second(text: &str) -> String {
 }
 
 #[test]
-fn the_longest_names_go_through_to_every_file_and_table() {
+fn the_longest_names_appear_in_every_file_and_table() {
     let [scenario, vehicle, pole] = ["s", "v", "p"].map(|letter| letter.repeat(64));
     let text =
         shooting().replace("\"pair\"", &format!("\"{scenario}\"")).replace("\"uav-1\"", &format!("\"{vehicle}\""));
@@ -30,7 +30,7 @@ fn the_longest_names_go_through_to_every_file_and_table() {
 }
 
 #[test]
-fn a_fleet_of_one_has_nobody_to_keep_away_from() {
+fn a_single_vehicle_has_no_separation() {
     let workplace = Workplace::new(&[("pair.toml", &without_the_second(&shooting()))]);
     let output = workplace.harness(&["run", "pair.toml", "-q"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -41,7 +41,7 @@ fn a_fleet_of_one_has_nobody_to_keep_away_from() {
 }
 
 #[test]
-fn a_wind_of_nothing_changes_nothing() {
+fn a_wind_of_zero_changes_nothing() {
     let calm =
         "\n[simulation]\nwind = { mean_mps = [0, 0, 0], gusts = { wind_at_20ft_mps = 0, sigma_aloft_mps = 0 } }\n";
     let with_none = format!("{}{calm}", shooting());
@@ -72,9 +72,9 @@ fn thousands_of_obstacles_are_planned_judged_and_recorded() {
     assert!(clearance["between"][1].as_str().unwrap().starts_with("tree-"), "{clearance}");
 }
 
-/// Plans with times of zero: no duration, two nodes at one time, a single node. Never a pass, never a panic.
+/// Plans without duration: all times zero, two nodes at one time, a single node. Never a pass, never a panic.
 #[test]
-fn times_of_zero_are_no_plan() {
+fn a_plan_without_duration_never_passes() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let output = workplace.harness(&["plan", "pair.toml", "-q", "-o", "plan.json"]);
     assert!(code(&output) < 2, "{}", stderr(&output));

@@ -90,7 +90,7 @@ fn an_in_loop_planner_that_crashes_fails_a_check() {
 }
 
 #[test]
-fn an_in_loop_planner_without_ids_is_read_and_told() {
+fn an_in_loop_planner_without_ids_is_accepted_with_a_note() {
     if !has_python("json") {
         return;
     }
@@ -132,7 +132,7 @@ fn in_loop_replies_that_do_not_match_fail_a_check() {
 }
 
 #[test]
-fn a_slow_in_loop_planner_is_told_and_flown_late_by_the_wall_clock() {
+fn a_slow_in_loop_planner_is_reported_and_by_the_wall_clock_flown_late() {
     if !has_python("json") {
         return;
     }

@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::workplace::{Workplace, code, stderr, stdout};
 
 #[test]
-fn a_generated_scenario_says_how_it_was_made_and_is_made_again_by_that_command() {
+fn a_generated_scenario_names_the_command_that_reproduces_it() {
     let workplace = Workplace::new(&[]);
     let output = workplace.harness(&["generate", "fixed-wing", "--kind", "ring", "--size", "3", "--seed", "5"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -62,8 +62,8 @@ fn errors_name_the_valid_kinds_and_ranges() {
     assert!(!workplace.path("generated").exists());
 }
 
-/// What each kind passed at least, of the smallest size, when the test was written. A lower number is a regression of the
-/// planner or of the generator; a higher one should be written here.
+/// Smallest number of passes of each kind at its smallest size, when the test was written. A lower number is a regression of
+/// the planner or of the generator; a higher one should be entered here.
 const FLOORS: &[(&str, u64)] = &[
     ("ring", 4),
     ("ring --free-arrival", 4),
@@ -121,7 +121,7 @@ fn bench_suite_finds_no_false_claim_in_a_hundred_scenarios() {
 }
 
 #[test]
-fn bench_suite_runs_what_it_is_asked_to() {
+fn bench_suite_runs_the_selected_kinds_and_planners() {
     let workplace = Workplace::new(&[]);
     let asked = ["--kind", "field", "--size", "16", "--density", "0.05", "--seeds", "2", "--first-seed", "7"];
     let planners = ["-p", "rhc", "-p", "sparse-astar", "-p", "fleet-scp"];
@@ -144,7 +144,7 @@ fn bench_suite_runs_what_it_is_asked_to() {
 }
 
 #[test]
-fn bench_suite_terminates_what_takes_too_long_and_keeps_the_scenario() {
+fn bench_suite_terminates_runs_at_the_time_limit_and_keeps_the_scenario() {
     let workplace = Workplace::new(&[]);
     let asked = ["--kind", "blocks", "--size", "3", "--seeds", "1", "--limit-s", "0.001"];
     let output = workplace.harness(&[&["bench", "suite"][..], &asked].concat());

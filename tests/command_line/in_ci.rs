@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
 
-/// A folder with a scenario that passes, one that fails, one without a plan, and one that is none.
+/// A folder with a scenario that passes, one that fails, one without a plan, and a file that is not a scenario.
 fn workplace() -> Workplace {
     let failing = PAIR.replace("\"pair\"", "\"strict\"")
         + "\n[simulation]\nwind = { mean_mps = [0, 5, 0] }\n[verdict]\ntracking_max_m = 0.001\n";
@@ -107,7 +107,7 @@ fn nothing_is_annotated_elsewhere() {
 }
 
 #[test]
-fn json_lines_are_all_that_is_on_standard_output() {
+fn standard_output_holds_json_lines_only() {
     let workplace = workplace();
     let output = on_github(&workplace, &["run", "all", "--record", "none", "--format", "json-lines"]);
     let lines: Vec<Value> = stdout(&output).lines().map(|line| serde_json::from_str(line).expect(line)).collect();
@@ -120,7 +120,7 @@ fn json_lines_are_all_that_is_on_standard_output() {
     assert!(stderr(&output).contains("::error "), "annotations go where they do no harm");
 }
 
-/// A margin that shrinks beyond tolerance fails the run although every check passes: everything that CI shows says so.
+/// A margin that shrinks beyond its tolerance fails the run although every check passes, in everything that CI shows.
 #[test]
 fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_summary() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
@@ -169,7 +169,7 @@ fn a_loss_against_the_baseline_is_in_junit_in_an_annotation_and_first_in_the_sum
     assert_eq!((&summary["exit_code"], &summary["summary"]["worse_than_baseline"]), (&1.into(), &1.into()));
 }
 
-/// Passed, failed, advisory, undecided, no plan, refused, worse than a baseline: everything that can be in the file.
+/// Passed, failed, advisory, undecided, no plan, refused, worse than a baseline: every kind of entry in the file.
 #[test]
 fn junit_is_valid_against_the_schemas_of_jenkins_and_of_ant() {
     let workplace = workplace();

@@ -22,7 +22,7 @@ fn scenarios_and_planners_are_listed() {
 }
 
 #[test]
-fn long_descriptions_are_wrapped_and_lose_no_word() {
+fn long_descriptions_are_wrapped_without_losing_a_word() {
     let description = "word ".repeat(60);
     let long = PAIR
         .replace("Two aircraft fly 1 km straight ahead, side by side, and arrive together.", description.trim_end());

@@ -1,4 +1,4 @@
-//! Faults of the machine: killed at any moment, nowhere to write.
+//! Faults of the machine: processes killed at any moment, full disks, missing permissions.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -18,7 +18,7 @@ fn run(workplace: &Workplace, seed: &str) -> Command {
     command
 }
 
-/// Fifty times over the length of a run. Whatever is there is whole, and from one of the two runs.
+/// Fifty times over the length of a run. Every file that exists is complete, and from one of the two runs.
 #[cfg(unix)]
 #[test]
 fn killed_at_any_moment_a_run_leaves_whole_files_and_a_rerun_finishes() {
@@ -37,7 +37,7 @@ fn killed_at_any_moment_a_run_leaves_whole_files_and_a_rerun_finishes() {
         let summary: Value = workplace.json("out/summary.json");
         assert_eq!(summary["runs"].as_array().map(Vec::len), Some(1), "moment {moment}");
         assert!(fs::read_to_string(workplace.path("out/junit.xml")).unwrap().trim_end().ends_with("</testsuites>"));
-        // The next one starts from the same: earlier results.
+        // The next run starts from the same earlier results.
         if results[0]["seed"] == 1 {
             run(&workplace, "0").status().unwrap();
         }
@@ -48,7 +48,7 @@ fn killed_at_any_moment_a_run_leaves_whole_files_and_a_rerun_finishes() {
 }
 
 #[test]
-fn where_nothing_can_be_written_the_error_names_the_place() {
+fn an_unwritable_folder_is_named_in_the_error() {
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("taken", "a file where the folder should be")]);
     let output = workplace.harness(&["run", "pair.toml", "--record", "none", "-q", "-o", "taken"]);
     assert_eq!(code(&output), 2, "{}", stderr(&output));
@@ -56,7 +56,7 @@ fn where_nothing_can_be_written_the_error_names_the_place() {
     assert_eq!(fs::read_to_string(workplace.path("taken")).unwrap(), "a file where the folder should be");
 }
 
-/// A limit on the size of files stands for a disk that is full: the write fails half way.
+/// A limit on file size stands in for a full disk: the write fails half way.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error_that_names_the_file_and_leaves_earlier_results() {

@@ -26,7 +26,7 @@ fn a_dash_prints_nothing_but_the_plan() {
 }
 
 #[test]
-fn no_plan_is_code_1_and_leaves_the_old_file() {
+fn no_plan_is_exit_code_1_and_leaves_the_old_file() {
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("plan.csv", "old")]);
     let output = workplace.harness(&["plan", "pair.toml", "-o", "plan.csv", "--planner-command", "false"]);
     assert_eq!(code(&output), 1);
@@ -35,7 +35,7 @@ fn no_plan_is_code_1_and_leaves_the_old_file() {
 }
 
 #[test]
-fn bad_usage_is_code_2() {
+fn bad_usage_is_exit_code_2() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     for (arguments, message) in [
         (&["plan", "pair.toml", "-o", "plan.txt"][..], "written as .json or .csv"),

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use crate::workplace::{PAIR, Workplace, code, has_python, stderr};
 
-/// Runs the scenario in `file` and has the reader check its recording.
+/// Runs the scenario in `file` and checks its recording with the reader.
 fn check(workplace: &Workplace, file: &str, recording: &str) {
     let output = workplace.harness(&["run", file, "--record", "mcap", "-q"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
@@ -23,7 +23,7 @@ fn an_independent_reader_finds_everything_in_the_recording() {
     check(&workplace, "pair.toml", "out/pair/parallel-scp/flight.mcap");
 }
 
-/// Moving and hidden obstacles, horizons, gates, cables: what single families have is in the recording too.
+/// Moving and hidden obstacles, horizons, gates and cables, which only some families have, are recorded too.
 #[test]
 fn no_vehicle_family_is_left_out_of_the_recording() {
     if !has_python("mcap, mcap_protobuf") {

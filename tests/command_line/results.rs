@@ -1,4 +1,4 @@
-//! What a run leaves on disk.
+//! The files of a run.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::workplace::{PAIR, Workplace, code, stderr};
 
 const FOLDER: &str = "out/pair/parallel-scp";
 
-/// Everything random is switched on.
+/// A scenario with every source of randomness.
 fn disturbed_pair() -> String {
     let disturbances = "[simulation]\n\
         wind = { mean_mps = [1, 2, 0], gusts = { wind_at_20ft_mps = 5, sigma_aloft_mps = 1 } }\n\
@@ -38,7 +38,7 @@ fn reproducible(value: Value) -> Value {
 }
 
 #[test]
-fn the_report_holds_every_check_with_the_fields_that_others_rely_on() {
+fn the_report_holds_every_check_with_the_fields_of_the_contract() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     run(&workplace, &["--record", "none", "--seed", "3"]);
     let report = workplace.json(&format!("{FOLDER}/report.json"));
@@ -61,7 +61,7 @@ fn the_report_holds_every_check_with_the_fields_that_others_rely_on() {
 }
 
 #[test]
-fn the_plan_is_there_in_both_forms_and_they_agree() {
+fn the_plan_is_written_in_both_formats_and_they_agree() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     run(&workplace, &["--record", "none"]);
     let json = fs::read_to_string(workplace.path(FOLDER).join("plan.json")).unwrap();

@@ -1,8 +1,8 @@
-//! `harness run`: exit codes, bad input, what is printed.
+//! `harness run`: exit codes, bad input, output.
 
 use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
 
-/// No tracker keeps a nanometre in this wind.
+/// No tracker stays within a nanometre in this wind.
 const STRICT: &str = "[simulation]\nwind = { mean_mps = [0, 5, 0] }\n[verdict]\ntracking_max_m = 1e-9\n";
 
 fn strict_pair() -> String {
@@ -10,7 +10,7 @@ fn strict_pair() -> String {
 }
 
 #[test]
-fn a_good_scenario_passes_with_code_0_and_says_so_in_one_line() {
+fn a_passing_scenario_is_exit_code_0_and_one_line() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
     let page = stdout(&output);
@@ -21,7 +21,7 @@ fn a_good_scenario_passes_with_code_0_and_says_so_in_one_line() {
 }
 
 #[test]
-fn a_failed_check_is_named_and_ends_with_code_1() {
+fn a_failed_check_is_named_and_is_exit_code_1() {
     let workplace = Workplace::new(&[("strict.toml", &strict_pair())]);
     let output = workplace.harness(&["run", "strict.toml", "--record", "none"]);
     assert_eq!(code(&output), 1, "{}", stderr(&output));
@@ -58,7 +58,7 @@ fn a_bad_file_is_named_with_line_and_column_and_the_good_ones_still_run() {
 }
 
 #[test]
-fn a_planner_that_a_scenario_names_but_that_is_not_there_is_pointed_to() {
+fn an_unknown_planner_in_a_scenario_is_located() {
     let workplace = Workplace::new(&[("pair.toml", &PAIR.replace("parallel-scp", "paralel-scp"))]);
     let output = workplace.harness(&["run", "pair.toml"]);
     let errors = stderr(&output);
@@ -69,7 +69,7 @@ fn a_planner_that_a_scenario_names_but_that_is_not_there_is_pointed_to() {
 }
 
 #[test]
-fn bad_usage_ends_with_code_2_and_leaves_nothing_behind() {
+fn bad_usage_is_exit_code_2_and_leaves_nothing_behind() {
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("empty/notes.txt", "")]);
     let cases: [(&[&str], &str); 6] = [
         (&["run", "pair.toml", "--planner", "paralel-scp"], "did you mean `parallel-scp`?"),
@@ -104,7 +104,7 @@ fn quiet_means_errors_only() {
 }
 
 #[test]
-fn progress_is_plain_lines_and_nothing_is_coloured_away_from_a_terminal() {
+fn without_a_terminal_progress_is_plain_lines_and_nothing_is_coloured() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
     let progress = stderr(&output);
@@ -116,7 +116,7 @@ fn progress_is_plain_lines_and_nothing_is_coloured_away_from_a_terminal() {
 }
 
 #[test]
-fn a_result_folder_that_can_not_be_made_is_an_error_of_the_environment() {
+fn a_result_folder_that_cannot_be_created_is_an_error() {
     let workplace = Workplace::new(&[("pair.toml", PAIR), ("out", "a file, not a folder")]);
     let output = workplace.harness(&["run", "pair.toml", "--record", "none"]);
     assert_eq!(code(&output), 2);
@@ -130,9 +130,9 @@ fn without_arguments_the_help_is_shown() {
     assert!(stderr(&output).contains("Examples:") && stderr(&output).contains("Exit codes:"));
 }
 
-/// Whoever reads standard error may leave early (`harness run 2>&1 | head`): the faults still end in exit code 2.
+/// The reader of standard error may close it early (`harness run 2>&1 | head`): bad input is still exit code 2.
 #[test]
-fn bad_input_is_exit_code_2_even_if_nobody_reads_the_errors() {
+fn bad_input_is_exit_code_2_even_if_standard_error_is_closed() {
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);
     let status = std::process::Command::new(env!("CARGO_BIN_EXE_harness"))

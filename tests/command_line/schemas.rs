@@ -1,4 +1,4 @@
-//! The committed JSON Schemas are those that the code generates, and real files keep them.
+//! The committed JSON Schemas are those that the code generates, and real files conform to them.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Stopped by ctrl-C, in every phase: what is complete stays, what is not is said, and nothing half written is left.
+//! Ctrl-C in every phase: complete results stay, incomplete ones are listed, and no partial file is left.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 
 use crate::workplace::{PAIR, Workplace, code, stderr};
 
-/// A shipped scenario whose phases take long enough to be hit.
+/// A shipped scenario whose phases last long enough to be interrupted.
 fn long_one() -> (&'static str, String) {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing/exchange-25.toml");
     ("exchange-25.toml", fs::read_to_string(file).unwrap())
@@ -19,7 +19,7 @@ fn start(workplace: &Workplace, arguments: &[&str]) -> Child {
     command.args(arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Presses ctrl-C when standard error says `when`. Returns the exit code and everything that was said afterwards.
+/// Presses ctrl-C when `when` appears on standard error. Returns the exit code and the output after it.
 fn stopped_when(mut child: Child, when: &str) -> (i32, String) {
     let mut said = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
@@ -47,14 +47,14 @@ fn files_below(folder: &Path) -> Vec<String> {
     names
 }
 
-fn assert_nothing_half_written(workplace: &Workplace) {
+fn assert_no_partial_files(workplace: &Workplace) {
     let partial: Vec<String> =
         files_below(&workplace.path("out")).into_iter().filter(|name| name.contains(".partial")).collect();
     assert!(partial.is_empty(), "{partial:?}");
 }
 
 #[test]
-fn in_every_phase_what_is_complete_stays_and_what_is_not_is_named() {
+fn in_every_phase_complete_results_stay_and_incomplete_ones_are_listed() {
     let (name, text) = long_one();
     let first = PAIR.replace("name = \"pair\"", "name = \"a-pair\"");
     let workplace = Workplace::new(&[("a-pair.toml", &first), (name, &text)]);
@@ -66,24 +66,24 @@ fn in_every_phase_what_is_complete_stays_and_what_is_not_is_named() {
         assert!(said.contains("1 of 2 are complete: a-pair (parallel-scp)"), "{phase}: {said}");
         assert!(said.contains("not complete: exchange-25 (fleet-scp)"), "{phase}: {said}");
         assert!(workplace.path("out/a-pair/parallel-scp/report.json").exists(), "{phase}");
-        assert_nothing_half_written(&workplace);
+        assert_no_partial_files(&workplace);
         assert!(!workplace.path("out/exchange-25/fleet-scp/report.json").exists(), "{phase}");
         assert!(!workplace.path("out/summary.json").exists(), "{phase}");
     }
 }
 
 #[test]
-fn a_recording_that_is_stopped_is_not_there() {
+fn an_interrupted_recording_leaves_no_file() {
     let (name, text) = long_one();
     let workplace = Workplace::new(&[(name, &text)]);
     let (code, said) = stopped_when(start(&workplace, &["run", name, "--record", "parquet"]), "recording");
     assert_eq!(code, 130, "{said}");
-    assert_nothing_half_written(&workplace);
+    assert_no_partial_files(&workplace);
     assert!(!workplace.path("out/exchange-25/fleet-scp/report.json").exists());
 }
 
 #[test]
-fn a_command_that_plans_ends_with_us() {
+fn an_external_planner_ends_with_the_run() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let command = "sh -c 'echo $$ > pid; exec sleep 600'";
     let child = start(&workplace, &["run", "pair.toml", "--planner-command", command, "--time-limit", "600"]);
@@ -106,7 +106,7 @@ fn a_command_that_plans_ends_with_us() {
 }
 
 #[test]
-fn selftest_stress_and_benchmarks_stop_too() {
+fn selftest_stress_and_benchmarks_can_be_interrupted() {
     let (name, text) = long_one();
     let rendezvous = include_str!("../../scenarios/fixed-wing/rendezvous-7.toml");
     let workplace = Workplace::new(&[(name, &text), ("scenarios/fixed-wing/rendezvous-7.toml", rendezvous)]);
@@ -118,12 +118,12 @@ fn selftest_stress_and_benchmarks_stop_too() {
         let (code, said) = stopped_when(start(&workplace, arguments), when);
         assert_eq!(code, 130, "{arguments:?}: {said}");
         assert!(said.contains("no incomplete files are left"), "{arguments:?}: {said}");
-        assert_nothing_half_written(&workplace);
+        assert_no_partial_files(&workplace);
     }
 }
 
 #[test]
-fn what_a_killed_run_left_is_removed_by_the_next() {
+fn temporary_files_of_a_killed_run_are_removed_by_the_next() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     let (name, text) = long_one();
     fs::write(workplace.path(name), text).unwrap();
@@ -145,5 +145,5 @@ fn what_a_killed_run_left_is_removed_by_the_next() {
     assert!(files_below(&workplace.path(folder)).iter().any(is_partial));
     let output = workplace.harness(&["run", name, "--record", "none", "-q"]);
     assert!(code(&output) < 2, "{}", stderr(&output));
-    assert_nothing_half_written(&workplace);
+    assert_no_partial_files(&workplace);
 }

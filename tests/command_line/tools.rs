@@ -59,7 +59,7 @@ fn tags_and_names_select() {
 }
 
 #[test]
-fn selecting_nothing_is_no_success() {
+fn an_empty_selection_is_an_error() {
     let workplace = fleet_of_three();
     for arguments in [&["run", "--tag", "cj"][..], &["list", "--name", "nothing*"]] {
         let output = workplace.harness(arguments);
@@ -69,7 +69,7 @@ fn selecting_nothing_is_no_success() {
 }
 
 #[test]
-fn the_json_list_says_who_handles_what() {
+fn the_json_list_says_which_planner_handles_what() {
     let output = fleet_of_three().harness(&["list", "--json"]);
     let listed: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     let first = &listed["scenarios"][0];
@@ -80,7 +80,7 @@ fn the_json_list_says_who_handles_what() {
 
 /// An editor finds the schema without a network, from the repository alone.
 #[test]
-fn shipped_scenarios_name_a_schema_that_is_there() {
+fn shipped_scenarios_name_an_existing_schema() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files =
         scenarios::find(&[root.join("scenarios"), root.join("examples"), root.join("tests/scenarios")]).unwrap();

@@ -1,5 +1,4 @@
-//! What makes a verdict one to rely on: the selftest, two integrators, flights that are the same to the last bit, and how
-//! much a plan bears.
+//! Evidence for a verdict: the selftest, two integrators, bit-identical flights, and failure thresholds.
 
 use std::fs;
 
@@ -22,7 +21,7 @@ fn every_fault_is_caught_every_near_miss_passes_and_no_check_is_idle() {
     assert!(page.contains("a pole of 2 cm stands between two samples"), "{page}");
 }
 
-/// The report without what may differ from run to run.
+/// The report without the fields that may differ from run to run.
 fn settled(mut report: Value) -> Value {
     let object = report.as_object_mut().unwrap();
     object.remove("timings");
@@ -34,7 +33,7 @@ fn settled(mut report: Value) -> Value {
 
 #[cfg(feature = "parquet")]
 #[test]
-fn flights_are_the_same_on_any_number_of_threads_and_one_ulp_parts_them() {
+fn flights_are_identical_on_any_number_of_threads_and_differ_after_one_ulp() {
     let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
     for jobs in ["1", "2"] {
         let output = workplace.harness(&["run", "pair.toml", "--record", "parquet", "-q", "-j", jobs, "-o", jobs]);
@@ -71,7 +70,7 @@ fn flights_are_the_same_on_any_number_of_threads_and_one_ulp_parts_them() {
 }
 
 #[test]
-fn the_second_integrator_is_told_in_either_form() {
+fn the_second_integrator_is_reported_in_either_form() {
     let workplace = Workplace::new(&[("pair.toml", PAIR)]);
     for (form, method) in [("cheap", "replay"), ("full", "finer-steps")] {
         let output =
@@ -125,7 +124,7 @@ fn a_flight_that_is_planned_in_the_loop_is_flown_with_finer_steps_as_well() {
 }
 
 #[test]
-fn wind_that_cannot_act_is_refused_and_not_drawn() {
+fn wind_without_effect_is_refused_and_not_sampled() {
     let still = HOP.replace("drag_area_m2 = 0.05\n", "");
     let still = &still[..still.find("wind = ").unwrap()];
     let workplace = Workplace::new(&[("hop.toml", still)]);
@@ -144,7 +143,7 @@ fn wind_that_cannot_act_is_refused_and_not_drawn() {
 }
 
 #[test]
-fn stress_tells_where_the_verdict_turns() {
+fn stress_finds_the_level_at_which_the_verdict_changes() {
     let workplace = Workplace::new(&[("pair.toml", &shooting_pair())]);
     let output = workplace.harness(&["stress", "pair.toml", "--over", "wind,mass,delay"]);
     let said = stdout(&output);

@@ -38,7 +38,7 @@ impl Workplace {
     /// Runs `harness` in the folder.
     pub fn harness(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_harness"));
-        // The tests may run in a workflow, whose summary they must not touch.
+        // The tests may run in a workflow, whose job summary they must not change.
         command.env_remove("GITHUB_ACTIONS").env_remove("GITHUB_STEP_SUMMARY");
         command.current_dir(self.folder.path()).args(arguments).output().unwrap()
     }
@@ -86,7 +86,7 @@ pub fn has_python(modules: &str) -> bool {
     found
 }
 
-/// Says on standard error that a test is skipped because this machine lacks `what`; where the environment variable `CI` is
+/// Reports on standard error that a test is skipped because this machine lacks `what`; where the environment variable `CI` is
 /// set, the test fails instead.
 #[track_caller]
 pub fn skip_without(what: &str) {

@@ -1,4 +1,4 @@
-//! What happens between two samples or two nodes is seen, and what does not happen is not.
+//! Events between two samples or two nodes are detected, and none is invented.
 
 use harness::verdict::Status;
 use scenarios::Cylinder;
@@ -21,7 +21,7 @@ fn a_needle_between_two_samples_is_hit() {
     }
 }
 
-/// Turns the second aircraft round, so that the two meet head on, `offset_m` to the side.
+/// Reverses the second aircraft, so that the two meet head-on, `offset_m` to the side.
 fn head_on(offset_m: f64) -> Case {
     let mut case = Case::straight(&[0.0, offset_m], 0.01);
     let length_m = SPEED_MPS * END_S;
@@ -65,7 +65,7 @@ fn meeting_head_on_between_the_nodes_is_seen() {
     }
 }
 
-/// Two that meet between two samples, 0.7 m of closing distance apart, with centimetres to keep.
+/// Two aircraft meet between two samples, between which they close by 0.7 m; the required separation is centimetres.
 #[test]
 fn meeting_head_on_between_two_samples_is_seen() {
     for (offset_m, status) in [(0.049, Status::Fail), (0.051, Status::Pass)] {
@@ -125,7 +125,7 @@ fn a_climb_between_level_nodes_breaks_the_altitude_limit_of_the_plan_only() {
     assert_eq!((check.status, check.limit), (Status::Fail, Some(400.5)), "{check:#?}");
 }
 
-/// Nobody waits at the goal: an aircraft that has arrived is out of the others' way.
+/// Aircraft do not wait at their goals: one that has arrived does not obstruct the others.
 #[test]
 fn an_arrived_vehicle_no_longer_counts_for_separation() {
     let mut case = Case::straight(&[0.0, 200.0], 0.01);
@@ -141,7 +141,7 @@ fn an_arrived_vehicle_no_longer_counts_for_separation() {
     }
     assert_eq!(case.status("flight.separation"), Status::Pass);
     assert_eq!(case.status("plan.separation"), Status::Pass);
-    // While the first is still on its way the same is a collision.
+    // While the first is still on its mission, the same manoeuvre is a collision.
     case.trajectory(0).times_s[5] = 16.0;
     assert_eq!(case.status("flight.separation"), Status::Fail);
 }

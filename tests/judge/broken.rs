@@ -1,4 +1,4 @@
-//! Plans and flights that are not what they should be never pass, and never make the judge panic.
+//! Invalid plans and flights never pass, and never make the judge panic.
 
 use harness::verdict::{Outcome, Status};
 use scenarios::PlanStatus;
@@ -7,7 +7,7 @@ use sim::Sample;
 
 use crate::fleet::{Case, END_S, factors};
 
-/// What is broken, and how.
+/// A description of the defect, and how it is made.
 type Break = (&'static str, fn(&mut Case));
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -71,7 +71,7 @@ fn a_number_that_is_not_finite_fails_wherever_a_flight_holds_it() {
     }
 }
 
-/// The checks that use a number fail of themselves, and do not rely on `flight.finite`.
+/// The checks that use a number fail by themselves, without relying on `flight.finite`.
 #[test]
 fn each_check_fails_of_itself_on_nan() {
     let nan = |spoil: fn(&mut Sample), checks: &[&str]| {
@@ -131,7 +131,7 @@ fn a_start_in_another_direction_or_speed_is_no_start() {
         spoil(&mut case.trajectory(0).states[0]);
         assert_fails(&case, "plan.complete", "start");
     }
-    // A whole turn more is the same direction.
+    // A heading one full turn larger is the same direction.
     let mut case = Case::good();
     case.trajectory(0).states.iter_mut().for_each(|state| state.heading_rad += std::f64::consts::TAU);
     assert_eq!(case.judge().outcome, Outcome::Pass);
@@ -217,7 +217,7 @@ fn a_vehicle_still_on_its_way_when_the_log_ends_has_not_arrived() {
     assert!(check.reason.is_some_and(|reason| reason.contains("uav-2 has not arrived")));
 }
 
-/// It comes past its goal after 5 s, when nobody expects it there, and flies on.
+/// It passes its goal after 5 s, long before its planned arrival, and flies on.
 #[test]
 fn passing_the_goal_on_the_way_is_no_arrival() {
     let mut case = Case::good();
@@ -295,7 +295,7 @@ fn garbage_never_passes_and_never_panics() {
     }
 }
 
-/// Some values of the dice leave the plan as it was but for a sign of zero or a mild change; such a plan may pass.
+/// Some random changes only flip the sign of a zero or are small; such a plan may pass.
 fn is_still_good(case: &Case) -> bool {
     let mild = |a: f64, b: f64| (a - b).abs() <= 0.2;
     let good = Case::good();

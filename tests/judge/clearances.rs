@@ -46,7 +46,7 @@ fn a_body_in_the_ground_is_a_crash_that_the_log_does_not_tell() {
     assert_eq!((check.status, check.between.last().map(String::as_str)), (Status::Fail, Some("ground")), "{check:#?}");
 }
 
-/// A log ends where the body touches: the distance at its end is 0, which is no clearance.
+/// A log ends where the body touches an obstacle: the distance at its end is 0, which is not a clearance.
 #[test]
 fn a_flight_that_crashes_into_an_obstacle_has_no_clearance() {
     let crash = |t_s: f64, obstacle: Option<&str>| {

@@ -1,27 +1,24 @@
 //! Every check on both sides of its limit.
 
-use std::collections::BTreeSet;
-
-use harness::verdict::{Outcome, Status};
-use scenarios::{Family, check_names};
+use harness::verdict::{Status, Verdict};
+use scenarios::Family;
 use sim::{Event, EventKind};
 
-use crate::fleet::{Case, SPEED_MPS, factors};
+use crate::edge_table::{Edge, PassingCase, assert_both_sides, assert_complete, assert_passes, edge};
+use crate::fleet::{Case, SPEED_MPS, check, factors};
 
-/// A check, a way to break it by a given amount, and amounts just beyond and just inside its limit.
-struct Edge {
-    check: &'static str,
-    apply: fn(&mut Case, f64),
-    fails: f64,
-    passes: f64,
-}
+impl PassingCase for Case {
+    fn good() -> Self {
+        Self::good()
+    }
 
-const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes: f64) -> Edge {
-    Edge { check, apply, fails, passes }
+    fn judge(&self) -> Verdict {
+        self.judge()
+    }
 }
 
 /// Distances 1 mm from their limits where the check measures in metres.
-const EDGES: &[Edge] = &[
+const EDGES: &[Edge<Case>] = &[
     edge("nodes.separation", |case, y_m| case.trajectory(0).states[5].y_m = y_m, 100.001, 99.999),
     edge("nodes.clearance", |case, y_m| case.trajectory(0).states[5].y_m = y_m, -99.001, -98.999),
     edge("nodes.state_limits", |case, speed| case.trajectory(1).states[3].speed_mps = speed, 40.001, 39.999),
@@ -72,7 +69,7 @@ fn delay(case: &mut Case, vehicle: usize, late_s: f64) {
     shift(case, vehicle, [-SPEED_MPS * late_s, 0.0, 0.0]);
 }
 
-/// Vehicles that are 0.3 s late, and a limit on the duration.
+/// Vehicles that arrive 0.3 s late, and a limit on the duration.
 fn end_of_time(case: &mut Case, max_duration_s: f64) {
     case.scenario.simulation.max_duration_s = max_duration_s;
     delay(case, 0, 0.3);
@@ -91,52 +88,24 @@ fn saturate(case: &mut Case, steps: f64) {
     }
 }
 
-fn broken(edge: &Edge, amount: f64) -> Case {
-    let mut case = Case::good();
-    (edge.apply)(&mut case, amount);
-    case
-}
-
 #[test]
 fn the_good_fleet_passes() {
-    let verdict = Case::good().judge();
-    let bad: Vec<_> =
-        verdict.checks.iter().filter(|check| !matches!(check.status, Status::Pass | Status::Skip)).collect();
-    assert!(bad.is_empty(), "{bad:#?}");
-    assert_eq!((verdict.outcome, verdict.overclaimed), (Outcome::Pass, false));
+    assert_passes(&Case::good().judge(), Family::FixedWing);
 }
 
 #[test]
 fn every_check_fails_just_beyond_its_limit_and_passes_just_inside() {
-    for edge in EDGES {
-        let check = broken(edge, edge.fails).check(edge.check);
-        assert_eq!(check.status, Status::Fail, "beyond: {check:#?}");
-        let check = broken(edge, edge.passes).check(edge.check);
-        assert_eq!(check.status, Status::Pass, "inside: {check:#?}");
-        assert!(check.margin.is_some_and(|margin| margin >= 0.0), "{check:#?}");
-    }
+    assert_both_sides(EDGES);
 }
 
-#[test]
-fn one_red_check_fails_the_verdict() {
-    for edge in EDGES {
-        assert_eq!(broken(edge, edge.fails).judge().outcome, Outcome::Fail, "{}", edge.check);
-    }
-}
-
-/// Nobody carries a load here, so that three checks are never asked.
-const NOT_ASKED: [&str; 3] = ["flight.tension", "flight.slack", "flight.swing"];
+/// Checks of the cable: no vehicle carries a load.
+const SKIPPED: [&str; 3] = ["flight.tension", "flight.slack", "flight.swing"];
 
 #[test]
-fn there_is_a_red_test_for_every_check_of_a_verdict() {
-    let verdict = Case::good().judge();
-    let names: Vec<&str> = verdict.checks.iter().map(|check| check.name.as_str()).collect();
-    let expected: Vec<&str> = check_names(Family::FixedWing).collect();
-    assert_eq!(names, expected, "the judge answers every check, in the order of the list");
-    let red: BTreeSet<&str> = EDGES.iter().map(|edge| edge.check).chain(NOT_ASKED).collect();
-    assert_eq!(red, expected.into_iter().collect());
-    for check in verdict.checks.iter().filter(|check| NOT_ASKED.contains(&check.name.as_str())) {
-        assert_eq!((check.status, check.reason.as_deref()), (Status::Skip, Some("no vehicle carries a load")));
+fn every_check_has_a_row_in_the_table() {
+    assert_complete(EDGES, Family::FixedWing, &SKIPPED);
+    for name in SKIPPED {
+        assert_eq!(Case::good().check(name).reason.as_deref(), Some("no vehicle carries a load"));
     }
 }
 
@@ -146,7 +115,7 @@ fn margins_are_in_the_unit_of_the_check() {
         [("flight.separation", 99.999, 0.001), ("flight.clearance", 99.001, -0.001), ("flight.goal", 4.999, 0.001)]
     {
         let edge = EDGES.iter().find(|edge| edge.check == name).unwrap();
-        let measured = broken(edge, amount).check(name).margin.unwrap();
+        let measured = check(&edge.verdict(amount), name).margin.unwrap();
         assert!((measured - margin).abs() < 1e-9, "{name}: {measured}");
     }
 }
@@ -167,7 +136,7 @@ fn the_worst_place_is_named() {
     assert_eq!((limits.at_s, limits.between.as_slice()), (Some(6.0), ["uav-2".to_owned()].as_slice()));
 }
 
-/// At the last node a jump of velocity moves no position: it counts by itself, times the interval's 2 s.
+/// A velocity jump at the last node moves no position: it counts by itself, times the 2 s of the interval.
 #[test]
 fn a_jump_of_velocity_breaks_the_dynamics() {
     for (jump_mps, status) in [(0.501, Status::Fail), (0.499, Status::Pass)] {

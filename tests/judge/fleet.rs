@@ -1,4 +1,4 @@
-//! A fleet that does everything right: three aircraft abreast, straight to the east for 20 s.
+//! A fleet that passes every check: three aircraft abreast, straight to the east for 20 s.
 
 use harness::verdict::{Check, Status, Verdict, judge};
 use scenarios::fixed_wing::{Control, Limits, Model, State, Trajectory};
@@ -16,7 +16,7 @@ const NODE_S: f64 = 2.0;
 const ALTITUDE_M: f64 = 400.0;
 const ABREAST_M: f64 = 200.0;
 
-/// What the judge gets.
+/// The input of the judge.
 #[derive(Clone)]
 pub struct Case {
     pub scenario: Scenario,
@@ -149,7 +149,7 @@ pub fn factors(sample: &mut Sample) -> &mut Commanded<Control> {
     factors
 }
 
-/// A vehicle exactly where the plan wants it, in still air.
+/// A vehicle exactly on its plan, in still air.
 pub fn sample(t_s: f64, position_m: [f64; 3], velocity_mps: [f64; 3]) -> Sample {
     Sample {
         t_s,

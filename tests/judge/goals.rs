@@ -7,7 +7,7 @@ use crate::fleet::{Case, SPEED_MPS};
 
 const CHECKS: [&str; 3] = ["nodes.goal", "plan.goal", "flight.goal"];
 
-/// The checks of a fleet of which one vehicle should have ended otherwise.
+/// The checks of a fleet after a change to the goal of one vehicle.
 fn checks(change: impl Fn(&mut Waypoint)) -> [Check; 3] {
     let mut case = Case::good();
     change(&mut case.scenario.vehicles[1].goal);
@@ -72,7 +72,7 @@ fn tolerances_are_those_of_the_scenario() {
     assert!(CHECKS.iter().all(|name| verdict.check(name).unwrap().status == Status::Pass));
 }
 
-/// The tracker leads an aircraft to its goal, but across it.
+/// The tracker steers an aircraft to the position of its goal, but in the wrong direction.
 #[test]
 fn the_velocity_in_flight_is_that_of_the_arrival() {
     let mut case = Case::good();

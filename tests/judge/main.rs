@@ -1,8 +1,10 @@
-//! The judge against hand-made plans and flights: what must fail fails, near misses pass.
+//! The judge on hand-made plans and flights: wrong ones fail, near misses pass.
 
 mod between_samples;
 mod broken;
 mod clearances;
+#[path = "../edges/mod.rs"]
+mod edge_table;
 mod edges;
 mod fleet;
 mod goals;

@@ -1,4 +1,4 @@
-//! The hardest fleet for the search for the smallest separation: neighbours that are equally close at all times.
+//! The hardest fleet for the search of the smallest separation: neighbours that are equally close at all times.
 
 use std::f64::consts::{PI, TAU};
 

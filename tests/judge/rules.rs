@@ -1,4 +1,4 @@
-//! Which checks decide: skipped, advisory, required ones; and what the verdict says of the planner.
+//! Which checks decide (skipped, advisory, required), and what the verdict says about the planner.
 
 use harness::metrics::over_time::{clearance_over_time, separation_over_time};
 use harness::metrics::{Metrics, measure};
@@ -90,7 +90,7 @@ fn a_distance_that_misses_its_limit_by_rounding_is_at_the_limit() {
     case.scenario.fleet.separation_m = Some(200.0);
     let check = case.check("plan.separation");
     assert_eq!((check.status, check.margin), (Status::Pass, Some(0.0)), "{check:#?}");
-    // A micrometre is no rounding between the nodes, and what a solver leaves at them.
+    // A micrometre exceeds rounding between the nodes, and is within a solver's tolerance at them.
     case.scenario.fleet.separation_m = Some(200.0 + 1e-6);
     assert_eq!(case.status("plan.separation"), Status::Fail);
     assert_eq!(case.status("nodes.separation"), Status::Pass);
@@ -140,7 +140,7 @@ fn a_climb_too_steep_is_seen_in_plan_and_flight() {
     for (climb_deg, status) in [(10.001_f64, Status::Fail), (9.999, Status::Pass)] {
         let mut case = Case::good();
         case.trajectory(0).states[3].flight_path_rad = climb_deg.to_radians();
-        // With n_z = 1 the climb would go on steepening after the node.
+        // With n_z = 1 the climb would keep steepening after the node.
         case.trajectory(0).controls[3].n_z = 0.9;
         let (sin, cos) = climb_deg.to_radians().sin_cos();
         case.samples(0)[600].velocity_mps = [35.0 * cos, 0.0, -35.0 * sin];
@@ -156,7 +156,7 @@ fn tracking_counts_while_the_plan_lasts() {
         sample.position_m[0] -= 10.0;
         sample.reference_position_m = sample.position_m;
     }
-    // It arrives 0.29 s late; until then it is judged, but there is no plan to follow any more.
+    // It arrives 0.29 s late; it is judged until then, although its plan has ended.
     case.samples(1)[2010].reference_position_m[0] += 6.0;
     assert_eq!(case.status("flight.tracking_max"), Status::Pass);
     case.samples(1)[1990].reference_position_m[0] += 6.0;
@@ -168,7 +168,7 @@ fn what_happens_while_coasting_after_the_arrival_does_not_count() {
     let mut case = Case::good();
     case.scenario.world.map.x_m.max = 705.0;
     assert_eq!(case.judge().outcome, Outcome::Pass);
-    // One that arrives late is judged until it arrives.
+    // A vehicle that arrives late is judged until it arrives.
     for sample in case.samples(1) {
         sample.position_m[0] -= 10.0;
     }
@@ -184,7 +184,7 @@ fn a_verdict_survives_json() {
     let text = serde_json::to_string(&verdict).unwrap();
     let read: Verdict = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
-    // Everything but the key of the limit, which the JSON does not hold.
+    // Everything except the key of the limit, which is not in the JSON.
     let mut verdict = verdict;
     verdict.checks.iter_mut().for_each(|check| check.limit_key = None);
     assert_eq!(read, verdict);

@@ -1,4 +1,4 @@
-//! Between sparse rows a vehicle may have done anything that its limits allow: no pass where that includes a collision.
+//! Between sparse rows a vehicle may do anything that its limits allow; where that includes a collision, nothing passes.
 
 use harness::plan_source::plan_import::complete;
 use harness::verdict::{Check, Status, Verdict, judge_imported};
@@ -106,7 +106,7 @@ fn what_may_hide_in_a_gap_between_dense_rows_does_not_pass() {
     }
 }
 
-/// What may happen between the rows costs no more than it must: with rows every 0.2 s some centimetres.
+/// The allowance between rows is no larger than necessary: a few centimetres for rows 0.2 s apart.
 #[test]
 fn dense_rows_cost_centimetres() {
     let mut scenario = scenario();

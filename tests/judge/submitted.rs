@@ -1,4 +1,4 @@
-//! Plans from files, damaged: completed, flown and judged without a panic or a hang, and none passes that should not.
+//! Damaged plan files are completed, flown and judged without a panic or a hang, and none passes wrongly.
 
 #[path = "../../scenarios/tests/damage/mod.rs"]
 mod damage;

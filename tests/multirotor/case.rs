@@ -1,4 +1,4 @@
-//! A flight that is right: two multirotors side by side past a wall and a cart, from rest to rest.
+//! A flight that passes every check: two multirotors side by side past a wall and a cart, from rest to rest.
 
 use std::sync::OnceLock;
 
@@ -62,7 +62,7 @@ pub fn scenario() -> Scenario {
     scenarios::parse("pair.toml", TEXT).expect("a good scenario")
 }
 
-/// What the judge gets.
+/// The input of the judge.
 #[derive(Clone)]
 pub struct Case {
     pub scenario: Scenario,

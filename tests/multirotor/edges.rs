@@ -1,26 +1,23 @@
 //! Every check on multirotors, on both sides of its limit.
 
-use std::collections::BTreeSet;
-
-use harness::verdict::{Outcome, Status};
-use scenarios::{Family, check_names};
+use harness::verdict::{Status, Verdict};
+use scenarios::Family;
 use sim::{Event, EventKind};
 
 use crate::case::{Case, acceleration};
+use crate::edge_table::{Edge, PassingCase, assert_both_sides, assert_complete, assert_passes, edge};
 
-/// A check, a way to bring what it measures to a given value, and values just beyond and just inside its limit.
-struct Edge {
-    check: &'static str,
-    apply: fn(&mut Case, f64),
-    fails: f64,
-    passes: f64,
+impl PassingCase for Case {
+    fn good() -> Self {
+        Self::good()
+    }
+
+    fn judge(&self) -> Verdict {
+        self.judge()
+    }
 }
 
-const fn edge(check: &'static str, apply: fn(&mut Case, f64), fails: f64, passes: f64) -> Edge {
-    Edge { check, apply, fails, passes }
-}
-
-const EDGES: &[Edge] = &[
+const EDGES: &[Edge<Case>] = &[
     edge("nodes.separation", |case, m| case.trajectory(1).states[1].position_m[1] = m, 0.999, 1.001),
     edge("nodes.clearance", grow_wall, -0.001, 0.001),
     edge("nodes.state_limits", |case, mps| case.trajectory(0).states[1].velocity_mps[0] = mps, 2.501, 2.499),
@@ -59,7 +56,7 @@ const EDGES: &[Edge] = &[
     edge("flight.saturation", saturate, 26.0, 25.0),
 ];
 
-/// Moves a whole flight to this y: a single sample that jumps would leave open where the vehicle was beside it.
+/// Moves a whole flight to this y: a single displaced sample would leave the motion beside it unknown.
 fn fly_at(case: &mut Case, vehicle: usize, y_m: f64) {
     case.samples(vehicle).iter_mut().for_each(|sample| sample.position_m[1] = y_m);
 }
@@ -69,7 +66,7 @@ fn grow_wall(case: &mut Case, clearance_m: f64) {
     case.scenario.world.boxes[0].size_m[1] = 2.0 * (2.0 - 0.35 - clearance_m);
 }
 
-/// Two cubics that come together between their nodes only.
+/// Two cubics that approach each other only between their nodes.
 fn between_nodes(case: &mut Case, distance_m: f64) {
     // Velocities ±v at both ends of the second interval, 1 s long: the cubic dips by v/4 in its middle.
     let states = &mut case.trajectory(1).states;
@@ -97,52 +94,28 @@ fn saturate(case: &mut Case, steps: f64) {
     }
 }
 
-fn broken(edge: &Edge, amount: f64) -> Case {
-    let mut case = Case::good();
-    (edge.apply)(&mut case, amount);
-    case
-}
-
 #[test]
-fn a_right_flight_passes() {
-    let verdict = Case::good().judge();
-    let bad: Vec<_> = verdict.checks.iter().filter(|check| check.is_bad()).collect();
-    assert!(bad.is_empty(), "{bad:#?}");
-    assert_eq!((verdict.outcome, verdict.overclaimed), (Outcome::Pass, false));
-    let names: Vec<&str> = verdict.checks.iter().map(|check| check.name.as_str()).collect();
-    assert_eq!(names, check_names(Family::Multirotor).collect::<Vec<_>>());
+fn the_good_flight_passes() {
+    assert_passes(&Case::good().judge(), Family::Multirotor);
 }
 
 #[test]
 fn every_check_fails_just_beyond_its_limit_and_passes_just_inside() {
-    for edge in EDGES {
-        let case = broken(edge, edge.fails);
-        assert_eq!(case.status(edge.check), Status::Fail, "beyond: {:#?}", case.check(edge.check));
-        assert_eq!(case.judge().outcome, Outcome::Fail, "{}", edge.check);
-        let check = broken(edge, edge.passes).check(edge.check);
-        assert_eq!(check.status, Status::Pass, "inside: {check:#?}");
-    }
+    assert_both_sides(EDGES);
 }
 
-/// What positions and velocities say already, and what says nothing without feedback.
-const NOT_ASKED: [&str; 2] = ["plan.dynamics", "plan.rollout"];
-/// What is asked only of flights that are planned in the loop: see `in_loop`.
-const IN_LOOP: [&str; 1] = ["flight.planner"];
+/// Checks that do not apply: a plan of positions and velocities has no defects, and open loop says nothing without
+/// feedback. `flight.planner` is made of flights that are planned in the loop: see `in_loop`.
+const SKIPPED: [&str; 3] = ["plan.dynamics", "plan.rollout", "flight.planner"];
 
 #[test]
-fn there_is_a_red_test_for_every_check_of_a_verdict() {
-    let skipped = || NOT_ASKED.into_iter().chain(IN_LOOP);
-    let red: BTreeSet<&str> = EDGES.iter().map(|edge| edge.check).chain(skipped()).collect();
-    assert_eq!(red, check_names(Family::Multirotor).collect());
-    let verdict = Case::good().judge();
-    for check in verdict.checks.iter().filter(|check| skipped().any(|name| name == check.name)) {
-        assert_eq!(check.status, Status::Skip, "{check:?}");
-    }
+fn every_check_has_a_row_in_the_table() {
+    assert_complete(EDGES, Family::Multirotor, &SKIPPED);
 }
 
-/// Two bodies in one place, without a rule for the fleet and without a word of it in the log.
+/// Two overlapping bodies, without a separation rule and without an event in the log.
 #[test]
-fn bodies_that_overlap_have_crashed_whatever_the_log_says() {
+fn overlapping_bodies_have_crashed_whatever_the_log_says() {
     for (apart_m, status) in [(0.698, Status::Fail), (0.702, Status::Pass)] {
         let mut case = Case::good();
         case.scenario.fleet.separation_m = None;
@@ -155,7 +128,7 @@ fn bodies_that_overlap_have_crashed_whatever_the_log_says() {
 
 /// A reference that follows the vehicle would make tracking perfect.
 #[test]
-fn a_reference_that_is_not_the_plan_s_is_seen() {
+fn a_reference_other_than_the_plan_s_is_detected() {
     for (off_m, status) in [(1e-5, Status::Fail), (1e-7, Status::Pass)] {
         let mut case = Case::good();
         case.samples(1)[321].reference_position_m[0] += off_m;
@@ -163,16 +136,17 @@ fn a_reference_that_is_not_the_plan_s_is_seen() {
     }
 }
 
-/// What is measured late says nothing new in the beginning, and what never comes is still held against the noise.
+/// Delayed measurements repeat the first one until the delay has passed, and are compared with the noise even if it never
+/// passes.
 #[test]
-fn late_measurements_are_looked_at_from_the_first_on() {
+fn delayed_measurements_are_checked_from_the_first_one() {
     for (delay_s, tampered) in [(0.05, 2), (0.05, 50), (100.0, 0), (100.0, 300)] {
         let mut case = Case::good();
         let sensors = &mut case.scenario.simulation.sensors;
         (sensors.position_noise_m, sensors.delay_s) = (0.01, delay_s);
         case.flight = Some(sim::fly(&case.scenario, &case.plan, 0, &mut |_| {}));
         assert_eq!(case.status("flight.conditions"), Status::Pass, "{:#?}", case.check("flight.conditions"));
-        // All that is told again and again, or one of it; later on only a whole that is off can be told from noise.
+        // All of the repeated measurements, or a single one; later, only an error far beyond the noise can be detected.
         let off_m = if tampered == 50 { 10.0 } else { 1.0 };
         let end = if tampered == 0 { usize::MAX } else { tampered + 1 };
         for sample in case.samples(0).iter_mut().take(end).skip(tampered) {
@@ -182,9 +156,9 @@ fn late_measurements_are_looked_at_from_the_first_on() {
     }
 }
 
-/// The more a velocity changes from sample to sample, the less is known of what lies between them.
+/// The more a velocity changes from sample to sample, the less certain is the motion between them.
 #[test]
-fn what_lies_between_samples_widens_the_clearance() {
+fn uncertainty_between_samples_widens_the_bounds_of_the_clearance() {
     let width_m = |shake_mps: f64| {
         let mut case = Case::good();
         for (index, sample) in case.samples(0).iter_mut().enumerate() {
@@ -198,7 +172,7 @@ fn what_lies_between_samples_widens_the_clearance() {
 }
 
 #[test]
-fn clearance_is_kept_from_what_is_hidden_what_moves_and_the_frame() {
+fn clearance_includes_hidden_and_moving_obstacles_and_the_map_frame() {
     let concerned = |change: fn(&mut Case)| {
         let mut case = Case::good();
         change(&mut case);

@@ -22,7 +22,7 @@ fn a_log_in_gusts_is_explained_by_them_and_by_no_others() {
     let mut case = gusty(20.0);
     let dynamics = case.check("flight.dynamics");
     assert!(dynamics.status == Status::Pass && dynamics.value.unwrap() < 1e-4, "{dynamics:?}");
-    // Between the same samples the air of a shorter, stronger gust is another one.
+    // A shorter, stronger gust has the same samples, but other air between them.
     let wind = case.scenario.simulation.wind.as_mut().unwrap();
     wind.pulses.push(GustPulse { start_s: 2.0001, duration_s: 0.0098, peak_mps: [0.0, 0.0, 150.0] });
     assert_eq!(case.status("flight.conditions"), Status::Pass, "no sample shows it");
@@ -30,7 +30,7 @@ fn a_log_in_gusts_is_explained_by_them_and_by_no_others() {
     assert!(dynamics.status == Status::Fail && (2.0..2.3).contains(&dynamics.at_s.unwrap()), "{dynamics:?}");
 }
 
-/// Airspeed is judged at the peak of a gust, which no sample need show.
+/// Airspeed is judged at the peak of a gust, even between samples.
 #[test]
 fn the_airspeed_at_the_peak_of_a_gust_counts() {
     for (peak_mps, wanted) in [(2.0, Status::Pass), (2.95, Status::Fail)] {

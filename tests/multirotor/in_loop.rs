@@ -1,5 +1,5 @@
-//! Flights that are planned while they last: by one who flies straight to the goal and stops, and by such as answer
-//! nonsense.
+//! Flights that are planned in the loop: by a planner that flies straight to the goal and stops, and by planners that
+//! return nonsense.
 
 use harness::plan_source::in_loop::as_plan;
 use harness::verdict::{Check, Outcome, Status, Verdict, judge};
@@ -9,7 +9,7 @@ use sim::{EventKind, Flight, fly};
 
 use crate::case::scenario;
 
-/// Flies to its goal at 1 m/s and stops there: as a planner, the least that does.
+/// Flies to its goal at 1 m/s and stops there: the simplest planner that works.
 struct Straight {
     goal_m: [f64; 3],
 }
@@ -22,7 +22,7 @@ impl InLoopPlanner for Straight {
         if length_m < 0.05 || observation.in_force.len() > 1 {
             return ReplanResult::keep("on the way");
         }
-        // 1 s up to 1 m/s and 1 s down again cover 1 m; the rest at 1 m/s.
+        // Accelerating to 1 m/s in 1 s and braking in 1 s cover 1 m; the rest is flown at 1 m/s.
         let at = |t_s: f64, share: f64, speed_mps: f64| Node {
             t_s,
             position_m: std::array::from_fn(|axis| from_m[axis] + share * way_m[axis]),
@@ -38,7 +38,7 @@ impl InLoopPlanner for Straight {
     }
 }
 
-/// Answers the same thing again and again.
+/// Returns the same result every time.
 struct Stubborn(fn(&Observation<'_>) -> ReplanResult);
 
 impl InLoopPlanner for Stubborn {
@@ -75,11 +75,11 @@ fn who_flies_to_his_goal_passes_and_is_asked_for_no_plan() {
     let of_plan = |check: &&Check| check.name.starts_with("nodes.") || check.name.starts_with("plan.");
     assert!(verdict.checks.iter().filter(of_plan).all(|check| check.status == Status::Skip));
     assert!(flight.events.iter().any(|event| event.kind == EventKind::Arrived));
-    // Both take 7 s, less what is slow enough to count as rest; the second has its first turn half a period later.
+    // Both take 7 s, less the part slow enough to count as rest; the second is called first half a period later.
     assert!((plan.flight_time_s().unwrap() - 7.0).abs() < 0.3, "{:?}", plan.flight_time_s());
 }
 
-/// References of 0.4 s from rest to 1 m/s: until the next one takes over, the vehicle is asked to stand.
+/// References of 0.4 s from rest to 1 m/s: until the next one takes effect, the vehicle is told to hover.
 #[test]
 fn what_was_followed_is_what_was_asked_for_also_where_references_end_in_motion() {
     let mut scenario = scenario();
@@ -102,18 +102,18 @@ fn what_was_followed_is_what_was_asked_for_also_where_references_end_in_motion()
     assert!(planner.reason.as_ref().unwrap().contains("a reference ended at 1.000 m/s"), "{planner:?}");
 }
 
-/// Flies straight to its goal, and does something else in one of its turns.
-struct OnceOtherwise {
+/// Flies straight to its goal, but returns something else at one of its turns.
+struct OneFault {
     straight: Straight,
     turn: usize,
-    otherwise: fn(&Observation<'_>) -> ReplanResult,
+    faulty: fn(&Observation<'_>) -> ReplanResult,
     remarks: PlannerRemarks,
 }
 
-impl InLoopPlanner for OnceOtherwise {
+impl InLoopPlanner for OneFault {
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
         self.turn = self.turn.wrapping_sub(1);
-        if self.turn == 0 { (self.otherwise)(observation) } else { self.straight.replan(observation) }
+        if self.turn == 0 { (self.faulty)(observation) } else { self.straight.replan(observation) }
     }
 
     fn finish(&mut self) -> PlannerRemarks {
@@ -121,9 +121,9 @@ impl InLoopPlanner for OnceOtherwise {
     }
 }
 
-fn once_otherwise(
+fn with_one_fault(
     turn: usize,
-    otherwise: fn(&Observation<'_>) -> ReplanResult,
+    faulty: fn(&Observation<'_>) -> ReplanResult,
     remarks: &PlannerRemarks,
 ) -> (Plan, Flight, Verdict) {
     let mut scenario = scenario();
@@ -131,13 +131,13 @@ fn once_otherwise(
     let goals: Vec<[f64; 3]> = scenario.vehicles.iter().map(|vehicle| vehicle.goal.position_m()).collect();
     flown(&scenario, |index| {
         let (straight, remarks) = (Straight { goal_m: goals[index] }, remarks.clone());
-        Box::new(OnceOtherwise { straight, turn: if index == 1 { turn } else { usize::MAX }, otherwise, remarks })
+        Box::new(OneFault { straight, turn: if index == 1 { turn } else { usize::MAX }, faulty, remarks })
     })
 }
 
 #[test]
 fn a_planner_that_fails_once_fails_a_check_although_the_vehicles_arrive() {
-    for (otherwise, reason) in [
+    for (faulty, reason) in [
         (
             (|_| ReplanResult::failed("it crashed")) as fn(&Observation<'_>) -> ReplanResult,
             "no reply that can be used: it crashed",
@@ -150,7 +150,7 @@ fn a_planner_that_fails_once_fails_a_check_although_the_vehicles_arrive() {
             "a reference that cannot be flown: at 1.430 s it is 1.732 m away",
         ),
     ] {
-        let (plan, flight, verdict) = once_otherwise(6, otherwise, &PlannerRemarks::default());
+        let (plan, flight, verdict) = with_one_fault(6, faulty, &PlannerRemarks::default());
         let bad: Vec<&str> =
             verdict.checks.iter().filter(|check| check.is_bad()).map(|check| check.name.as_str()).collect();
         assert_eq!((verdict.outcome, bad.as_slice()), (Outcome::Fail, ["flight.planner"].as_slice()));
@@ -169,10 +169,10 @@ fn a_planner_that_fails_once_fails_a_check_although_the_vehicles_arrive() {
 fn remarks_are_told_and_left_over_replies_fail() {
     let keep = |_: &Observation<'_>| ReplanResult::keep("on the way");
     let notes = vec!["3 lines are no replies".to_owned()];
-    let (_, _, verdict) = once_otherwise(6, keep, &PlannerRemarks { notes: notes.clone(), failure: None });
+    let (_, _, verdict) = with_one_fault(6, keep, &PlannerRemarks { notes: notes.clone(), failure: None });
     assert_eq!(verdict.outcome, Outcome::Pass);
     let failure = Some("1 of its replies is left over".to_owned());
-    let (_, _, verdict) = once_otherwise(6, keep, &PlannerRemarks { notes, failure });
+    let (_, _, verdict) = with_one_fault(6, keep, &PlannerRemarks { notes, failure });
     assert_eq!(check(&verdict, "flight.planner").reason.as_deref(), Some("1 of its replies is left over"));
     assert_eq!(verdict.outcome, Outcome::Fail);
 }
@@ -181,7 +181,7 @@ fn remarks_are_told_and_left_over_replies_fail() {
 fn a_failure_after_all_have_arrived_is_told_and_does_not_decide() {
     let crash = |_: &Observation<'_>| ReplanResult::failed("it crashed");
     // Arrival at about 7 s, and one more second to coast: turn 31 of the second vehicle is at 7.625 s.
-    let (plan, _, verdict) = once_otherwise(31, crash, &PlannerRemarks::default());
+    let (plan, _, verdict) = with_one_fault(31, crash, &PlannerRemarks::default());
     assert!(plan.flight_time_s().is_some_and(|time_s| time_s < 7.5), "{:?}", plan.flight_time_s());
     let planner = check(&verdict, "flight.planner");
     assert_eq!((planner.status, verdict.outcome), (Status::Pass, Outcome::Pass));

@@ -1,6 +1,8 @@
-//! The judge on multirotors, with plans that were there before the flight and with such as are made during it.
+//! The judge on multirotors, planned before the flight and in the loop.
 
 mod case;
+#[path = "../edges/mod.rs"]
+mod edge_table;
 mod edges;
 mod gusts;
 mod in_loop;

@@ -1,4 +1,4 @@
-//! Multirotors among each other: apart in space, counted while they hover, and judged until the mission's end.
+//! Separation of multirotors: in space, while they hover too, and until the end of the mission.
 
 use harness::verdict::{Outcome, Status};
 use scenarios::in_loop::Node;

@@ -1,4 +1,4 @@
-//! What node rows hide, and what the fleet planner does about it.
+//! Violations between the nodes, and how the fleet planner avoids them.
 
 use harness::verdict::{self, Outcome, Status, Verdict};
 use scenarios::{Plan, PlanStatus, Scenario};
@@ -16,7 +16,7 @@ fn the_paper_s_plan_holds_at_its_nodes_and_collides_between_them() {
 }
 
 #[test]
-fn the_fleet_planner_s_exchange_keeps_its_distance_and_costs_hardly_any_time() {
+fn the_fleet_planner_keeps_the_separation_at_little_cost_in_time() {
     for name in ["exchange-10", "exchange-25"] {
         let scenario = super::named(name);
         let (plan, verdict) = planned_by("fleet-scp", &scenario);
@@ -30,7 +30,7 @@ fn the_fleet_planner_s_exchange_keeps_its_distance_and_costs_hardly_any_time() {
 }
 
 #[test]
-fn what_cannot_be_flown_gets_no_plan_and_the_reason() {
+fn an_infeasible_scenario_gets_no_plan_and_the_reason() {
     let mut scenario = super::named("exchange-10");
     // head-on, a second and a half before they meet
     scenario.vehicles.truncate(2);

@@ -1,10 +1,10 @@
-//! What every planner owes to every scenario that it claims to handle, whether or not its plan passes.
+//! What every planner guarantees on every scenario that it claims to handle, whether or not its plan passes.
 
 use harness::verdict;
 use scenarios::{Plan, PlanStatus, Scenario};
 
 #[test]
-fn plans_are_whole_and_their_status_is_honest() {
+fn plans_are_complete_and_their_status_is_honest() {
     for_every_claim(|scenario, plan| {
         let what = format!("{} on {}", plan.planner, scenario.name);
         assert_eq!(plan.scenario, scenario.name);
@@ -24,7 +24,7 @@ fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
     let map = super::shipped_in("scenarios/multirotor").into_iter().find(|(_, scenario)| scenario.name == "paper-map");
     let others = [rectangle, map].map(|found| found.expect("a shipped scenario").1);
     let scenarios: Vec<Scenario> = [super::named("rendezvous-7")].into_iter().chain(others).collect();
-    // Who plans in the loop is tried in `multirotor`.
+    // In-loop planners are tested in `multirotor`.
     for entry in planners::registry().iter().filter(|entry| !entry.plans_in_the_loop()) {
         let claimed = scenarios.iter().find(|scenario| (entry.unsupported_reason)(scenario).is_none());
         let mut scenario = claimed.unwrap_or_else(|| panic!("{} handles none of them", entry.name)).clone();
@@ -41,8 +41,8 @@ fn same_seed_gives_the_same_plan_on_any_number_of_threads() {
     }
 }
 
-/// Every planner on every scenario that it does not refuse, as far as that takes no more than seconds: the large fleets
-/// are planned by the planner that they name, and judged, in `verdicts`.
+/// Every planner on every scenario that it does not refuse and that takes seconds at most: large fleets are planned by the
+/// planner that they name, and judged, in `verdicts`.
 fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
     for (_, scenario) in super::shipped_in("scenarios") {
         let willing = planners::registry().iter().filter(|entry| (entry.unsupported_reason)(&scenario).is_none());
@@ -56,7 +56,7 @@ fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
     }
 }
 
-/// Fleets up to which a planner is tried here.
+/// Largest fleet of this test.
 fn largest_fleet(planner: &str) -> usize {
     match planner {
         "coupled-scp" => 2,

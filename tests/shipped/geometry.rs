@@ -1,5 +1,4 @@
-//! The paper shows its positions in figures only. Ours must be as hard: what the shipped geometry promises, from the
-//! files themselves.
+//! The paper shows its positions in figures only. The shipped geometry must be as hard, which is tested on the files.
 
 use scenarios::{Cylinder, Scenario, Vehicle};
 
@@ -48,7 +47,7 @@ fn way(vehicle: &Vehicle) -> [f64; 2] {
     [vehicle.goal.x_m - vehicle.start.x_m, vehicle.goal.y_m - vehicle.start.y_m]
 }
 
-/// Obstacles that the straight line of at least one vehicle cuts.
+/// Number of obstacles that intersect the straight path of at least one vehicle.
 fn obstacles_cut(scenario: &Scenario) -> usize {
     let cuts = |cylinder: &Cylinder, vehicle: &Vehicle| {
         let [x, y] = cylinder.center_m;

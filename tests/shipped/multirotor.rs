@@ -6,7 +6,7 @@ use scenarios::in_loop::InLoopPlanner;
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
-/// Long enough for some turns of every planner, s.
+/// Long enough for a few replans of every planner, s.
 const FIRST_SECONDS_S: f64 = 3.0;
 
 fn flown(scenario: &Scenario, planner: &str) -> Flight {
@@ -19,7 +19,7 @@ fn flown(scenario: &Scenario, planner: &str) -> Flight {
     sim::fly(scenario, planners, seed, &mut |_| {})
 }
 
-/// What a planner in the loop followed during the first seconds of a flight.
+/// The references that were followed in the first seconds of a flight.
 pub fn followed(scenario: &Scenario, planner: &planners::Planner) -> Plan {
     let mut short = scenario.clone();
     short.simulation.max_duration_s = FIRST_SECONDS_S.min(scenario.simulation.max_duration_s);
@@ -42,7 +42,7 @@ fn every_shipped_scenario_passes() {
 }
 
 #[test]
-fn the_pocket_is_flown_into_and_out_of_again() {
+fn the_pocket_is_entered_and_left_again() {
     let shipped = super::shipped_in("scenarios/multirotor").into_iter();
     let (_, scenario) = shipped.into_iter().find(|(_, it)| it.name == "pop-up").expect("a shipped scenario");
     let flight = flown(&scenario, "rhc");

@@ -21,7 +21,7 @@ fn files(scenario: &Scenario, plan: &Plan) -> [(&'static str, Read); 2] {
     ]
 }
 
-/// What the judge says of a plan.
+/// The verdict on a plan.
 fn checks(scenario: &Scenario, plan: &Plan, provenance: &Provenance) -> Vec<Check> {
     let checks = judge_imported(scenario, plan, provenance, None).checks;
     checks.into_iter().filter(|check| !check.name.starts_with("flight.")).collect()
@@ -53,7 +53,7 @@ fn a_plan_file_has_the_verdict_of_its_plan() {
     }
 }
 
-/// What was followed in the loop is no plan for a flight without it: where it does not pass, the report says so.
+/// The references followed in the loop are not a plan for a flight without it: where they do not pass, the report says so.
 #[test]
 fn the_record_of_an_in_loop_flight_passes_or_says_that_it_is_a_record() {
     for (_, scenario) in shipped_in("scenarios/multirotor") {

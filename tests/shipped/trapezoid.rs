@@ -1,5 +1,5 @@
-//! A finding that must not get lost: the paper's trapezoid rule, at steps of 5 s, converges to a plan that holds at its
-//! nodes and whose controls do not lead where it says.
+//! A finding to preserve: with steps of 5 s, the paper's trapezoidal rule converges to a plan that is feasible at its nodes
+//! but whose controls do not lead to its states.
 
 use harness::verdict::{self, Outcome, Status};
 use scenarios::{PlanStatus, Transcription};

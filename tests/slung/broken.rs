@@ -1,4 +1,4 @@
-//! Plans and flights of slung loads that are not what they should be, and motions that cheat between the nodes.
+//! Invalid plans and flights of slung loads, and motions that cheat between the nodes.
 
 use harness::verdict::{Outcome, Status};
 use scenarios::slung_load::Cable;
@@ -9,7 +9,7 @@ use crate::case::Case;
 
 type Break = (&'static str, fn(&mut Case), &'static str);
 
-/// Each is a way to cheat, and the check that notices.
+/// Ways to cheat, each with the check that detects it.
 const BREAKS: &[Break] = &[
     ("a state missing", |case| case.trajectory().states.truncate(600), "plan.complete"),
     ("a cable mode missing", |case| case.trajectory().cable.truncate(600), "plan.complete"),
@@ -57,7 +57,7 @@ fn what_is_not_whole_or_not_true_fails() {
 #[test]
 fn an_impact_that_is_left_out_is_missed() {
     let mut case = Case::caught();
-    // As if the load had not pulled: the velocities before are taken for those after.
+    // As if the cable had not pulled: the velocities before the impact are kept after it.
     case.trajectory().states[2] = case.trajectory().states[1];
     assert_eq!(case.status("plan.dynamics"), Status::Fail);
     let mut case = Case::caught();
@@ -65,7 +65,7 @@ fn an_impact_that_is_left_out_is_missed() {
     assert_eq!(case.status("flight.slack"), Status::Fail);
 }
 
-/// A needle that only the cable touches, or only the load, and only for some milliseconds.
+/// A needle that only the cable or only the load touches, for a few milliseconds.
 #[test]
 fn what_is_cut_between_two_samples_is_found() {
     let mut case = Case::good();

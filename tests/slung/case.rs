@@ -1,4 +1,4 @@
-//! A flight that is right: a load that swings round a box, over a catch if wanted.
+//! Flights that pass every check: a load that swings around a box, and one that is caught.
 
 use std::sync::OnceLock;
 
@@ -12,7 +12,7 @@ use sim::{Actuation, Commanded, Flight, LoadSample, Sample, fly};
 use crate::arena::{model, plan, scenario, silent, trajectory};
 use crate::flatness::Swing;
 
-/// What the judge gets.
+/// The input of the judge.
 #[derive(Clone)]
 pub struct Case {
     pub scenario: Scenario,

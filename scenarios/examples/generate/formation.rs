@@ -29,7 +29,7 @@ pub fn rendezvous() -> Mission {
     };
     Mission {
         name: "rendezvous-15".into(),
-        description: "Fifteen aircraft from scattered starts among threats into a wild-goose formation that flies at right angles to their first heading, all arriving at the same time.".into(),
+        description: "Fifteen aircraft from scattered starts among threats into a V formation at right angles to their initial heading, all arriving at the same time.".into(),
         tags: "[\"paper\", \"fleet\"]",
         sources: "Fleet size, headings, speeds, separation and the shape of the formation: Xu, Wang, Cao, Sun, Long, Acta Aeronautica et\n\
                   Astronautica Sinica 43(2) (2022), which shows positions only in a figure: starts, goals and threats are ours, such\n\

@@ -28,7 +28,7 @@ pub fn traffic(vehicles: usize) -> Mission {
     Mission {
         name: format!("traffic-{vehicles}"),
         description: format!(
-            "{vehicles} aircraft on random straight flights, four to a square kilometre: the conflicts of each are few, those of all are many."
+            "{vehicles} aircraft on random straight flights, four per square kilometre: each has few conflicts, the fleet has many."
         ),
         tags: "[\"fleet\", \"large\"]",
         sources: "Ours, except altitude and speed: Wang, Xu, Long, Acta Automatica Sinica (2020). The first n vehicles are\n\

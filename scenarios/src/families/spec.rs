@@ -8,6 +8,12 @@ pub(crate) struct FamilySpec {
     pub key: &'static str,
     /// Name in prose: `fixed wing`.
     pub name: &'static str,
+    /// Whether it hovers at its goal once it has arrived; otherwise it flies on.
+    pub hovers: bool,
+    /// Whether it carries a load.
+    pub carries_load: bool,
+    /// Whether it senses obstacles and other vehicles in flight.
+    pub senses_obstacles: bool,
     /// Limits of the verdict where the scenario gives none.
     pub verdict_limits: AppliedLimits,
     /// Columns of a plan file.

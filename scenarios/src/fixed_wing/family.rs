@@ -7,6 +7,9 @@ use crate::{AppliedLimits, Family, Issue, Scenario, Vehicle, VehicleModel, Waypo
 pub(crate) const FAMILY: FamilySpec = FamilySpec {
     key: "fixed-wing",
     name: "fixed wing",
+    hovers: false,
+    carries_load: false,
+    senses_obstacles: false,
     verdict_limits: AppliedLimits {
         tracking_max_m: 5.0,
         tracking_rms_m: 2.0,

@@ -7,6 +7,9 @@ use crate::{AppliedLimits, Family, Issue, Scenario, Vehicle, VehicleModel, Waypo
 pub(crate) const FAMILY: FamilySpec = FamilySpec {
     key: "multirotor",
     name: "multirotor",
+    hovers: true,
+    carries_load: false,
+    senses_obstacles: true,
     verdict_limits: AppliedLimits {
         tracking_max_m: 0.5,
         tracking_rms_m: 0.2,

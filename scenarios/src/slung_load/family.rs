@@ -7,6 +7,9 @@ use crate::{AppliedLimits, Family, Issue, Scenario, Vehicle, VehicleModel, Waypo
 pub(crate) const FAMILY: FamilySpec = FamilySpec {
     key: "slung-load",
     name: "quadrotor with a slung load",
+    hovers: true,
+    carries_load: true,
+    senses_obstacles: false,
     verdict_limits: AppliedLimits {
         tracking_max_m: 0.05,
         tracking_rms_m: 0.03,

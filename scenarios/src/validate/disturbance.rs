@@ -1,7 +1,7 @@
 //! Disturbances that could not act on the vehicles, or fall between two steps of the simulator. They are refused, so that
 //! no flight looks undisturbed because a disturbance was ignored.
 
-use crate::{Family, GustPulse, Issue, Scenario, VehicleModel, Wind};
+use crate::{GustPulse, Issue, Scenario, VehicleModel, Wind};
 
 /// Steps of the simulator for each single gust, at least: the log then holds it, with 85 % of its peak or more.
 const MIN_STEPS_PER_PULSE: f64 = 4.0;
@@ -69,8 +69,8 @@ fn noise_without_effect(scenario: &Scenario) -> Vec<Issue> {
     let (sensors, mismatch) = (&scenario.simulation.sensors, &scenario.simulation.mismatch);
     let any = |has: fn(&dyn VehicleModel) -> bool| models.iter().any(|model| has(*model));
     let with_attitude = (any(|model| model.has_attitude()), "0: only vehicles with rotors measure their attitude");
-    let with_load = (any(|model| model.family() == Family::SlungLoad), "0: no vehicle carries a load");
-    let in_loop = (any(|model| model.family() == Family::Multirotor), "0: only multirotors sense other bodies");
+    let with_load = (any(|model| model.family().carries_load()), "0: no vehicle carries a load");
+    let in_loop = (any(|model| model.family().senses_obstacles()), "0: only multirotors sense other bodies");
     let noises = [
         ("attitude_noise_deg", sensors.attitude_noise_deg, with_attitude),
         ("rate_noise_degps", sensors.rate_noise_degps, with_attitude),

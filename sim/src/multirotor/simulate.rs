@@ -7,12 +7,16 @@ use super::recorded::RecordedReferences;
 use super::reference::Reference;
 use super::state::{MultirotorState, NavigationState};
 use crate::flight::{Event, EventKind, FleetLog, InLoopLog};
-use crate::request::{FlightRequest, Guidance};
+use crate::request::{FlightRequest, ReferenceSource};
 
 /// Simulates multirotors that fly a plan, or replan in the loop until all have arrived and coasted.
-pub(crate) fn simulate(request: &FlightRequest<'_>, guidance: Guidance<'_>, progress: &mut dyn FnMut(f64)) -> FleetLog {
+pub(crate) fn simulate(
+    request: &FlightRequest<'_>,
+    source: ReferenceSource<'_>,
+    progress: &mut dyn FnMut(f64),
+) -> FleetLog {
     let mut fleet = Fleet::new(request);
-    let mut references = References::new(request, guidance);
+    let mut references = References::new(request, source);
     let (mut last_step, mut arrived_s) = (request.steps, None);
     let mut step = 0;
     while step <= last_step {
@@ -56,14 +60,14 @@ enum References {
 }
 
 impl References {
-    fn new(request: &FlightRequest<'_>, guidance: Guidance<'_>) -> Self {
-        match guidance {
-            Guidance::Plan(plan) => {
+    fn new(request: &FlightRequest<'_>, source: ReferenceSource<'_>) -> Self {
+        match source {
+            ReferenceSource::Plan(plan) => {
                 let trajectories = plan.trajectories.iter();
                 Self::Planned(trajectories.map(|it| Reference::new(it.multirotor().nodes())).collect())
             }
-            Guidance::InLoop(planners) => Self::InLoop(PlanningLoop::new(request, planners)),
-            Guidance::Recorded(flight) => {
+            ReferenceSource::InLoop(planners) => Self::InLoop(PlanningLoop::new(request, planners)),
+            ReferenceSource::Recorded(flight) => {
                 let planning = flight.planning.as_ref().expect("a flight that was planned in the loop");
                 Self::Recorded(RecordedReferences::new(request, planning))
             }

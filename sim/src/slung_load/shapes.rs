@@ -1,5 +1,6 @@
 //! Body, cable and load as convex shapes, and their signed distances from the obstacles.
 
+mod convex_part;
 mod distance;
 mod golden_section;
 mod own_body;
@@ -8,8 +9,9 @@ mod penetration;
 use scenarios::Prism;
 use scenarios::slung_load::Model;
 
-use self::distance::{ConvexPart, point_to_prism_m, to_prism, to_prism_m};
+use self::convex_part::ConvexPart;
 pub use self::distance::{OVERHANG_M, SeparatingPlane};
+use self::distance::{point_to_prism_m, to_prism, to_prism_m};
 use super::state::SlungLoadState;
 
 /// A part of a quadrotor with a load.

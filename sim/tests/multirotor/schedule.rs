@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use scenarios::in_loop::{InLoopPlanner, Node, Observation, PlannerRemarks, ReplanResult, ReplanStatus};
 use scenarios::{Cylinder, PlanningClock, Scenario};
 use sim::multirotor::Reference;
-use sim::{EventKind, Flight, FlightOptions, Guidance, fly, fly_with};
+use sim::{EventKind, Flight, FlightOptions, ReferenceSource, fly, fly_with};
 
 use crate::arena::scenario;
 
@@ -148,8 +148,9 @@ fn a_recorded_flight_is_followed_again_exactly_and_with_finer_steps() {
     scenario.simulation.planning.recorded_s = vec![0.01, 0.7, 0.2];
     let planner: Box<dyn InLoopPlanner> = Box::new(RecordingPlanner { observed: Arc::default() });
     let flight = fly(&scenario, vec![planner], 1, &mut |_| {});
-    let again =
-        |halvings| fly_with(&scenario, Guidance::Recorded(&flight), 1, &FlightOptions::finer(halvings), &mut |_| {});
+    let again = |halvings| {
+        fly_with(&scenario, ReferenceSource::Recorded(&flight), 1, &FlightOptions::finer(halvings), &mut |_| {})
+    };
     assert!(
         flight
             .planning

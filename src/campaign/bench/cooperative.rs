@@ -80,6 +80,10 @@ pub struct Mean {
 /// Runs the benchmark.
 ///
 /// - `progress`: receives a description of each entry
+///
+/// # Errors
+///
+/// [`Error::Bench`] if a process cannot be started or leaves no report.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
     let mut rows = Vec::new();
     for mission in &plan.missions {

@@ -1,4 +1,4 @@
-//! `harness bench fleets`: methods to decouple a fleet, over fleets of several sizes, and the growth of the cost of fleet-scp
+//! `harness bench fleets`: decoupling methods, over fleets of several sizes, and the growth of the cost of fleet-scp
 //! with the size of the fleet (Xu, Wang, Cao, Sun, Long 2022, figures 8 and 9, section 4).
 
 mod comparison;
@@ -103,6 +103,10 @@ impl Row {
 /// Runs the benchmark.
 ///
 /// - `progress`: receives a description of each entry
+///
+/// # Errors
+///
+/// [`Error::Bench`] if a process cannot be started or leaves no report.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error> {
     let mut results = Results {
         schema: 1,

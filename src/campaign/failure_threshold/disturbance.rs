@@ -1,16 +1,8 @@
 use clap::ValueEnum;
-use scenarios::{Family, Issue, Scenario, Wind, wind_without_effect};
+use scenarios::{Issue, Scenario, Wind, wind_without_effect};
 use serde::Serialize;
 
 use crate::families;
-
-/// Disturbances of an ordinary day, for vehicles of one family.
-pub struct TypicalDisturbances {
-    /// Speed of a light breeze, m/s.
-    pub wind_mps: f64,
-    /// Standard deviation of the measured position, m.
-    pub position_noise_m: f64,
-}
 
 /// A disturbance whose level is varied. Level 0 is a flight without it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
@@ -99,7 +91,7 @@ impl Disturbance {
             }
             Self::Mass => {
                 scenario.simulation.mismatch.mass_ratio = 1.0 + level;
-                if scenario.family() == Family::SlungLoad {
+                if scenario.family().carries_load() {
                     scenario.simulation.mismatch.load_mass_ratio = 1.0 + level;
                 }
             }

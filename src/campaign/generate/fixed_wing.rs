@@ -39,7 +39,7 @@ pub const KINDS: &[Kind] = &[
     kind("transit", "Streams from west, east and south cross, and each aircraft leaves its lane for another.", |it| {
         draft(it, &sample_fleet(it, draw::transit)?)
     }),
-    kind("uneven", "A formation gathers from starts at very different distances.", |it| {
+    kind("uneven", "Aircraft at very different distances gather into a formation.", |it| {
         draft(it, &sample_fleet(it, draw::uneven)?)
     }),
     kind("headings", "Starts and goals have any heading, and altitudes of their own.", |it| {

@@ -1,5 +1,5 @@
 use rand_distr::{Distribution, Uniform, UnitDisc};
-use scenarios::{Family, Scenario, Wind};
+use scenarios::{Scenario, Wind};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::failure_threshold::Disturbance;
@@ -67,7 +67,7 @@ impl Perturbation {
         if self.noise_m > 0.0 {
             Disturbance::Noise.set(scenario, self.noise_m);
         }
-        let carries_load = scenario.family() == Family::SlungLoad;
+        let carries_load = scenario.family().carries_load();
         let simulation = &mut scenario.simulation;
         if self.wind_mps != [0.0; 2] {
             let still = Wind { mean_mps: [0.0; 3], gusts: None, pulses: Vec::new() };

@@ -41,6 +41,10 @@ const VERDICTS: [(&str, Outcome); 3] = [("pass", Outcome::Pass), ("fail", Outcom
 const LIST_SEPARATOR: &str = ", ";
 
 /// Writes the samples of a sweep, all or nothing.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the table cannot be written.
 pub fn write(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Error> {
     output::replace_file(path, |partial| Ok(write_table(sweep, samples, partial)?))
 }
@@ -115,6 +119,10 @@ fn name_of(verdict: Outcome) -> &'static str {
 }
 
 /// Reads a table that [`write()`] wrote.
+///
+/// # Errors
+///
+/// [`Error::Samples`] if the file cannot be read or is not such a table.
 pub fn read(path: &Path) -> Result<(Sweep, Vec<Sample>), Error> {
     read_table(path).map_err(|reason| Error::Samples { path: path.to_owned(), reason: reason.to_string() })
 }

@@ -3,18 +3,19 @@ pub mod log;
 pub mod plan;
 pub mod tightened_limits;
 
+use self::tightened_limits::FamilyLimits;
 use super::{Fault, ReferenceCase};
 
 /// The faults for a reference case: in still air those of its family, in wind those that need a disturbance.
-pub fn of(reference: &ReferenceCase) -> Vec<Fault> {
+pub fn of(reference: &ReferenceCase, of_family: fn(&ReferenceCase) -> Vec<Fault>) -> Vec<Fault> {
     if reference.scenario.simulation.wind.is_some() {
         return conditions::faults();
     }
-    (reference.selftest.faults)(reference)
+    of_family(reference)
 }
 
 /// The faults that all families have in common, with those of one family among them.
-pub fn with_common(of_family: Vec<Fault>, reference: &ReferenceCase) -> Vec<Fault> {
-    let all = [plan::faults(), log::faults(), of_family, tightened_limits::faults(reference.selftest)];
+pub fn with_common(of_family: Vec<Fault>, limits: &'static FamilyLimits) -> Vec<Fault> {
+    let all = [plan::faults(), log::faults(), of_family, tightened_limits::faults(limits)];
     all.into_iter().flatten().collect()
 }

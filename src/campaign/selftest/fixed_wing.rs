@@ -6,8 +6,9 @@ mod goals;
 use scenarios::{Cylinder, Family, Trajectory, fixed_wing};
 use sim::{Actuation, Commanded, Sample};
 
-use super::family::{EditTrajectory, FamilySelftest};
-use super::faults::tightened_limits::{self, DEFECTS, SEPARATION_CHECKS, limit};
+use super::edit_trajectory::EditTrajectory;
+use super::family::FamilySelftest;
+use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, SEPARATION_CHECKS, limit};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::UnflownCase;
 use super::{Fault, NearMiss, ReferenceCase};
@@ -18,17 +19,19 @@ pub static SELFTEST: FamilySelftest = FamilySelftest {
     reference_cases,
     faults,
     near_misses,
-    upper_limits: &[
-        DEFECTS,
-        limit("the limit of the open-loop error", &["plan.rollout"], |it, limit| {
-            it.scenario.verdict.rollout_m = Some(limit);
-        }),
-        limit("the limit of the spread of arrivals", &["flight.arrival"], |it, limit| {
-            it.scenario.verdict.arrival_spread_s = Some(limit);
-        }),
-    ],
-    distance_checks: SEPARATION_CHECKS,
-    set_distance: tightened_limits::set_separation,
+    limits: FamilyLimits {
+        upper: &[
+            DEFECTS,
+            limit("the limit of the open-loop error", &["plan.rollout"], |it, limit| {
+                it.scenario.verdict.rollout_m = Some(limit);
+            }),
+            limit("the limit of the spread of arrivals", &["flight.arrival"], |it, limit| {
+                it.scenario.verdict.arrival_spread_s = Some(limit);
+            }),
+        ],
+        distance_checks: SEPARATION_CHECKS,
+        set_distance: tightened_limits::set_separation,
+    },
     edit,
 };
 
@@ -39,12 +42,12 @@ fn reference_cases() -> Vec<UnflownCase> {
     ]
 }
 
-fn faults(reference: &ReferenceCase) -> Vec<Fault> {
-    super::faults::with_common(faults::all().into_iter().chain(goals::faults()).collect(), reference)
+fn faults(_: &ReferenceCase) -> Vec<Fault> {
+    super::faults::with_common(faults::all().into_iter().chain(goals::faults()).collect(), &SELFTEST.limits)
 }
 
-fn near_misses(reference: &ReferenceCase) -> Vec<NearMiss> {
-    let common = [near_misses::limits(reference), near_misses::whole(), vec![near_misses::separation()]];
+fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
+    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole(), vec![near_misses::separation()]];
     common.into_iter().flatten().chain(own_near_misses()).chain(goals::near_misses()).collect()
 }
 

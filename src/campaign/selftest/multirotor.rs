@@ -10,8 +10,9 @@ mod rotors;
 use scenarios::multirotor::{self, Plant};
 use scenarios::{Family, Sensors, Trajectory};
 
-use super::family::{EditTrajectory, FamilySelftest};
-use super::faults::tightened_limits::{self, SEPARATION_CHECKS, limit};
+use super::edit_trajectory::EditTrajectory;
+use super::family::FamilySelftest;
+use super::faults::tightened_limits::{self, FamilyLimits, SEPARATION_CHECKS, limit};
 use super::faults::{log, plan};
 use super::reference_case::UnflownCase;
 use super::{Fault, ReferenceCase};
@@ -23,16 +24,18 @@ pub static SELFTEST: FamilySelftest = FamilySelftest {
     faults,
     near_misses: near_misses::all,
     // A multirotor's plan ends exactly in its goal: no limit is below that.
-    upper_limits: &[
-        limit("the limit of the distance from the goal", &["flight.goal"], |it, limit| {
-            it.scenario.verdict.goal_m = Some(limit);
-        }),
-        limit("the limit of the speed at the end", &["flight.rest"], |it, limit| {
-            it.scenario.verdict.rest_mps = Some(limit);
-        }),
-    ],
-    distance_checks: SEPARATION_CHECKS,
-    set_distance: tightened_limits::set_separation,
+    limits: FamilyLimits {
+        upper: &[
+            limit("the limit of the distance from the goal", &["flight.goal"], |it, limit| {
+                it.scenario.verdict.goal_m = Some(limit);
+            }),
+            limit("the limit of the speed at the end", &["flight.rest"], |it, limit| {
+                it.scenario.verdict.rest_mps = Some(limit);
+            }),
+        ],
+        distance_checks: SEPARATION_CHECKS,
+        set_distance: tightened_limits::set_separation,
+    },
     edit,
 };
 
@@ -91,7 +94,7 @@ fn faults(reference: &ReferenceCase) -> Vec<Fault> {
     } else {
         // Positions and velocities determine the accelerations between two nodes: there is no defect.
         let on_plans = plan::faults().into_iter().filter(|fault| fault.aims_at != "plan.dynamics");
-        let all = [log::faults(), plans::faults(), flights::faults(), tightened_limits::faults(reference.selftest)];
+        let all = [log::faults(), plans::faults(), flights::faults(), tightened_limits::faults(&SELFTEST.limits)];
         on_plans.chain(all.into_iter().flatten()).collect()
     }
 }

@@ -1,25 +1,25 @@
 //! Plans and flights just inside a limit. They must pass: a judge that fails everything catches every fault, too.
 
-use super::faults::tightened_limits::{self, RELATIVE_STEP};
+use super::faults::tightened_limits::{self, FamilyLimits, RELATIVE_STEP, TightenedLimit};
 use super::{NearMiss, ReferenceCase};
 
 /// Distance from a limit, m.
 pub const NEAR_M: f64 = 1e-5;
 
-/// The near misses for a reference case. In wind there are none beyond the reference case itself.
-pub fn of(reference: &ReferenceCase) -> Vec<NearMiss> {
+/// The near misses for a reference case: in still air those of its family, in wind none beyond the case itself.
+pub fn of(reference: &ReferenceCase, of_family: fn(&ReferenceCase) -> Vec<NearMiss>) -> Vec<NearMiss> {
     if reference.scenario.simulation.wind.is_some() {
         return Vec::new();
     }
-    (reference.selftest.near_misses)(reference)
+    of_family(reference)
 }
 
 /// Every upper limit just above the largest value that it bounds.
-pub fn limits(reference: &ReferenceCase) -> Vec<NearMiss> {
-    tightened_limits::upper(reference.selftest).map(just_above).collect()
+pub fn limits(limits: &FamilyLimits) -> Vec<NearMiss> {
+    tightened_limits::upper(limits).map(just_above).collect()
 }
 
-fn just_above(limit: &'static tightened_limits::TightenedLimit) -> NearMiss {
+fn just_above(limit: &'static TightenedLimit) -> NearMiss {
     NearMiss::new(limit.name, |it: &mut ReferenceCase| {
         let reached = limit.checks.iter().map(|check| it.value(check)).fold(0.0, f64::max);
         let bound = reached * (1.0 + RELATIVE_STEP) + integration_error_m(it);

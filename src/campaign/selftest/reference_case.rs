@@ -3,7 +3,7 @@ mod unflown;
 use scenarios::{Family, Plan, Scenario, slung_load};
 use sim::{Actuation, Commanded, Flight, Sample};
 
-use super::family::{EditTrajectory, FamilySelftest};
+use super::edit_trajectory::{AsEditable, EditTrajectory};
 use crate::plan_source::PlanSource;
 use crate::verdict::{self, Check, Verdict};
 
@@ -18,8 +18,8 @@ pub struct ReferenceCase {
     pub plan: Plan,
     /// The flight.
     pub flight: Option<Flight>,
-    /// The selftest of its family.
-    pub selftest: &'static FamilySelftest,
+    /// Access to the trajectories of its family.
+    edit: AsEditable,
     /// Where the plan comes from.
     plan_source: PlanSource,
 }
@@ -88,7 +88,7 @@ impl ReferenceCase {
 
     /// The planned trajectory of a vehicle, whatever its family.
     pub fn edit(&mut self, vehicle: usize) -> &mut dyn EditTrajectory {
-        (self.selftest.edit)(&mut self.plan.trajectories[vehicle])
+        (self.edit)(&mut self.plan.trajectories[vehicle])
     }
 }
 

@@ -5,8 +5,9 @@ mod faults;
 use scenarios::{Family, Trajectory, slung_load};
 use sim::LoadSample;
 
-use super::family::{EditTrajectory, FamilySelftest};
-use super::faults::tightened_limits::{self, DEFECTS, GOALS, limit};
+use super::edit_trajectory::EditTrajectory;
+use super::family::FamilySelftest;
+use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, GOALS, limit};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::{UnflownCase, thrusts};
 use super::{Fault, NearMiss, ReferenceCase};
@@ -17,21 +18,23 @@ pub static SELFTEST: FamilySelftest = FamilySelftest {
     reference_cases,
     faults,
     near_misses,
-    upper_limits: &[
-        DEFECTS,
-        GOALS,
-        limit("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
-            it.scenario.verdict.rest_mps = Some(limit);
-        }),
-        limit("the strength of the cable", &["plan.tension", "flight.tension"], |it, limit| {
-            it.slung_load_model().limits.tension_n = limit;
-        }),
-        limit("the limit of the time between planned and flown switches", &["flight.slack"], |it, limit| {
-            it.scenario.verdict.switch_s = Some(limit);
-        }),
-    ],
-    distance_checks: &["nodes.envelope", "plan.envelope"],
-    set_distance: tightened_limits::set_envelope,
+    limits: FamilyLimits {
+        upper: &[
+            DEFECTS,
+            GOALS,
+            limit("the limit of the speed at the end", &["plan.rest", "flight.rest"], |it, limit| {
+                it.scenario.verdict.rest_mps = Some(limit);
+            }),
+            limit("the strength of the cable", &["plan.tension", "flight.tension"], |it, limit| {
+                it.slung_load_model().limits.tension_n = limit;
+            }),
+            limit("the limit of the time between planned and flown switches", &["flight.slack"], |it, limit| {
+                it.scenario.verdict.switch_s = Some(limit);
+            }),
+        ],
+        distance_checks: &["nodes.envelope", "plan.envelope"],
+        set_distance: tightened_limits::set_envelope,
+    },
     edit,
 };
 
@@ -42,12 +45,12 @@ fn reference_cases() -> Vec<UnflownCase> {
     ]
 }
 
-fn faults(reference: &ReferenceCase) -> Vec<Fault> {
-    super::faults::with_common(faults::all(), reference)
+fn faults(_: &ReferenceCase) -> Vec<Fault> {
+    super::faults::with_common(faults::all(), &SELFTEST.limits)
 }
 
-fn near_misses(reference: &ReferenceCase) -> Vec<NearMiss> {
-    let common = [near_misses::limits(reference), near_misses::whole()];
+fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
+    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole()];
     common.into_iter().flatten().chain(own_near_misses()).collect()
 }
 

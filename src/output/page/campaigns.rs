@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::results::read_if_there;
+use super::json_file::read_if_there;
 use crate::error::Error;
 
 /// The files of campaigns, by the beginning of their names, and their kinds.

@@ -13,8 +13,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::campaigns::{self, Campaign};
+use super::json_file::read_if_there;
 use crate::error::Error;
-use crate::output::recording::scene_json;
+use crate::output::files::SCENE_FILE;
 use crate::output::report::Summary;
 
 /// Files of a job that the page links to, if they are there.
@@ -148,7 +149,7 @@ fn report(folder: &Path) -> Result<Value, Error> {
 
 /// The id under which the scene of a folder will be in the page.
 fn scene_of(folder: &Path, scenes: &mut Vec<(String, PathBuf)>) -> Option<String> {
-    let path = folder.join(scene_json::FILE_NAME);
+    let path = folder.join(SCENE_FILE);
     path.is_file().then(|| {
         let id = format!("scene-{}", scenes.len() + 1);
         scenes.push((id.clone(), path));
@@ -176,16 +177,4 @@ fn figures(folder: &Path) -> Result<Vec<Figure>, Error> {
         Ok(Figure { name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), svg })
     };
     paths.into_iter().map(figure).collect()
-}
-
-/// A JSON file; `None` if there is none.
-pub fn read_if_there<T: serde::de::DeserializeOwned>(path: &Path) -> Result<Option<T>, Error> {
-    let text = match fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(reason) => return Err(Error::results(path, reason.to_string())),
-    };
-    serde_json::from_str(&text)
-        .map(Some)
-        .map_err(|reason| Error::results(path, format!("not a result of this version: {reason}")))
 }

@@ -70,6 +70,10 @@ impl Recorder for Parquet {
 }
 
 /// Writes the log of a flight to `path`.
+///
+/// # Errors
+///
+/// The file cannot be written.
 pub fn write(scenario: &str, flight: &Flight, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let names = columns(flight);
     let fields: String = names.iter().map(|name| format!("required double {name};")).collect();

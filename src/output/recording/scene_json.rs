@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Recorder, Run};
+use crate::output::files::SCENE_FILE;
 use crate::output::scene::events::Event;
 use crate::output::scene::{
     Animation, Body, BodyKind, Changes, Curve, Extent, Item, Part, PlotView, Scene, SeriesKind, StateSeries, builder,
@@ -37,12 +38,9 @@ const LEFT_OUT: [&str; 4] = ["trail", "candidates", "cost_map", "ghost"];
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SceneJson;
 
-/// Name of its file in a result folder.
-pub const FILE_NAME: &str = "scene.json";
-
 impl Recorder for SceneJson {
     fn file_name(&self) -> &'static str {
-        FILE_NAME
+        SCENE_FILE
     }
 
     fn write(&self, run: &Run<'_>, path: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {

@@ -73,6 +73,10 @@ pub fn load_error_annotations(error: &Error) -> Vec<String> {
 }
 
 /// Appends `page` to the job's summary, if the environment names one.
+///
+/// # Errors
+///
+/// [`Error::Write`] if the file of the summary cannot be written.
 pub fn add_to_job_summary(page: &str) -> Result<(), Error> {
     let Some(path) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()).map(PathBuf::from) else {
         return Ok(());

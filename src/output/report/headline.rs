@@ -29,7 +29,7 @@ pub(super) fn notes(report: &Report) -> Vec<String> {
     let Some(in_loop) = &report.metrics.in_loop else { return Vec::new() };
     let late = (in_loop.late > 0).then(|| {
         format!(
-            "planner: {} of {} answers were late, by {} at most; they were entered in their middle",
+            "planner: {} of {} replans were late, by at most {}; their references were entered after their beginning",
             in_loop.late,
             in_loop.replans,
             quantity(in_loop.latest_s, "s")

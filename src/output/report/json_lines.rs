@@ -37,6 +37,10 @@ pub enum Event<'a> {
 }
 
 /// Prints one line.
+///
+/// # Errors
+///
+/// Standard output cannot be written.
 pub fn print(event: &Event<'_>) -> Result<(), Error> {
     console::print(&serde_json::to_string(event).map_err(std::io::Error::from)?)
 }

@@ -77,7 +77,7 @@ pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Mot
     Ok(Check { reason: jumps().next().map(jump_remark).or(check.reason), ..check })
 }
 
-/// Why a jump fails, with a word to those who fly the recorded plan of an in-loop flight.
+/// Why a jump fails, with a remark on the recorded plan of an in-loop flight.
 fn jump_remark(pair: &[Knot]) -> String {
     let apart = |a: [f64; 3], b: [f64; 3]| norm([a[0] - b[0], a[1] - b[1], a[2] - b[2]]);
     let jump_m = quantity(apart(pair[0].position_m, pair[1].position_m), "m");

@@ -12,7 +12,7 @@ use crate::verdict::{Check, FlownMotions};
 /// Times that differ by less are the same, s: rounding.
 const SAME_TIME_S: f64 = 1e-6;
 
-/// A remark for those who check the recorded plan of an in-loop flight.
+/// A remark on the recorded plan of an in-loop flight.
 pub const RECORD: &str = "the plan of an in-loop flight is the record of the references that were followed, each of which \
                           begins at a measured state, until the vehicles arrived";
 

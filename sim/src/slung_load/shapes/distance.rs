@@ -7,47 +7,17 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use scenarios::{Prism, Range};
 
+use super::convex_part::ConvexPart;
 use super::penetration::smallest_overlap;
 
 /// Difference of the bounds at which the iteration ends, m.
 const TOLERANCE_M: f64 = 1e-10;
 /// Below this distance the shapes overlap, m.
 const OVERLAP_M: f64 = 1e-9;
-/// A direction with a smaller fraction than this across the axis is parallel to it.
-const PARALLEL: f64 = 1e-12;
 /// Maximum number of iterations: fewer are needed, but rounding may stall the bounds.
 const MAX_ITERATIONS: usize = 200;
 /// Length by which an unbounded prism is continued above and below the shape, m. The distance does not depend on it.
 pub const OVERHANG_M: f64 = 1.0;
-
-/// A flat disc or a line segment.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum ConvexPart {
-    Disc { center_m: Vector3<f64>, axis: Vector3<f64>, radius_m: f64 },
-    Line { ends_m: [Vector3<f64>; 2] },
-}
-
-impl ConvexPart {
-    /// Support point: the point farthest in a direction.
-    fn support_m(&self, direction: &Vector3<f64>) -> Vector3<f64> {
-        match self {
-            Self::Disc { center_m, axis, radius_m } => {
-                let in_plane = |vector: &Vector3<f64>| vector - axis * axis.dot(vector);
-                // For a direction almost parallel to the axis the projection is mostly rounding, so that it is
-                // repeated.
-                let across = in_plane(direction).try_normalize(PARALLEL * direction.norm());
-                center_m + across.map_or_else(Vector3::zeros, |across| in_plane(&across).normalize() * *radius_m)
-            }
-            Self::Line { ends_m: [a, b] } => {
-                if direction.dot(a) >= direction.dot(b) {
-                    *a
-                } else {
-                    *b
-                }
-            }
-        }
-    }
-}
 
 /// A supporting plane of a prism: a shape at signed distance d in front of the plane has at least the signed distance d from
 /// the prism.

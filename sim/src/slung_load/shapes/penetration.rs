@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 use scenarios::Prism;
 
-use super::distance::ConvexPart;
+use super::convex_part::ConvexPart;
 use super::golden_section;
 
 /// Directions around an edge from which minima are bracketed.

@@ -1,37 +1,13 @@
-//! Lower bounds of the flight time: on a straight line, at the planning limits.
+//! Lower bound of the flight time of a scenario.
 
-use scenarios::{Family, Scenario, Vehicle};
+use scenarios::Scenario;
+
+use crate::families;
 
 /// Time in which the last vehicle can arrive at the earliest, s. `None` where the scenario gives the flight time.
 pub fn lower_bound_s(scenario: &Scenario) -> Option<f64> {
-    let of_vehicle: fn(&Scenario, &Vehicle) -> f64 = match scenario.family() {
-        Family::FixedWing => fixed_wing_s,
-        Family::Multirotor => multirotor_s,
-        Family::SlungLoad => return None,
-    };
+    let of_vehicle = families::of(scenario.family()).min_flight_time_s?;
     scenario.vehicles.iter().map(|vehicle| of_vehicle(scenario, vehicle)).reduce(f64::max)
-}
-
-/// At the largest speed.
-fn fixed_wing_s(scenario: &Scenario, vehicle: &Vehicle) -> f64 {
-    distance_m(vehicle) / scenario.models.fixed_wing[&vehicle.model].planning_limits.speed_mps.max
-}
-
-/// From rest to rest, at the largest speed if there is room to reach it.
-fn multirotor_s(scenario: &Scenario, vehicle: &Vehicle) -> f64 {
-    let limits = scenario.models.multirotor[&vehicle.model].planning_limits;
-    let (speed_mps, acceleration_mps2) = (limits.speed_mps, limits.acceleration_mps2);
-    let distance_m = distance_m(vehicle);
-    if distance_m >= speed_mps * speed_mps / acceleration_mps2 {
-        distance_m / speed_mps + speed_mps / acceleration_mps2
-    } else {
-        2.0 * (distance_m / acceleration_mps2).sqrt()
-    }
-}
-
-fn distance_m(vehicle: &Vehicle) -> f64 {
-    let (start_m, goal_m) = (vehicle.start.position_m(), vehicle.goal.position_m());
-    (0..3).map(|axis| (goal_m[axis] - start_m[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

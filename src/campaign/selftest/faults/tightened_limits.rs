@@ -2,7 +2,6 @@
 
 use scenarios::check_spec;
 
-use super::super::family::FamilySelftest;
 use super::super::{Fault, ReferenceCase};
 use crate::verdict::tolerance;
 
@@ -14,6 +13,16 @@ pub struct TightenedLimit {
     pub checks: &'static [&'static str],
     /// Sets the limit, in the unit of the checks.
     pub set: fn(&mut ReferenceCase, f64),
+}
+
+/// What is tightened for one family.
+pub struct FamilyLimits {
+    /// Upper limits of its checks, besides those of all families.
+    pub upper: &'static [TightenedLimit],
+    /// Checks of the distance that `set_distance` sets.
+    pub distance_checks: &'static [&'static str],
+    /// Sets the smallest distance that is allowed, m.
+    pub set_distance: fn(&mut ReferenceCase, f64),
 }
 
 /// Upper limits of all families.
@@ -55,14 +64,14 @@ pub const fn limit(
 }
 
 /// The upper limits of a family.
-pub fn upper(selftest: &'static FamilySelftest) -> impl Iterator<Item = &'static TightenedLimit> {
-    COMMON.iter().chain(selftest.upper_limits)
+pub fn upper(limits: &FamilyLimits) -> impl Iterator<Item = &'static TightenedLimit> {
+    COMMON.iter().chain(limits.upper)
 }
 
 /// The faults.
-pub fn faults(selftest: &'static FamilySelftest) -> Vec<Fault> {
+pub fn faults(limits: &'static FamilyLimits) -> Vec<Fault> {
     let mut all = Vec::new();
-    for limit in upper(selftest) {
+    for limit in upper(limits) {
         for check in limit.checks {
             all.push(Fault::new(check, limit.name, move |it| {
                 let reached = it.value(check);
@@ -70,10 +79,10 @@ pub fn faults(selftest: &'static FamilySelftest) -> Vec<Fault> {
             }));
         }
     }
-    all.extend(selftest.distance_checks.iter().map(|check| {
+    all.extend(limits.distance_checks.iter().map(|check| {
         Fault::new(check, "the required distance is larger than the smallest one", move |it| {
             let reached_m = it.value(check);
-            (selftest.set_distance)(it, reached_m + 1e-6 + beyond_tolerance(check, reached_m));
+            (limits.set_distance)(it, reached_m + 1e-6 + beyond_tolerance(check, reached_m));
         })
     }));
     all

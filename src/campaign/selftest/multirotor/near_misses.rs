@@ -11,7 +11,7 @@ pub fn all(reference: &ReferenceCase) -> Vec<NearMiss> {
     if reference.is_planned_in_the_loop() {
         return in_the_loop(reference);
     }
-    let common = [near_misses::limits(reference), near_misses::whole(), vec![near_misses::separation()]];
+    let common = [near_misses::limits(&super::SELFTEST.limits), near_misses::whole(), vec![near_misses::separation()]];
     common.into_iter().flatten().chain(planned()).collect()
 }
 

@@ -1,7 +1,7 @@
 use scenarios::{Plan, Scenario};
 use sim::Flight;
 
-use super::super::family::FamilySelftest;
+use super::super::edit_trajectory::AsEditable;
 use super::ReferenceCase;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{Flown, PlanSource};
@@ -39,15 +39,17 @@ impl UnflownCase {
         self
     }
 
-    /// Plans and flies it, for the selftest of its family.
-    pub fn flown(self, selftest: &'static FamilySelftest) -> ReferenceCase {
+    /// Plans and flies it.
+    ///
+    /// - `edit`: access to the trajectories of its family
+    pub fn flown(self, edit: AsEditable) -> ReferenceCase {
         let Self { scenario, plan_source } = self;
         let plan_source = match plan_one_by_one(&scenario, &plan_source) {
             Some(plan) => PlanSource::Imported(Box::new(CompletedPlan::whole(plan))),
             None => plan_source,
         };
         let Flown { answer, flight } = plan_source.fly(&scenario, scenario.simulation.seed);
-        ReferenceCase { scenario, plan: answer.plan, flight, selftest, plan_source }
+        ReferenceCase { scenario, plan: answer.plan, flight, edit, plan_source }
     }
 }
 

@@ -260,7 +260,7 @@ impl Session {
 struct EndedSession {
     /// Its exit status; `None` if it was killed.
     status: Option<ExitStatus>,
-    /// Number of replies that it had written and nobody had asked for.
+    /// Number of replies that it had written without a request.
     replies: usize,
 }
 

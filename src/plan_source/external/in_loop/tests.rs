@@ -42,7 +42,7 @@ fn requests_are_answered_by_their_ids() {
     }
     assert!(counting.replies_have_ids());
     // The script replies to `end` too.
-    assert!(counting.finish().failure.expect("a reply to nobody").contains("1 of its replies are left over"));
+    assert!(counting.finish().failure.expect("a reply without a request").contains("1 of its replies are left over"));
 }
 
 #[test]
