@@ -52,7 +52,7 @@ pub use integrity::is_flyable;
 pub use judge::{judge, judge_imported, judge_with};
 pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, KnotDefect, Motion};
-pub use provenance::{GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
+pub use provenance::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
 pub use separation::at_nodes as separation_at_nodes;
 pub use separation_shape::SeparationShape;
 pub use tracking::{

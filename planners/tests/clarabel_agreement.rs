@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use planners::convex::{self, InteriorPoint, Program, Settings, Solution, Status};
+use planners::convex::{self, InteriorPoint, Program, STAGE_LEN, Settings, Solution, Status};
 use planners::scp::{fleet, parallel};
 use scenarios::Scenario;
 
@@ -12,7 +12,10 @@ use scenarios::Scenario;
 const AGREEMENT: f64 = 1e-6;
 
 /// Largest fraction of subproblems on which Clarabel may stall.
-const MAX_STALLED_FRACTION: f64 = 0.2;
+const MAX_STALLED_FRACTION: f64 = 0.02;
+
+/// The same with rows of weights up to 1e6.
+const MAX_STALLED_FRACTION_WEIGHTED: f64 = 0.2;
 
 /// Largest number of vehicles for which every subproblem is compared. Larger fleets have hundreds of subproblems per
 /// iteration; a sample of those of `fleet-scp` is compared.
@@ -34,7 +37,7 @@ fn compare_all(scenario: &Scenario) {
         agreement.compare(program, block);
     });
     assert!(plan.history.len() > 1);
-    agreement.assert_of(scenario, plan.history.len() * scenario.vehicles.len());
+    agreement.assert_of(scenario, plan.history.len() * scenario.vehicles.len(), MAX_STALLED_FRACTION_WEIGHTED);
 }
 
 #[test]
@@ -52,7 +55,7 @@ fn block_and_clarabel_agree_on_subproblems_of_the_fleet_planner() {
         });
         let seen = seen.into_inner();
         assert!(seen > 1);
-        agreement.assert_of(&scenario, seen);
+        agreement.assert_of(&scenario, seen, MAX_STALLED_FRACTION);
     }
 }
 
@@ -76,11 +79,13 @@ impl Agreement {
         let clarabel = convex::solve_with_clarabel(program, 1e-8);
         let stalled = clarabel.status != Status::Solved;
         self.stalls.fetch_add(usize::from(stalled), Ordering::Relaxed);
-        // Clarabel's own objective is too small by its residuals times weights of up to 1e6, and no bound at all where it
-        // stalls; its variables are a candidate in either case.
+        // Where Clarabel stalls, its objective is no bound, but its variables are still a candidate. Its objective is too
+        // small by its residuals times the weights; with large ones only the candidate bounds the optimum from above.
         let candidate = program.objective(&clarabel.z);
-        let scale = candidate.abs().max(1.0);
-        let is_as_good = block.objective - candidate <= AGREEMENT * scale;
+        let is_weighted = program.row_units != [1.0; STAGE_LEN];
+        let upper = if stalled || is_weighted { candidate } else { clarabel.objective };
+        let scale = upper.abs().max(1.0);
+        let is_as_good = block.objective - upper <= AGREEMENT * scale;
         let is_possible = stalled || block.objective - clarabel.objective >= -AGREEMENT * scale;
         if block.status != Status::Solved || !(is_as_good && is_possible) {
             let other = format!("{:?} {} ({candidate})", clarabel.status, clarabel.objective);
@@ -89,13 +94,14 @@ impl Agreement {
         }
     }
 
-    fn assert_of(self, scenario: &Scenario, subproblems: usize) {
+    fn assert_of(self, scenario: &Scenario, subproblems: usize, max_stalled_fraction: f64) {
         let disagreements = self.disagreements.into_inner().expect("no panic while it was held");
         assert!(disagreements.is_empty(), "{}: {disagreements:#?}", scenario.name);
         let stalls = self.stalls.into_inner();
         assert!(
-            stalls as f64 <= MAX_STALLED_FRACTION * subproblems as f64,
-            "Clarabel stalled on {stalls} of {subproblems}"
+            stalls as f64 <= max_stalled_fraction * subproblems as f64,
+            "{}: Clarabel stalled on {stalls} of {subproblems}",
+            scenario.name
         );
     }
 }

@@ -9,13 +9,14 @@ mod controls;
 mod rounding;
 mod velocities;
 
+use nalgebra::Vector3;
 use rounding::Rounding;
 use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
 use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
 use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
 
-use crate::verdict::fixed_wing::{max_acceleration_mps2, max_distance_m};
-use crate::verdict::{GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
+use crate::verdict::fixed_wing::{max_acceleration_mps2, max_distance_m, max_velocity_from_chord_mps};
+use crate::verdict::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
 
 /// Load factors that are known better than this come from velocities that fit the positions.
 const EXACT_LOAD_FACTOR: f64 = 1e-3;
@@ -77,11 +78,13 @@ fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) 
         ImportedTrajectory::Complete(trajectory) => (trajectory, VehicleProvenance::default()),
         ImportedTrajectory::Partial(track) => {
             let limits = &scenario.fixed_wing_model(vehicle).limits;
+            let lacks_controls = track.controls.is_none();
+            let end_velocity = end_velocity(&track, max_acceleration_mps2(limits));
             let (track, rounded) = thinned(track, max_acceleration_mps2(limits));
             let (given, trajectory, residual) = reconstructed(vehicle, track);
             let reconstruction =
                 residual.map(|residual| between_rows(scenario, vehicle, &trajectory, &given, residual));
-            (trajectory.into(), VehicleProvenance { reconstruction, given, rounded })
+            (trajectory.into(), VehicleProvenance { reconstruction, given, rounded, lacks_controls, end_velocity })
         }
     }
 }
@@ -100,7 +103,11 @@ fn reconstructed(vehicle: &Vehicle, track: PartialTrajectory) -> (GivenRows, Tra
     };
     let (smooth, smooth_residual) = complete_trajectory(vehicle, positions);
     let Some(smooth_residual) = smooth_residual else { return (given, trajectory, Some(own)) };
-    let apart_mps = smooth.states.iter().zip(given_mps).map(|(state, given)| distance(state.velocity_mps(), *given));
+    let apart_mps = smooth
+        .states
+        .iter()
+        .zip(given_mps)
+        .map(|(state, given_mps)| (Vector3::from(state.velocity_mps()) - Vector3::from(*given_mps)).norm());
     let velocity_mps = apart_mps.fold(smooth_residual.velocity_mps, f64::max);
     let smooth_residual = Reconstruction { velocities: false, velocity_mps, ..smooth_residual };
     let interval_s = trajectory.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
@@ -111,10 +118,6 @@ fn reconstructed(vehicle: &Vehicle, track: PartialTrajectory) -> (GivenRows, Tra
     } else {
         (given, trajectory, Some(own))
     }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
 fn thinned_multirotor(
@@ -132,24 +135,43 @@ fn thinned_multirotor(
     (multirotor::Trajectory { vehicle, times_s: at(&kept, times_s), states: at(&kept, states) }, Some(rounded))
 }
 
-/// A fixed wing's table without the rows that are noise. What lies between the others is bounded by the vehicle's limits.
+/// A fixed wing's table without the rows that are noise. What lies between the others is bounded by the vehicle's limits;
+/// rows in between that it cannot have reached are kept. A table with controls is not thinned, since all of them count.
 fn thinned(track: PartialTrajectory, acceleration_mps2: f64) -> (PartialTrajectory, Option<RoundedRows>) {
-    if track.states.is_some() && track.controls.is_some() {
+    if track.controls.is_some() {
         return (track, None);
     }
-    let PartialTrajectory { vehicle, times_s, positions_m, states, controls } = &track;
+    let PartialTrajectory { vehicle, times_s, positions_m, states, controls: _ } = &track;
     let velocities_mps: Vec<[f64; 3]> = states.iter().flatten().map(State::velocity_mps).collect();
     let rounding = Rounding::of(times_s, positions_m, &velocities_mps);
-    let Some(kept) = rounding.rows_to_keep(times_s, acceleration_mps2, |_, _| true) else { return (track, None) };
+    let is_between =
+        |from, to| rounding.is_within_reach(times_s, positions_m, &velocities_mps, acceleration_mps2, [from, to]);
+    let Some(kept) = rounding.rows_to_keep(times_s, acceleration_mps2, is_between) else { return (track, None) };
     let rounded = rounding.rows(times_s.len(), kept.len());
     let thinned = PartialTrajectory {
         vehicle: vehicle.clone(),
         times_s: at(&kept, times_s),
         positions_m: at(&kept, positions_m),
         states: states.as_ref().map(|states| at(&kept, states)),
-        controls: controls.as_ref().map(|controls| at(&kept, controls)),
+        controls: None,
     };
     (thinned, Some(rounded))
+}
+
+/// What positions tell of the last velocity. It differs from that of a chord of duration T to the last row by a T/2 and by
+/// the rounding of its ends; the best chord counts. `None` if velocities are given.
+fn end_velocity(track: &PartialTrajectory, acceleration_mps2: f64) -> Option<EndVelocity> {
+    let PartialTrajectory { times_s, positions_m, states: None, .. } = track else { return None };
+    let rounding = Rounding::of(times_s, positions_m, &[]);
+    let (&end_s, &end_m) = (times_s.last()?, positions_m.last()?);
+    let chords = times_s.iter().zip(positions_m).filter(|(begin_s, _)| **begin_s < end_s).map(|(begin_s, begin_m)| {
+        let duration_s = end_s - begin_s;
+        let velocity_mps = (Vector3::from(end_m) - Vector3::from(*begin_m)) / duration_s;
+        let rounding_mps = 2.0 * 3.0_f64.sqrt() * rounding.position_m / duration_s;
+        let error_mps = max_velocity_from_chord_mps(acceleration_mps2, duration_s, 1.0) + rounding_mps;
+        EndVelocity { velocity_mps: velocity_mps.into(), error_mps }
+    });
+    chords.min_by(|a, b| a.error_mps.total_cmp(&b.error_mps))
 }
 
 /// The values at the rows that are kept.

@@ -68,9 +68,9 @@ impl<'a> Case<'a> {
         self.flown.as_ref()
     }
 
-    /// The end of the mission of the vehicle of this name, s; infinite if it cannot be told.
-    pub fn mission_end_s(&self, vehicle: &str) -> f64 {
-        self.flown().map_or(f64::INFINITY, |flown| flown.mission_end_s(vehicle))
+    /// The end of the mission, s; infinite if it cannot be told.
+    pub fn mission_end_s(&self) -> f64 {
+        self.flown().map_or(f64::INFINITY, FlownMotions::mission_end_s)
     }
 
     /// The motion of every vehicle while it is judged.

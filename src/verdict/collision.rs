@@ -28,7 +28,7 @@ pub fn deepest(
 
 /// A flight that crashes into an obstacle does not clear it, however close to the surface its log ends.
 pub fn mark_crashed(case: &Case<'_>, checks: &mut [Check]) {
-    let crash = case.flight().ok().and_then(|flight| obstacle_crash(flight, |vehicle| case.mission_end_s(vehicle)));
+    let crash = case.flight().ok().and_then(|flight| obstacle_crash(flight, case.mission_end_s()));
     let clearance = checks.iter_mut().find(|check| check.name == "flight.clearance");
     let (Some((t_s, between)), Some(clearance)) = (crash, clearance) else { return };
     if matches!(clearance.status, Status::Pass | Status::Undecided) {

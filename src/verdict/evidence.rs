@@ -143,19 +143,19 @@ fn compared(spec: &CheckSpec, status: Status, value: f64, limit: f64, margin: f6
 
 /// Whether bounds, lower and upper, are at least `limit`, up to the [`tolerance`]. NaN fails.
 pub fn status_at_least(spec: &CheckSpec, [lower, upper]: [f64; 2], limit: f64) -> Status {
-    let least = limit - tolerance::beyond(spec, limit);
+    let least = limit - tolerance::limit_tolerance(spec, limit);
     decide(lower >= least, lower < least && upper >= least)
 }
 
 /// Whether bounds, lower and upper, are at most `limit`, up to the [`tolerance`]. NaN fails.
 pub fn status_at_most(spec: &CheckSpec, [lower, upper]: [f64; 2], limit: f64) -> Status {
-    let most = limit + tolerance::beyond(spec, limit);
+    let most = limit + tolerance::limit_tolerance(spec, limit);
     decide(upper <= most, upper > most && lower <= most)
 }
 
 /// Whether a `margin` to `limit` is kept, up to the [`tolerance`]. NaN fails.
 pub fn status_inside(spec: &CheckSpec, limit: f64, margin: f64) -> Status {
-    decide(margin >= -tolerance::beyond(spec, limit), false)
+    decide(margin >= -tolerance::limit_tolerance(spec, limit), false)
 }
 
 /// Neither comparison holds for NaN, which leaves a failure.

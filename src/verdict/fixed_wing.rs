@@ -12,7 +12,9 @@ use std::ops::Deref;
 
 use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 
-pub use between_rows::{max_acceleration_mps2, max_distance_m};
+pub use between_rows::{
+    max_acceleration_mps2, max_distance_from_chord_m, max_distance_m, max_turn_deg, max_velocity_from_chord_mps,
+};
 pub use clearance::{at_instant as clearance_at, at_nodes as clearance_at_nodes, closest as closest_obstacle};
 pub use planned::PlannedMotions;
 
@@ -20,8 +22,9 @@ use between_rows::Tube;
 
 use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
+use crate::verdict::goal::EndError;
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::Motion;
+use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::{Check, collision, flight_integrity, goal, separation};
 
@@ -47,8 +50,10 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?, it.provenance)),
-    ("nodes.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
-    ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?)),
+    ("nodes.control_limits", |spec, it| limits::check_node_controls(spec, it.scenario, it.flyable()?, it.provenance)),
+    ("nodes.goal", |spec, it| {
+        goal::check_nodes(spec, it.scenario, it.flyable()?, |index, end| it.end_error(index, end))
+    }),
     ("plan.separation", |spec, it| {
         separation::check(spec, it.scenario, it.planned_motions(), SeparationShape::Horizontal)
     }),
@@ -56,14 +61,16 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?)),
-    ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.plan, it.planned()?)),
-    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned_motions()?)),
+    ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.plan, it.planned()?, it.provenance)),
+    ("plan.goal", |spec, it| {
+        goal::check_planned(spec, it.scenario, it.planned_motions()?, |index, end| it.end_error(index, end))
+    }),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     ("flight.crash", |spec, it| {
         let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
-        Ok(flight_integrity::check_crash(spec, it.flight()?, |vehicle| it.mission_end_s(vehicle), contact))
+        Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
         separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Horizontal)
@@ -74,7 +81,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
-    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?)),
+    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?, |index| it.planned_end_error(index))),
     ("flight.tension", no_load),
     ("flight.slack", no_load),
     ("flight.swing", no_load),
@@ -100,6 +107,18 @@ impl<'a> FleetCase<'a> {
         self.planned().map(|planned| planned.motions.as_slice())
     }
 
+    /// How far the true end of a vehicle's plan may be from this one.
+    fn end_error(&self, vehicle: usize, end: &Knot) -> EndError {
+        self.tubes.get(vehicle).and_then(Option::as_ref).map_or_else(EndError::default, |tube| tube.end_error(end))
+    }
+
+    /// How far the true end of a vehicle's plan may be from the one that was flown.
+    fn planned_end_error(&self, vehicle: usize) -> EndError {
+        let motions = self.planned_motions().ok();
+        let end = motions.and_then(|motions| motions[vehicle].knots().last());
+        end.map_or_else(EndError::default, |end| self.end_error(vehicle, end))
+    }
+
     /// The flown motions. If the plan was reconstructed, the vehicle would have flown what lies in the tube around it.
     fn flown_motions(&self) -> Evidence<'_, [Motion]> {
         self.flown_in_tubes.as_deref().map_or_else(|| self.shared.flown_motions(), Ok)
@@ -110,7 +129,8 @@ fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<Option<Tube>> {
     let vehicles = case.scenario.vehicles.iter().zip(&case.plan.trajectories).zip(&planned.motions);
     let tube = |(index, ((vehicle, trajectory), motion)): (usize, ((&Vehicle, &Trajectory), &Motion))| {
         let limits = &case.scenario.fixed_wing_model(vehicle).limits;
-        Tube::around(motion, trajectory.fixed_wing(), case.provenance.given(index), limits)
+        let (given, end_velocity) = (case.provenance.given(index), case.provenance.end_velocity(index));
+        Tube::around(motion, trajectory.fixed_wing(), given, end_velocity, limits)
             .map(|tube| tube.widened(case.provenance.rounding_m(index)))
     };
     vehicles.enumerate().map(tube).collect()

@@ -62,19 +62,19 @@ pub fn check_complete(
     none_of(spec, defects.len(), &[], defects.first())
 }
 
-/// Number of crashes of vehicles that are on their mission. A contact that the log has no event of counts as one. Crashes of
-/// vehicles that coast after their mission are told, and do not decide.
+/// Number of crashes until the mission's end. A contact that the log has no event of counts as one. Crashes while all
+/// vehicles coast are told, and do not decide.
 ///
-/// - `mission_end_s`: end of the mission of a vehicle, by its name, s
+/// - `mission_end_s`: end of the mission, s
 /// - `contact`: the deepest contact in the logged motion; called if the log has no crash
 pub fn check_crash(
     spec: &CheckSpec,
     flight: &Flight,
-    mission_end_s: impl Fn(&str) -> f64,
+    mission_end_s: f64,
     contact: impl FnOnce() -> Option<Measurement>,
 ) -> Check {
-    let deciding = flight.events.iter().filter(|event| is_on_mission(event, flight.step_s, &mission_end_s));
-    let mut crashes = deciding.filter_map(crash);
+    let decides = |t_s: f64| !exceeds(t_s, mission_end_s + flight.step_s);
+    let mut crashes = flight.events.iter().filter_map(crash).filter(|(t_s, _)| decides(*t_s));
     let Some((t_s, concerned)) = crashes.next() else {
         return match contact() {
             None => spec.at_most(later_crash(flight), 0.0),
@@ -86,27 +86,20 @@ pub fn check_crash(
     spec.at_most(measured, 0.0)
 }
 
-/// The first crash of a vehicle on its mission into an obstacle or the ground: its time, s, and the names of the vehicle and the
+/// The first crash into an obstacle or the ground until the mission's end: its time, s, and the names of the vehicle and the
 /// obstacle.
-///
-/// - `mission_end_s`: end of the mission of a vehicle, by its name, s
-pub fn obstacle_crash(flight: &Flight, mission_end_s: impl Fn(&str) -> f64) -> Option<(f64, [&str; 2])> {
-    let deciding = flight.events.iter().filter(|event| is_on_mission(event, flight.step_s, &mission_end_s));
-    deciding.into_iter().find_map(|event| match (&event.kind, event.vehicles.as_slice()) {
-        (EventKind::Crash { obstacle: Some(obstacle) }, [vehicle, ..]) => {
+pub fn obstacle_crash(flight: &Flight, mission_end_s: f64) -> Option<(f64, [&str; 2])> {
+    flight.events.iter().find_map(|event| match (&event.kind, event.vehicles.as_slice()) {
+        (EventKind::Crash { obstacle: Some(obstacle) }, [vehicle, ..])
+            if !exceeds(event.t_s, mission_end_s + flight.step_s) =>
+        {
             Some((event.t_s, [vehicle.as_str(), obstacle.as_str()]))
         }
         _ => None,
     })
 }
 
-/// Is a vehicle that the event concerns still on its mission? An event without vehicles concerns all.
-fn is_on_mission(event: &Event, step_s: f64, mission_end_s: impl Fn(&str) -> f64) -> bool {
-    let is_flying = |vehicle: &String| !exceeds(event.t_s, mission_end_s(vehicle) + step_s);
-    event.vehicles.is_empty() || event.vehicles.iter().any(is_flying)
-}
-
-/// No crash, with a word on the first one after a mission's end, if there is one.
+/// No crash, with a word on the first one after the mission's end, if there is one.
 fn later_crash(flight: &Flight) -> Measurement {
     let Some((t_s, concerned)) = flight.events.iter().find_map(crash) else { return Measurement::value(0.0) };
     let names: Vec<&str> = concerned.map(String::as_str).collect();
@@ -173,31 +166,4 @@ fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &
     }
     let tolerance_m = scenario.limits().tracking_max_m;
     start_defect("m", first.position_m, vehicle.start.position_m(), tolerance_m).map(|defect| defect.to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use sim::{Event, EventKind};
-
-    use super::is_on_mission;
-
-    /// The first aircraft has arrived at 20 s and coasts, the second one flies until 40 s.
-    #[test]
-    fn a_crash_counts_while_a_vehicle_in_it_is_on_its_mission() {
-        let mission_end_s = |vehicle: &str| if vehicle == "uav-1" { 20.0 } else { 40.0 };
-        let counts = |t_s: f64, vehicles: &[&str]| {
-            let vehicles = vehicles.iter().map(|name| (*name).to_owned()).collect();
-            let event = Event { t_s, kind: EventKind::Crash { obstacle: None }, vehicles };
-            is_on_mission(&event, 0.01, mission_end_s)
-        };
-        assert!(counts(20.0, &["uav-1"]) && !counts(21.0, &["uav-1"]));
-        assert!(counts(21.0, &["uav-1", "uav-2"]) && counts(21.0, &["uav-2"]));
-        assert!(!counts(41.0, &["uav-1", "uav-2"]));
-        assert!(counts(99.0, &[]), "it names no vehicle");
-        assert!(is_on_mission(
-            &Event { t_s: 99.0, kind: EventKind::Crash { obstacle: None }, vehicles: vec!["uav-1".into()] },
-            0.01,
-            |_| f64::INFINITY
-        ));
-    }
 }

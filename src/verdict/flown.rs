@@ -69,10 +69,9 @@ impl<'a> FlownMotions<'a> {
 }
 
 impl FlownMotions<'_> {
-    /// The end of the mission of the vehicle of this name, s: until then it is judged. Infinite if there is none.
-    pub fn mission_end_s(&self, vehicle: &str) -> f64 {
-        let own = self.vehicles.iter().find(|flown| flown.name == vehicle);
-        own.map_or(f64::INFINITY, |flown| flown.judged_end_s)
+    /// The end of the mission, s: until then some vehicle is judged.
+    pub fn mission_end_s(&self) -> f64 {
+        self.vehicles.iter().map(|vehicle| vehicle.judged_end_s).fold(0.0, f64::max)
     }
 }
 

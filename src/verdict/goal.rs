@@ -4,43 +4,77 @@
 //! check reports the worst one. Headings are compared modulo a full turn. Velocities are over ground. Whether a vehicle that
 //! hovers has come to rest is a check of its own.
 
+use nalgebra::Vector3;
 use scenarios::{AppliedLimits, CheckSpec, Family, Plan, Scenario, Vehicle};
 use sim::Sample;
 
 use crate::verdict::arrival::not_arrived;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
+use crate::verdict::fixed_wing::max_turn_deg;
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::Motion;
+use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::{Check, LimitKey};
 
+/// How far the true end of a vehicle's plan may be from the one that is judged.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EndError {
+    /// Distance, m.
+    pub position_m: f64,
+    /// Difference of the velocities, m/s.
+    pub velocity_mps: f64,
+}
+
 /// The last nodes.
-pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
+///
+/// - `error`: of the end of the vehicle with this index
+pub fn check_nodes(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    error: impl Fn(usize, &Knot) -> EndError,
+) -> CheckResult {
     check_worst(spec, scenario, |index| {
         let trajectory = &plan.trajectories[index];
         let last = trajectory.times_s().len().checked_sub(1).ok_or_else(|| ends_early(scenario, index))?;
         let nodes = trajectory.nodes();
-        let vehicle = &scenario.vehicles[index];
-        Ok(End::at(vehicle, trajectory.times_s()[last], nodes.position_m(last), nodes.velocity_mps(last)))
+        let (position_m, velocity_mps) = (nodes.position_m(last), nodes.velocity_mps(last));
+        let end = Knot { t_s: trajectory.times_s()[last], position_m, velocity_mps };
+        Ok(End::at(&scenario.vehicles[index], &end, error(index, &end)))
     })
 }
 
 /// The ends of the continuous plan.
-pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+///
+/// - `error`: of the end of the vehicle with this index
+pub fn check_planned(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    error: impl Fn(usize, &Knot) -> EndError,
+) -> CheckResult {
     check_worst(spec, scenario, |index| {
         let last = motions[index].knots().last().ok_or_else(|| ends_early(scenario, index))?;
-        Ok(End::at(&scenario.vehicles[index], last.t_s, last.position_m, last.velocity_mps))
+        Ok(End::at(&scenario.vehicles[index], last, error(index, last)))
     })
 }
 
 /// The closest approaches in flight.
-pub fn check_flown(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+///
+/// - `error`: of the end of the plan of the vehicle with this index
+pub fn check_flown(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    flown: &FlownMotions<'_>,
+    error: impl Fn(usize) -> EndError,
+) -> CheckResult {
     check_worst(spec, scenario, |index| {
         let vehicle = &flown.vehicles[index];
         let approach = vehicle.approach.ok_or_else(|| not_arrived(vehicle))?;
         let velocity_mps = velocity_mps(vehicle.judged, approach.at_s).unwrap_or([f64::NAN; 3]);
-        Ok(End { t_s: approach.at_s, distance_m: [approach.lower_m, approach.upper_m], velocity_mps })
+        let distance_m = [approach.lower_m, approach.upper_m];
+        Ok(End { t_s: approach.at_s, distance_m, velocity_mps, error: error(index) })
     })
 }
 
@@ -50,13 +84,13 @@ struct End {
     /// Bounds of the distance from the goal, m.
     distance_m: [f64; 2],
     velocity_mps: [f64; 3],
+    error: EndError,
 }
 
 impl End {
-    fn at(vehicle: &Vehicle, t_s: f64, position_m: [f64; 3], velocity_mps: [f64; 3]) -> Self {
-        let goal_m = vehicle.goal.position_m();
-        let distance_m = (0..3).map(|axis| (position_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
-        Self { t_s, distance_m: [distance_m; 2], velocity_mps }
+    fn at(vehicle: &Vehicle, &Knot { t_s, position_m, velocity_mps }: &Knot, error: EndError) -> Self {
+        let distance_m = (Vector3::from(position_m) - Vector3::from(vehicle.goal.position_m())).norm();
+        Self { t_s, distance_m: [distance_m; 2], velocity_mps, error }
     }
 
     /// What is asked of the end of a vehicle.
@@ -64,17 +98,44 @@ impl End {
         let position = Part {
             name: "position",
             unit: "m",
-            off: self.distance_m,
+            off: widened(self.distance_m, self.error.position_m),
             tolerance: limits.goal_m,
             key: LimitKey::Verdict("goal_m"),
         };
         match family {
-            Family::FixedWing => {
-                [position].into_iter().chain(velocity_parts(self.velocity_mps, vehicle, limits)).collect()
-            }
+            Family::FixedWing => [position].into_iter().chain(self.velocity_parts(vehicle, limits)).collect(),
             Family::SlungLoad | Family::Multirotor => vec![position],
         }
     }
+
+    /// Heading, flight-path angle and speed.
+    fn velocity_parts(&self, vehicle: &Vehicle, limits: &AppliedLimits) -> [Part; 3] {
+        let (goal, [vx, vy, vz], error_mps) = (&vehicle.goal, self.velocity_mps, self.error.velocity_mps);
+        let horizontal_mps = vx.hypot(vy);
+        let speed_mps = horizontal_mps.hypot(vz);
+        let turned_deg = (vy.atan2(vx).to_degrees() - goal.heading_deg).rem_euclid(360.0);
+        let climb_deg = vz.atan2(horizontal_mps).to_degrees();
+        let part = |name, unit, (off, error): (f64, f64), tolerance, field| Part {
+            name,
+            unit,
+            off: widened([off; 2], error),
+            tolerance,
+            key: LimitKey::Verdict(field),
+        };
+        let heading = (turned_deg.min(360.0 - turned_deg), max_turn_deg(error_mps, horizontal_mps));
+        let flight_path = ((climb_deg - goal.flight_path_deg).abs(), max_turn_deg(error_mps, speed_mps));
+        let speed = ((speed_mps - goal.speed_mps).abs(), error_mps);
+        [
+            part("heading", "deg", heading, limits.goal_heading_deg, "goal_heading_deg"),
+            part("flight-path angle", "deg", flight_path, limits.goal_flight_path_deg, "goal_flight_path_deg"),
+            part("speed", "m/s", speed, limits.goal_speed_mps, "goal_speed_mps"),
+        ]
+    }
+}
+
+/// The bounds of a magnitude that is only known up to an error.
+fn widened([lower, upper]: [f64; 2], error: f64) -> [f64; 2] {
+    [if error > lower { 0.0 } else { lower - error }, upper + error]
 }
 
 /// One quantity of a goal.
@@ -88,41 +149,15 @@ struct Part {
 }
 
 impl Part {
-    /// The largest possible difference as a fraction of the tolerance.
-    fn relative(&self) -> f64 {
-        self.off[1] / self.tolerance
+    /// Whether it is worse than another one: what certainly misses is worse than what may miss. NaN is the worst.
+    fn is_worse(&self, other: &Self) -> bool {
+        let [certain, possible] = [0, 1].map(|bound| [self, other].map(|part| part.off[bound] / part.tolerance));
+        match certain.map(|relative| is_larger(relative, 1.0)) {
+            [false, false] => is_larger(possible[0], possible[1]),
+            [true, true] => is_larger(certain[0], certain[1]),
+            [certainly_misses, _] => certainly_misses,
+        }
     }
-}
-
-/// Heading, flight-path angle and speed.
-fn velocity_parts([vx, vy, vz]: [f64; 3], vehicle: &Vehicle, limits: &AppliedLimits) -> [Part; 3] {
-    let goal = &vehicle.goal;
-    let horizontal_mps = vx.hypot(vy);
-    let turned_deg = (vy.atan2(vx).to_degrees() - goal.heading_deg).rem_euclid(360.0);
-    let part = |name, unit, off: f64, tolerance, key| Part { name, unit, off: [off; 2], tolerance, key };
-    [
-        part(
-            "heading",
-            "deg",
-            turned_deg.min(360.0 - turned_deg),
-            limits.goal_heading_deg,
-            LimitKey::Verdict("goal_heading_deg"),
-        ),
-        part(
-            "flight-path angle",
-            "deg",
-            (vz.atan2(horizontal_mps).to_degrees() - goal.flight_path_deg).abs(),
-            limits.goal_flight_path_deg,
-            LimitKey::Verdict("goal_flight_path_deg"),
-        ),
-        part(
-            "speed",
-            "m/s",
-            (horizontal_mps.hypot(vz) - goal.speed_mps).abs(),
-            limits.goal_speed_mps,
-            LimitKey::Verdict("goal_speed_mps"),
-        ),
-    ]
 }
 
 /// The check of the part, of any vehicle, that uses most of its tolerance.
@@ -138,7 +173,7 @@ fn check_worst(
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let end = end(index)?;
         for part in end.parts(family, vehicle, &limits) {
-            if worst.as_ref().is_none_or(|(worst, ..)| is_larger(part.relative(), worst.relative())) {
+            if worst.as_ref().is_none_or(|(worst, ..)| part.is_worse(worst)) {
                 worst = Some((part, end.t_s, &vehicle.name));
             }
         }
@@ -155,7 +190,8 @@ fn check_part(spec: &CheckSpec, family: Family, part: &Part, t_s: f64, vehicle: 
         Family::FixedWing => measured.with_reason(format!("it is the {}", part.name)),
         Family::SlungLoad | Family::Multirotor => measured,
     };
-    Check { unit: part.unit.to_owned(), limit_key: Some(part.key), ..spec.at_most(measured, part.tolerance) }
+    let spec = CheckSpec { unit: part.unit, ..*spec };
+    Check { limit_key: Some(part.key), ..spec.at_most(measured, part.tolerance) }
 }
 
 fn ends_early(scenario: &Scenario, index: usize) -> MissingEvidence {

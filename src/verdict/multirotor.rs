@@ -17,6 +17,7 @@ pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
+use crate::verdict::goal::EndError;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
@@ -48,21 +49,21 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?)),
     ("nodes.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
-    ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?)),
+    ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?, |index, _| it.rounding(index))),
     ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering(), SeparationShape::Spatial)),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.hovering()?)),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?)),
     ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
     ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
-    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?)),
+    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?, |index, _| it.rounding(index))),
     ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?)),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     ("flight.crash", |spec, it| {
         let contact = || collision::deepest(it.scenario, it.shared.flown_motions().ok()?, clearance::entered_obstacle);
-        Ok(flight_integrity::check_crash(spec, it.flight()?, |vehicle| it.mission_end_s(vehicle), contact))
+        Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.planner", |spec, it| Ok(in_loop_planner::check(spec, it.scenario, it.flight()?))),
     ("flight.separation", |spec, it| {
@@ -72,11 +73,16 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
-    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?)),
+    ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?, |index| it.rounding(index))),
     ("flight.rest", |spec, it| rest::check_flown(spec, it.scenario, it.plan, it.flown()?)),
 ];
 
 impl<'a> FleetCase<'a> {
+    /// What is not known of the end of a vehicle because its rows were rounded.
+    fn rounding(&self, vehicle: usize) -> EndError {
+        EndError { position_m: self.provenance.rounding_m(vehicle), ..EndError::default() }
+    }
+
     fn new(shared: &'a Case<'a>) -> Self {
         let plan = shared.flyable().map_err(MissingEvidence::from);
         let planned = plan.and_then(planned_motions).map(|motions| rounded(motions, shared.provenance));

@@ -7,6 +7,9 @@ use crate::number_format::quantity;
 use crate::verdict::compare::is_larger;
 use crate::verdict::{Check, Status};
 
+/// Why a check of controls is skipped.
+pub const NO_CONTROLS: &str = "the plan gives no controls";
+
 /// What a plan gives.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Provenance {
@@ -27,6 +30,19 @@ pub struct VehicleProvenance {
     pub reconstruction: Option<Reconstruction>,
     /// Rows that were left out as rounding.
     pub rounded: Option<RoundedRows>,
+    /// Whether its rows give no controls.
+    pub lacks_controls: bool,
+    /// Of rows without velocities: what they tell of the last velocity.
+    pub end_velocity: Option<EndVelocity>,
+}
+
+/// What positions tell of the velocity at the last of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndVelocity {
+    /// World frame, m/s.
+    pub velocity_mps: [f64; 3],
+    /// How far the true one may be from it, m/s.
+    pub error_mps: f64,
 }
 
 /// Rows of a table whose numbers were rounded, and those of them that were kept: differences of the others are noise.
@@ -101,30 +117,45 @@ impl Provenance {
         self.vehicles.get(vehicle).map_or(&GivenRows::Everything, |vehicle| &vehicle.given)
     }
 
+    /// Whether the rows of a vehicle give controls.
+    ///
+    /// - `vehicle`: its index in the scenario
+    pub fn gives_controls(&self, vehicle: usize) -> bool {
+        self.vehicles.get(vehicle).is_none_or(|vehicle| !vehicle.lacks_controls)
+    }
+
+    /// Whether the rows of a vehicle give velocities.
+    ///
+    /// - `vehicle`: its index in the scenario
+    pub fn gives_velocities(&self, vehicle: usize) -> bool {
+        *self.given(vehicle) != GivenRows::Positions
+    }
+
+    /// What the positions of a vehicle tell of its last velocity; `None` if velocities are given.
+    ///
+    /// - `vehicle`: its index in the scenario
+    pub fn end_velocity(&self, vehicle: usize) -> Option<EndVelocity> {
+        self.vehicles.get(vehicle)?.end_velocity
+    }
+
     /// How far the rows of a vehicle may be from its motion because they were rounded, m.
     pub fn rounding_m(&self, vehicle: usize) -> f64 {
         let rounded = self.vehicles.get(vehicle).and_then(|vehicle| vehicle.rounded);
         rounded.map_or(0.0, |rounded| 3.0_f64.sqrt() * rounded.rounding_m)
     }
 
-    /// Corrects the checks of an incomplete plan: those of what was not given are skipped, and those that are decided by less
-    /// than the residual of the reconstruction become undecided. What may lie between the rows is part of the distances
-    /// already.
+    /// Corrects the checks of an incomplete plan: reconstructed controls decide nothing by less than their error. What may
+    /// lie between the rows is part of the distances already.
     pub(super) fn mark_undecided(&self, checks: &mut [Check]) {
         let Some(reconstruction) = &self.reconstruction else { return };
         for check in checks {
             match check.name.as_str() {
-                "nodes.control_limits" => skip(check, "the plan gives no controls"),
-                "nodes.state_limits" if reconstruction.velocities => skip(check, "the plan gives no velocities"),
-                "plan.rollout" => {
-                    skip(check, "the plan gives no controls, and reconstructed ones say nothing open loop");
-                }
                 "plan.dynamics" if check.is_bad() => {
                     let remark = "no controls were given, and none were found that lead from node to node: if the plan \
                                   is right, give its controls, or nodes closer together";
                     check.reason = Some(remark.into());
                 }
-                "plan.goal" | "plan.control_limits" => reconstruction.mark_undecided(check),
+                "plan.control_limits" => reconstruction.mark_undecided(check),
                 _ => {}
             }
         }
@@ -159,13 +190,9 @@ impl Reconstruction {
         }
     }
 
-    /// Whether the limit is kept cannot be told if the margin is smaller than the error.
+    /// Whether a load factor keeps its limit cannot be told if the margin is smaller than the error.
     fn mark_undecided(&self, check: &mut Check) {
-        let error = match check.unit.as_str() {
-            "m" => self.position_m,
-            "-" => self.load_factor,
-            _ => return,
-        };
+        let error = self.load_factor;
         let is_decided = check.margin.is_none_or(|margin| margin.abs() > error);
         if !is_decided {
             check.status = Status::Undecided;
@@ -190,88 +217,61 @@ impl Reconstruction {
     }
 }
 
-fn skip(check: &mut Check, reason: &str) {
-    let Check { name, unit, .. } = check.clone();
-    *check = Check {
-        name,
-        status: Status::Skip,
-        value: None,
-        lower: None,
-        upper: None,
-        limit: None,
-        margin: None,
-        unit,
-        at_s: None,
-        between: Vec::new(),
-        advisory: false,
-        reason: Some(reason.to_owned()),
-        limit_key: None,
-    };
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Provenance, Reconstruction, VehicleProvenance};
+    use super::{GivenRows, Provenance, Reconstruction, VehicleProvenance};
     use scenarios::check_spec;
 
+    use crate::verdict::Status;
     use crate::verdict::evidence::{Decide, Measurement};
-    use crate::verdict::{Check, Status};
 
-    fn given(velocities: bool) -> Provenance {
-        let residual = Reconstruction { velocities, position_m: 0.5, velocity_mps: 0.1, ..Reconstruction::default() };
+    fn given(load_factor: f64) -> Provenance {
+        let residual = Reconstruction { load_factor, ..Reconstruction::default() };
         let mut provenance = Provenance::whole();
-        provenance.add(VehicleProvenance { reconstruction: Some(residual), ..VehicleProvenance::default() });
+        provenance.add(VehicleProvenance {
+            reconstruction: Some(residual),
+            lacks_controls: true,
+            ..VehicleProvenance::default()
+        });
         provenance
     }
 
-    fn qualified(provenance: &Provenance, check: Check) -> Check {
-        let mut checks = [check];
+    fn status(provenance: &Provenance, load_factor: f64) -> Status {
+        let mut checks = [check_spec("plan.control_limits").unwrap().at_most(Measurement::value(load_factor), 2.0)];
         provenance.mark_undecided(&mut checks);
-        let [check] = checks;
-        check
-    }
-
-    fn goal(value_m: f64) -> Check {
-        check_spec("plan.goal").unwrap().at_most(Measurement::value(value_m), 5.0)
+        checks[0].status
     }
 
     #[test]
-    fn what_lies_within_the_residual_of_the_reconstruction_is_undecided_on_either_side() {
-        let status = |value_m| qualified(&given(false), goal(value_m)).status;
-        assert_eq!(status(4.4), Status::Pass);
-        assert_eq!(status(4.6), Status::Undecided);
-        assert_eq!(status(5.4), Status::Undecided);
-        assert_eq!(status(5.6), Status::Fail);
-        assert_eq!(qualified(&Provenance::whole(), goal(4.6)).status, Status::Pass);
+    fn what_lies_within_the_error_of_a_load_factor_is_undecided_on_either_side() {
+        let given = given(0.5);
+        for (load_factor, expected) in
+            [(1.4, Status::Pass), (1.6, Status::Undecided), (2.4, Status::Undecided), (2.6, Status::Fail)]
+        {
+            assert_eq!(status(&given, load_factor), expected, "{load_factor}");
+        }
+        assert_eq!(status(&Provenance::whole(), 1.6), Status::Pass);
     }
 
     #[test]
     fn an_error_that_is_no_number_decides_nothing() {
-        let mut provenance = given(false);
-        if let Some(reconstruction) = &mut provenance.reconstruction {
-            reconstruction.position_m = f64::NAN;
-        }
-        assert_eq!(qualified(&provenance, goal(0.0)).status, Status::Undecided);
+        assert_eq!(status(&given(f64::NAN), 0.0), Status::Undecided);
     }
 
     #[test]
-    fn what_was_not_given_is_not_asked() {
-        let node_check = |name| check_spec(name).unwrap().at_most(Measurement::value(0.0), 1.0);
-        let rollout = check_spec("plan.rollout").unwrap().at_most(Measurement::value(0.0), 1.0);
-        for (velocities, check, status) in [
-            (false, node_check("nodes.control_limits"), Status::Skip),
-            (false, node_check("nodes.state_limits"), Status::Pass),
-            (true, node_check("nodes.state_limits"), Status::Skip),
-            (false, rollout, Status::Skip),
-        ] {
-            let answer = qualified(&given(velocities), check);
-            assert_eq!((answer.status, answer.reason.is_some()), (status, status == Status::Skip), "{}", answer.name);
-        }
+    fn each_vehicle_is_asked_for_what_it_gives() {
+        let mut provenance = given(0.5);
+        provenance.add(VehicleProvenance::default());
+        assert_eq!([0, 1].map(|vehicle| provenance.gives_controls(vehicle)), [false, true]);
+        provenance.add(VehicleProvenance { given: GivenRows::Positions, ..VehicleProvenance::default() });
+        assert_eq!([1, 2].map(|vehicle| provenance.gives_velocities(vehicle)), [true, false]);
+        assert!(Provenance::whole().gives_controls(7) && Provenance::whole().gives_velocities(7));
     }
 
     #[test]
     fn what_was_flown_is_not_doubted() {
-        let flown = check_spec("flight.separation").unwrap().at_least(Measurement::value(100.1), 100.0);
-        assert_eq!(qualified(&given(true), flown).status, Status::Pass);
+        let mut checks = [check_spec("flight.separation").unwrap().at_least(Measurement::value(100.1), 100.0)];
+        given(0.5).mark_undecided(&mut checks);
+        assert_eq!(checks[0].status, Status::Pass);
     }
 }

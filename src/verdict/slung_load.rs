@@ -92,9 +92,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
     // The clearance of body, cable and load is that of their true shapes: in a contact it is not positive.
-    ("flight.crash", |spec, it| {
-        Ok(flight_integrity::check_crash(spec, it.flight()?, |vehicle| it.mission_end_s(vehicle), || None))
-    }),
+    ("flight.crash", |spec, it| Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), || None))),
     ("flight.separation", |spec, it| {
         separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]), SeparationShape::Spatial)
     }),

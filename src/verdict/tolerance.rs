@@ -19,7 +19,7 @@ const SOLVER_TOLERANCE_M: f64 = 1e-5;
 
 /// How far the value of a check may be beyond its limit, in the unit of the check. Ranges at the nodes are widened by
 /// [`SOLVER_TOLERANCE`] where they are compared, so that the report shows it.
-pub fn beyond(spec: &CheckSpec, limit: f64) -> f64 {
+pub fn limit_tolerance(spec: &CheckSpec, limit: f64) -> f64 {
     let rounding = ROUNDING_TOLERANCE * limit.abs().max(1.0);
     match spec.group {
         Group::Nodes if spec.unit == "m" => rounding.max(SOLVER_TOLERANCE_M),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::workplace::{PAIR, Workplace, code, has_python, stderr, stdout};
+use crate::workplace::{PAIR, Workplace, code, has_cpp_compiler, has_python, stderr, stdout};
 
 fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/external-planner").join(name)
@@ -153,8 +153,7 @@ fn a_slow_in_loop_planner_is_reported_and_by_the_wall_clock_flown_late() {
 #[test]
 #[cfg(unix)]
 fn the_example_in_cpp_flies_its_scenario() {
-    let has_compiler = Command::new("c++").arg("--version").output().is_ok_and(|output| output.status.success());
-    if !has_compiler {
+    if !has_cpp_compiler() {
         return;
     }
     let scenario = fs::read_to_string(example("online.toml")).unwrap();

@@ -78,10 +78,20 @@ pub fn code(output: &Output) -> i32 {
 /// environment variable `CI` is set, it fails.
 #[track_caller]
 pub fn has_python(modules: &str) -> bool {
-    let import = format!("import {modules}");
-    let found = Command::new("python3").args(["-c", &import]).output().is_ok_and(|output| output.status.success());
+    has_program("python3", &["-c", &format!("import {modules}")], &format!("python3 with the modules {modules}"))
+}
+
+/// Whether there is a C++ compiler. Without it a test is skipped like one without [Python](has_python).
+#[track_caller]
+pub fn has_cpp_compiler() -> bool {
+    has_program("c++", &["--version"], "c++, a C++ compiler")
+}
+
+#[track_caller]
+fn has_program(program: &str, arguments: &[&str], what: &str) -> bool {
+    let found = Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success());
     if !found {
-        skip_without(&format!("python3 with the modules {modules}"));
+        skip_without(what);
     }
     found
 }

@@ -8,6 +8,7 @@ mod edge_table;
 mod edges;
 mod fleet;
 mod goals;
+mod partial_plans;
 mod roundabout;
 mod rules;
 mod simulated;

@@ -11,14 +11,14 @@ use scenarios::{Plan, Scenario};
 const PAIR: &str = include_str!("../scenarios/pair.toml");
 const ROUNDS: usize = 3000;
 
-/// Both aircraft straight ahead at constant speed, a row per second: positions only.
+/// Both aircraft straight ahead at constant speed, a row per quarter of a second: positions only.
 fn table() -> String {
     let row = |(name, y): (&str, f64), k: i32| {
-        let share = f64::from(k) / 28.0;
+        let share = f64::from(k) / 112.0;
         format!("{name},{},{},{y},400\n", share * 1000.0 / 35.0, share * 1000.0)
     };
     let vehicles = [("uav-1", -100.0), ("uav-2", 100.0)];
-    let rows = vehicles.into_iter().flat_map(|vehicle| (0..=28).map(move |k| row(vehicle, k)));
+    let rows = vehicles.into_iter().flat_map(|vehicle| (0..=112).map(move |k| row(vehicle, k)));
     "vehicle,t_s,x_m,y_m,z_m\n".to_owned() + &rows.collect::<String>()
 }
 

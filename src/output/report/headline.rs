@@ -35,7 +35,7 @@ pub(super) fn notes(report: &Report) -> Vec<String> {
             quantity(in_loop.latest_s, "s")
         )
     });
-    let slow = report.timings.replans.as_ref().filter(|times| times.over_deadline > in_loop.late).map(|times| {
+    let slow = report.timings.replans.as_ref().filter(|times| times.over_deadline > 0).map(|times| {
         format!(
             "planner: {} of {} answers took longer on this machine than their deadline, {} at most, and were flown in time: \
              with `--planner-clock measured` they are late",

@@ -4,9 +4,13 @@
 //! differences of several m/s² that no vehicle flew. Of such a table only so many rows are kept that rounding contributes
 //! little to an acceleration; those in between must lie on the motion through the others, up to their rounding.
 
+use nalgebra::Vector3;
+use scenarios::in_loop::Node;
 use scenarios::multirotor::State;
+use sim::multirotor::Reference;
 
 use crate::verdict::RoundedRows;
+use crate::verdict::fixed_wing::{max_distance_from_chord_m, max_velocity_from_chord_mps};
 
 /// Numbers with more decimals than this were not rounded.
 const MAX_DECIMALS: usize = 9;
@@ -32,8 +36,9 @@ impl Rounding {
     /// - `velocities_mps`: empty if the table has none
     pub fn of(times_s: &[f64], positions_m: &[[f64; 3]], velocities_mps: &[[f64; 3]]) -> Self {
         let steps = positions_m.windows(2).zip(times_s.windows(2)).filter(|(_, times_s)| times_s[0] < times_s[1]);
-        let fastest_mps =
-            steps.map(|(p, times_s)| distance(p[0], p[1]) / (times_s[1] - times_s[0])).fold(0.0, f64::max);
+        let speeds_mps =
+            steps.map(|(p, times_s)| (Vector3::from(p[1]) - Vector3::from(p[0])).norm() / (times_s[1] - times_s[0]));
+        let fastest_mps = speeds_mps.fold(0.0, f64::max);
         Self {
             position_m: half_unit(positions_m.iter().flatten()) + time_rounding_s(times_s) * fastest_mps,
             velocity_mps: half_unit(velocities_mps.iter().flatten()),
@@ -87,22 +92,46 @@ impl Rounding {
 
     /// Whether the rows between two rows lie on the cubic through these two, up to the rounding of all of them.
     pub fn is_on_cubic(&self, times_s: &[f64], states: &[State], from: usize, to: usize) -> bool {
+        let node = |row: usize| Node {
+            t_s: times_s[row],
+            position_m: states[row].position_m,
+            velocity_mps: states[row].velocity_mps,
+        };
         let interval_s = times_s[to] - times_s[from];
         let tolerance_m = 3.0 * self.position_m + self.velocity_mps * interval_s / 4.0;
         let tolerance_mps = 3.0 * self.position_m / interval_s + 3.0 * self.velocity_mps;
-        let [a, b] = [&states[from], &states[to]];
+        let cubic = Reference::new(vec![node(from), node(to)]);
+        (from + 1..to).all(|row| {
+            let on_cubic = cubic.at(times_s[row]);
+            (on_cubic.position_m - Vector3::from(states[row].position_m)).amax() <= tolerance_m
+                && (on_cubic.velocity_mps - Vector3::from(states[row].velocity_mps)).amax() <= tolerance_mps
+        })
+    }
+
+    /// Whether the vehicle can have been at the rows between two rows, up to the rounding of all of them.
+    ///
+    /// - `acceleration_mps2`: what the vehicle can do
+    /// - `velocities_mps`: empty if the table has none
+    pub fn is_within_reach(
+        &self,
+        times_s: &[f64],
+        positions_m: &[[f64; 3]],
+        velocities_mps: &[[f64; 3]],
+        acceleration_mps2: f64,
+        [from, to]: [usize; 2],
+    ) -> bool {
+        let interval_s = times_s[to] - times_s[from];
+        let [begin_m, end_m] = [from, to].map(|row| Vector3::from(positions_m[row]));
+        let chord_mps = (end_m - begin_m) / interval_s;
+        // The ends of the chord and the row in between are rounded, in three coordinates each.
+        let rounding_m = 2.0 * 3.0_f64.sqrt() * self.position_m;
+        let rounding_mps = 3.0_f64.sqrt() * (2.0 * self.position_m / interval_s + self.velocity_mps);
         (from + 1..to).all(|row| {
             let u = (times_s[row] - times_s[from]) / interval_s;
-            let state = &states[row];
-            (0..3).all(|axis| {
-                let mean_mps = (b.position_m[axis] - a.position_m[axis]) / interval_s;
-                let [v0, v1] = [a.velocity_mps[axis], b.velocity_mps[axis]];
-                let (second, third) = (3.0 * mean_mps - 2.0 * v0 - v1, v0 + v1 - 2.0 * mean_mps);
-                let position_m = a.position_m[axis] + interval_s * u * (v0 + u * (second + u * third));
-                let velocity_mps = v0 + u * (2.0 * second + 3.0 * u * third);
-                (position_m - state.position_m[axis]).abs() <= tolerance_m
-                    && (velocity_mps - state.velocity_mps[axis]).abs() <= tolerance_mps
-            })
+            let off_m = (Vector3::from(positions_m[row]) - begin_m - chord_mps * (u * interval_s)).norm();
+            let off_mps = velocities_mps.get(row).map_or(0.0, |given| (Vector3::from(*given) - chord_mps).norm());
+            off_m <= max_distance_from_chord_m(acceleration_mps2, interval_s, u) + rounding_m
+                && off_mps <= max_velocity_from_chord_mps(acceleration_mps2, interval_s, u) + rounding_mps
         })
     }
 }
@@ -128,10 +157,6 @@ fn time_rounding_s(times_s: &[f64]) -> f64 {
         intervals_s.fold((f64::INFINITY, 0.0_f64), |(low, high), it| (low.min(it), high.max(it)));
     let jitter_s = longest_s - shortest_s;
     if jitter_s > 0.1 * half_unit_s && jitter_s < 2.2 * half_unit_s { half_unit_s } else { 0.0 }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

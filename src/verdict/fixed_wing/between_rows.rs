@@ -32,8 +32,10 @@
 use scenarios::Range;
 use scenarios::fixed_wing::{GRAVITY_MPS2, Limits, Trajectory};
 
+use crate::verdict::compare::is_larger;
+use crate::verdict::goal::EndError;
 use crate::verdict::motion::{Knot, Motion, Segment};
-use crate::verdict::provenance::GivenRows;
+use crate::verdict::provenance::{EndVelocity, GivenRows};
 
 /// Largest ρ, rounded up.
 const MAX_VELOCITY_FACTOR: f64 = 0.252;
@@ -57,10 +59,41 @@ pub fn max_distance_m(given: &GivenRows, acceleration_mps2: f64, interval_s: f64
     acceleration_mps2 * interval_s * interval_s * max_position_factor(given, [0.0, 1.0])
 }
 
+/// Largest distance of the vehicle's motion from the chord between two positions, a T² u (1 - u)/2, m.
+///
+/// - `u`: the instant, as a fraction of the interval
+pub fn max_distance_from_chord_m(acceleration_mps2: f64, interval_s: f64, u: f64) -> f64 {
+    acceleration_mps2 * interval_s * interval_s * max_position_factor(&GivenRows::Positions, [u, u])
+}
+
+/// Largest difference of the vehicle's velocity from that of the chord, a T (u² + (1 - u)²)/2, m/s.
+pub fn max_velocity_from_chord_mps(acceleration_mps2: f64, interval_s: f64, u: f64) -> f64 {
+    acceleration_mps2 * interval_s * max_velocity_factor(&GivenRows::Positions, [u, u])
+}
+
+/// Largest angle by which a velocity turns if up to `error_mps` is added: asin(|error|/|velocity|), deg.
+pub fn max_turn_deg(error_mps: f64, speed_mps: f64) -> f64 {
+    match error_mps {
+        0.0 => 0.0,
+        _ if error_mps < speed_mps => (error_mps / speed_mps).asin().to_degrees(),
+        _ => 180.0,
+    }
+}
+
 /// How far the true motion may be from a reconstructed one.
 #[derive(Clone, Debug)]
 pub struct Tube {
     stretches: Vec<Stretch>,
+    end: KnownEnd,
+}
+
+/// What the rows tell of the end of the motion.
+#[derive(Clone, Debug)]
+struct KnownEnd {
+    position_m: [f64; 3],
+    velocity_mps: [f64; 3],
+    /// How far the true end may be from it.
+    error: EndError,
 }
 
 /// A stretch of time and the deviations during it.
@@ -74,8 +107,15 @@ struct Stretch {
 impl Tube {
     /// The tube around the reconstructed `motion` of a trajectory; `None` if all was given.
     ///
+    /// - `end_velocity`: of rows without velocities
     /// - `limits`: what the vehicle can do
-    pub fn around(motion: &Motion, trajectory: &Trajectory, given: &GivenRows, limits: &Limits) -> Option<Self> {
+    pub fn around(
+        motion: &Motion,
+        trajectory: &Trajectory,
+        given: &GivenRows,
+        end_velocity: Option<EndVelocity>,
+        limits: &Limits,
+    ) -> Option<Self> {
         if *given == GivenRows::Everything {
             return None;
         }
@@ -83,17 +123,19 @@ impl Tube {
         let rows = (1..trajectory.times_s.len()).map(|end| RowPair::new(trajectory, end, given));
         let mut segments = motion.segments().filter(Segment::lasts).peekable();
         let mut stretches = Vec::new();
+        let end = KnownEnd::new(trajectory, given, end_velocity)?;
         for pair in rows {
             while let Some(segment) = segments.next_if(|segment| segment.t_s[1] <= pair.curve.t_s[1]) {
                 stretches.push(pair.stretch(&segment, acceleration_mps2));
             }
         }
-        Some(Self { stretches })
+        Some(Self { stretches, end })
     }
 
     /// The tube around rows that are known up to a distance, m.
     pub fn widened(mut self, distance_m: f64) -> Self {
         self.stretches.iter_mut().for_each(|stretch| stretch.position_m += distance_m);
+        self.end.error.position_m += distance_m;
         self
     }
 
@@ -112,12 +154,37 @@ impl Tube {
         self.during([t_s, t_s]).map(|stretch| stretch.velocity_mps).fold(0.0, larger)
     }
 
+    /// How far the true end may be from this one.
+    pub fn end_error(&self, end: &Knot) -> EndError {
+        EndError {
+            position_m: self.end.error.position_m + distance(end.position_m, self.end.position_m),
+            velocity_mps: self.end.error.velocity_mps + distance(end.velocity_mps, self.end.velocity_mps),
+        }
+    }
+
     /// The stretches that touch an interval of time; beyond the end the last one.
     fn during(&self, [from_s, to_s]: [f64; 2]) -> impl Iterator<Item = &Stretch> {
         let last = self.stretches.len().saturating_sub(1);
         let first = self.stretches.partition_point(|stretch| stretch.end_s < from_s).min(last);
         let end = self.stretches.partition_point(|stretch| stretch.end_s < to_s).min(last);
         self.stretches.iter().skip(first).take(end + 1 - first)
+    }
+}
+
+impl KnownEnd {
+    /// `None` without rows.
+    fn new(trajectory: &Trajectory, given: &GivenRows, end_velocity: Option<EndVelocity>) -> Option<Self> {
+        let last = trajectory.states.len().checked_sub(1)?;
+        let state = &trajectory.states[last];
+        let EndVelocity { velocity_mps, error_mps } = match (given, end_velocity) {
+            (GivenRows::States(velocities_mps), _) => {
+                EndVelocity { velocity_mps: velocities_mps[last], error_mps: 0.0 }
+            }
+            (_, Some(end_velocity)) => end_velocity,
+            (_, None) => EndVelocity { velocity_mps: state.velocity_mps(), error_mps: f64::INFINITY },
+        };
+        let error = EndError { position_m: 0.0, velocity_mps: error_mps };
+        Some(Self { position_m: state.position_m(), velocity_mps, error })
     }
 }
 
@@ -200,7 +267,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// The larger of two numbers. NaN counts as larger than any.
 fn larger(a: f64, b: f64) -> f64 {
-    if b.is_nan() || b > a { b } else { a }
+    if is_larger(b, a) { b } else { a }
 }
 
 #[cfg(test)]

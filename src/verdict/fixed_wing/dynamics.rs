@@ -9,6 +9,7 @@ use super::planned::PlannedMotions;
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
+use crate::verdict::provenance::{NO_CONTROLS, Provenance};
 
 /// Largest distance between the end of an interval and the next node: the larger of |Δp| and |Δv| times the interval's
 /// duration, m.
@@ -28,9 +29,21 @@ pub fn check_defects(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned
     largest(spec, defects, scenario.limits().dynamics_m)
 }
 
-/// Largest distance between the last node and the end of the open-loop integration from the start, m.
-pub fn check_rollout(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, planned: &PlannedMotions) -> CheckResult {
-    let errors = plan.trajectories.iter().zip(&planned.open_loop_ends).filter_map(|(trajectory, end)| {
+/// Largest distance between the last node and the end of the open-loop integration from the start, m. Reconstructed
+/// controls say nothing open loop: it is skipped if no vehicle gives any.
+pub fn check_rollout(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    planned: &PlannedMotions,
+    provenance: &Provenance,
+) -> CheckResult {
+    if (0..scenario.vehicles.len()).all(|index| !provenance.gives_controls(index)) {
+        return Ok(spec.skip(format!("{NO_CONTROLS}, and reconstructed ones say nothing open loop")));
+    }
+    let ends = plan.trajectories.iter().zip(&planned.open_loop_ends).enumerate();
+    let given = ends.filter(|(index, _)| provenance.gives_controls(*index));
+    let errors = given.filter_map(|(_, (trajectory, end))| {
         let last = trajectory.times_s().len().checked_sub(1)?;
         Some((distance(end.position_m, trajectory.nodes().position_m(last)), end.t_s, trajectory.vehicle()))
     });

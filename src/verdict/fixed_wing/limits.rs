@@ -8,29 +8,35 @@
 //! plan and at every step of the flight and at the peaks of gusts, where they are those of the velocity through the air. Controls run linearly
 //! between nodes, so that they are extreme at the nodes; in flight the controls that acted are judged.
 
-use scenarios::fixed_wing::{Control, Limits, Model};
-use scenarios::{CheckSpec, Group, Plan, Range, Scenario};
+use scenarios::fixed_wing::{Control, Limits, Model, Trajectory};
+use scenarios::{CheckSpec, Plan, Range, Scenario};
 
+use crate::verdict::LimitKey;
 use crate::verdict::airspeed::air_velocities;
-use crate::verdict::evidence::CheckResult;
-use crate::verdict::fixed_wing::between_rows::Tube;
+use crate::verdict::evidence::{CheckResult, Decide};
+use crate::verdict::fixed_wing::between_rows::{Tube, max_turn_deg};
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::map_bounds::{Extreme, MapBounds};
 use crate::verdict::motion::Motion;
+use crate::verdict::provenance::{GivenRows, NO_CONTROLS, Provenance};
 use crate::verdict::tolerance::SOLVER_TOLERANCE;
 use crate::verdict::worst::{Quantity, Worst, check_limits};
-use crate::verdict::{GivenRows, LimitKey, Provenance};
 
-/// States at the nodes against the planning limits. Velocities that the plan gives count as they are given.
+/// States at the nodes against the planning limits. Velocities that the plan gives count as they are given; it is skipped
+/// if no vehicle's are.
 pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, provenance: &Provenance) -> CheckResult {
+    if (0..scenario.vehicles.len()).all(|index| !provenance.gives_velocities(index)) {
+        return Ok(spec.skip("the plan gives no velocities"));
+    }
     check_limits(spec, |worst| {
         for (index, (limited, trajectory)) in limited_vehicles(scenario, promised).zip(&plan.trajectories).enumerate() {
             let trajectory = trajectory.fixed_wing();
             for (node, (state, &t_s)) in trajectory.states.iter().zip(&trajectory.times_s).enumerate() {
                 limited.place(worst, state.position_m(), t_s);
                 match provenance.given(index) {
+                    GivenRows::Positions => {}
                     GivenRows::States(given_mps) => limited.velocity_vector(worst, given_mps[node], 0.0, t_s),
-                    GivenRows::Positions | GivenRows::Everything => {
+                    GivenRows::Everything => {
                         let flight_path_deg = state.flight_path_rad.to_degrees();
                         limited.velocity(worst, (state.speed_mps, 0.0), (flight_path_deg, 0.0), t_s);
                     }
@@ -81,15 +87,25 @@ fn error_mps(tube: &Option<Tube>, t_s: f64) -> f64 {
     tube.as_ref().map_or(0.0, |tube| tube.velocity_mps(t_s))
 }
 
-/// Controls at the nodes: the planning limits for [`Group::Nodes`], the physical ones for [`Group::Plan`].
-pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
-    let limits = if spec.group == Group::Nodes { promised } else { physical };
+/// Controls at the nodes, as far as vehicles give any, against the planning limits.
+pub fn check_node_controls(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, provenance: &Provenance) -> CheckResult {
+    if (0..scenario.vehicles.len()).all(|index| !provenance.gives_controls(index)) {
+        return Ok(spec.skip(NO_CONTROLS));
+    }
     check_limits(spec, |worst| {
-        for (limited, trajectory) in limited_vehicles(scenario, limits).zip(&plan.trajectories) {
-            let trajectory = trajectory.fixed_wing();
-            for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
-                limited.control(worst, control, t_s);
+        for (index, (limited, trajectory)) in limited_vehicles(scenario, promised).zip(&plan.trajectories).enumerate() {
+            if provenance.gives_controls(index) {
+                limited.controls(worst, trajectory.fixed_wing());
             }
+        }
+    })
+}
+
+/// Controls at the nodes, reconstructed ones too, against the physical limits.
+pub fn check_planned_controls(spec: &CheckSpec, scenario: &Scenario, plan: &Plan) -> CheckResult {
+    check_limits(spec, |worst| {
+        for (limited, trajectory) in limited_vehicles(scenario, physical).zip(&plan.trajectories) {
+            limited.controls(worst, trajectory.fixed_wing());
         }
     })
 }
@@ -181,11 +197,15 @@ impl<'a> Limited<'a> {
     fn velocity_vector(&self, worst: &mut Worst<'a>, [x, y, z]: [f64; 3], error_mps: f64, t_s: f64) {
         let horizontal = (x * x + y * y).sqrt();
         let speed_mps = (x * x + y * y + z * z).sqrt();
-        // A vector turns by at most asin(|error|/|vector|).
-        let error_deg = if error_mps < speed_mps { (error_mps / speed_mps).asin().to_degrees() } else { 180.0 };
-        let error_deg = if error_mps == 0.0 { 0.0 } else { error_deg };
+        let error_deg = max_turn_deg(error_mps, speed_mps);
         let flight_path_deg = z.atan2(horizontal).to_degrees();
         self.velocity(worst, (speed_mps, error_mps), (flight_path_deg, error_deg), t_s);
+    }
+
+    fn controls(&self, worst: &mut Worst<'a>, trajectory: &Trajectory) {
+        for (control, &t_s) in trajectory.controls.iter().zip(&trajectory.times_s) {
+            self.control(worst, control, t_s);
+        }
     }
 
     fn control(&self, worst: &mut Worst<'a>, control: &Control, t_s: f64) {

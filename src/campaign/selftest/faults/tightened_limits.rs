@@ -90,7 +90,7 @@ pub fn faults(limits: &'static FamilyLimits) -> Vec<Fault> {
 
 /// A distance from the limit that is no longer at the limit, in the unit of the check.
 fn beyond_tolerance(check: &str, reached: f64) -> f64 {
-    1.01 * tolerance::beyond(check_spec(check).expect("a declared check"), reached)
+    1.01 * tolerance::limit_tolerance(check_spec(check).expect("a declared check"), reached)
 }
 
 /// Sets the required distance between vehicles, m.

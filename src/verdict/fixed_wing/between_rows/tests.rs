@@ -127,7 +127,7 @@ fn used(scenario: &Scenario, motion: &Admissible, with_velocities: bool) -> [f64
     let planned = PlannedMotions::new(scenario, &completed.plan).expect("a finite plan");
     let limits = &scenario.fixed_wing_model(&scenario.vehicles[0]).limits;
     let trajectory = completed.plan.trajectories[0].fixed_wing();
-    let tube = Tube::around(&planned.motions[0], trajectory, completed.provenance.given(0), limits)
+    let tube = Tube::around(&planned.motions[0], trajectory, completed.provenance.given(0), None, limits)
         .expect("a reconstructed motion");
     let mut largest = [0.0_f64; 2];
     for knot in &motion.knots {
