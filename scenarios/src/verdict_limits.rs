@@ -36,11 +36,12 @@ pub struct VerdictLimits {
     /// 0.1 m/s for slung loads, 0.2 m/s for multirotors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest_mps: Option<f64>,
-    /// Maximum defect of an interval of the plan: distance between its end and the end that its controls lead to from its
-    /// beginning, by the nonlinear equations of motion, m. Default: 1 m, 0.01 m, 1 m.
+    /// Maximum defect of the plan: distance between a row and the position to which the controls lead from an earlier row,
+    /// by the nonlinear equations of motion, over one interval or at least 1 s (0.1 s for slung loads), m. Default: 1 m,
+    /// 0.01 m, 1 m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dynamics_m: Option<f64>,
-    /// Maximum distance from the end of the plan when its controls are flown open loop from the start, m. Default: 5 m; not
+    /// Maximum distance from any row of the plan when its controls are flown open loop from the start, m. Default: 5 m; not
     /// applied to slung loads, which are unstable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rollout_m: Option<f64>,

@@ -3,6 +3,7 @@
 mod between_samples;
 mod broken;
 mod clearances;
+mod dense_rows;
 #[path = "../edges/mod.rs"]
 mod edge_table;
 mod edges;

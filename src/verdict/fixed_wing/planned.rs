@@ -1,28 +1,49 @@
 //! The plan as a continuous motion: its controls integrated with the nonlinear equations, restarted at every node.
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use scenarios::fixed_wing::Trajectory;
 use scenarios::{Plan, Scenario};
 use sim::fixed_wing::{self, propagate, rollout};
 
-use crate::verdict::compare::exceeds;
+use crate::verdict::compare::{exceeds, is_larger};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 
 /// Largest integration step, and largest time between two knots, s.
 const MAX_STEP_S: f64 = 0.05;
-/// Largest step of the open-loop integration, of which only the end is used, s.
+/// Largest step of the open-loop integration, s.
 const OPEN_LOOP_STEP_S: f64 = 0.25;
+/// A defect is accumulated over at least this time, s, so that dense rows do not hide it.
+const WINDOW_S: f64 = 1.0;
+/// Smallest time between the beginnings of two windows, s.
+const WINDOW_STRIDE_S: f64 = 0.2;
 
-/// The motions that result from a plan's controls.
+/// The motions that result from a plan's controls, and how far they are from its nodes.
 #[derive(Clone, Debug)]
 pub struct PlannedMotions {
     /// One per vehicle. At every node the motion jumps from where the interval before it ends to the node itself.
     pub motions: Vec<Motion>,
-    /// Per vehicle, the end of every interval.
-    pub ends: Vec<Vec<Knot>>,
-    /// Per vehicle, the end of the open-loop integration, which is not restarted at the nodes.
-    pub open_loop_ends: Vec<Knot>,
+    /// Per vehicle, the largest defect: of the motion restarted at a node, over one interval or a window of at least 1 s.
+    pub defects: Vec<NodeError>,
+    /// Per vehicle, the largest error of the open-loop integration, which is not restarted at the nodes.
+    pub open_loop_errors: Vec<NodeError>,
+}
+
+/// How far a motion is from a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeError {
+    /// Distance, m.
+    pub error_m: f64,
+    /// Time of the node, s.
+    pub t_s: f64,
+}
+
+impl NodeError {
+    /// The larger of two; NaN is the largest.
+    fn larger(self, other: Self) -> Self {
+        if is_larger(other.error_m, self.error_m) { other } else { self }
+    }
 }
 
 impl PlannedMotions {
@@ -38,23 +59,90 @@ impl PlannedMotions {
         }
         let vehicles: Vec<_> =
             plan.trajectories.par_iter().map(|trajectory| integrated(trajectory.fixed_wing())).collect();
-        let mut planned = Self { motions: Vec::new(), ends: Vec::new(), open_loop_ends: Vec::new() };
+        let mut planned = Self { motions: Vec::new(), defects: Vec::new(), open_loop_errors: Vec::new() };
         for vehicle in vehicles {
-            let (motion, ends, open_loop_end) = vehicle?;
+            let (motion, defect, open_loop_error) = vehicle?;
             planned.motions.push(motion);
-            planned.ends.push(ends);
-            planned.open_loop_ends.extend(open_loop_end);
+            planned.defects.push(defect);
+            planned.open_loop_errors.push(open_loop_error);
         }
         Ok(planned)
     }
 }
 
-/// One vehicle's motion, the ends of its intervals, and the end of the open-loop integration.
-fn integrated(trajectory: &Trajectory) -> Result<(Motion, Vec<Knot>, Option<Knot>), MissingEvidence> {
+/// One vehicle's motion, its largest defect, and the largest error of the open-loop integration.
+fn integrated(trajectory: &Trajectory) -> Result<(Motion, NodeError, NodeError), MissingEvidence> {
     let intervals: Vec<Vec<Knot>> = (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
-    let ends = intervals.iter().filter_map(|knots| knots.last().copied()).collect();
+    let own = intervals
+        .iter()
+        .enumerate()
+        .filter_map(|(begin, knots)| knots.last().map(|end| defect(trajectory, [begin, begin + 1], end)));
+    let defects = own.chain(window_starts(trajectory).flat_map(|begin| window_defects(trajectory, begin)));
+    let largest = defects.reduce(NodeError::larger).ok_or(MissingEvidence::NoInterval)?;
     let motion = Motion::new(&trajectory.vehicle, intervals.concat())?.sampled();
-    Ok((motion, ends, rollout(trajectory, OPEN_LOOP_STEP_S).last().map(knot)))
+    Ok((motion, largest, open_loop_error(trajectory)?))
+}
+
+/// The distance of the end of a motion from a node: the larger of |Δp| and |Δv| times the duration.
+///
+/// - `begin`, `node`: where the motion began and where it should end
+fn defect(trajectory: &Trajectory, [begin, node]: [usize; 2], end: &Knot) -> NodeError {
+    let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
+    let position_m = distance(end.position_m, state.position_m());
+    let velocity_m = distance(end.velocity_mps, state.velocity_mps()) * (t_s - trajectory.times_s[begin]);
+    NodeError { error_m: if is_larger(velocity_m, position_m) { velocity_m } else { position_m }, t_s }
+}
+
+/// The nodes at which windows begin.
+fn window_starts(trajectory: &Trajectory) -> impl Iterator<Item = usize> {
+    let mut last_s = f64::NEG_INFINITY;
+    trajectory.times_s.iter().enumerate().filter_map(move |(node, &t_s)| {
+        let begins = t_s >= last_s + WINDOW_STRIDE_S;
+        last_s = if begins { t_s } else { last_s };
+        begins.then_some(node)
+    })
+}
+
+/// The defects at the nodes of a window but the first, whose is that of its interval.
+fn window_defects(trajectory: &Trajectory, begin: usize) -> Vec<NodeError> {
+    let begin_s = trajectory.times_s[begin];
+    let until = trajectory.times_s.iter().skip(begin).position(|&t_s| t_s >= begin_s + WINDOW_S);
+    let last = until.map_or(trajectory.times_s.len() - 1, |nodes| begin + nodes);
+    if last <= begin + 1 {
+        return Vec::new();
+    }
+    let window = Trajectory {
+        vehicle: String::new(),
+        interpolation: trajectory.interpolation,
+        times_s: trajectory.times_s[begin..=last].to_vec(),
+        states: vec![trajectory.states[begin]],
+        controls: trajectory.controls[begin..=last].to_vec(),
+    };
+    let knots = rollout(&window, MAX_STEP_S);
+    at_nodes(&knots, &window.times_s)
+        .enumerate()
+        .skip(2)
+        .map(|(node, end)| defect(trajectory, [begin, begin + node], &end))
+        .collect()
+}
+
+/// The largest distance of the open-loop motion from a node.
+fn open_loop_error(trajectory: &Trajectory) -> Result<NodeError, MissingEvidence> {
+    let knots = rollout(trajectory, OPEN_LOOP_STEP_S);
+    let ends = at_nodes(&knots, &trajectory.times_s).zip(&trajectory.states);
+    let errors =
+        ends.map(|(end, state)| NodeError { error_m: distance(end.position_m, state.position_m()), t_s: end.t_s });
+    errors.reduce(NodeError::larger).ok_or(MissingEvidence::NoInterval)
+}
+
+/// The knots at the times of nodes, which are among those of all knots.
+fn at_nodes<'a>(knots: &'a [fixed_wing::Knot], times_s: &'a [f64]) -> impl Iterator<Item = Knot> + 'a {
+    let mut next = knots.iter();
+    times_s.iter().filter_map(move |t_s| next.find(|knot| knot.t_s == *t_s).map(knot))
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (Vector3::from(a) - Vector3::from(b)).norm()
 }
 
 /// The motion from the node before `end` to the time of the node `end`.
