@@ -69,6 +69,17 @@ pub enum Error {
         /// What was given.
         command: String,
     },
+    /// An in-loop command was given vehicles that are not planned for in the loop.
+    #[error("{file}: {planner} is to plan in the loop, which is only for multirotors")]
+    #[diagnostic(help(
+        "leave out `--in-loop`, or `in_loop = true` in the scenario: the command then plans once, before the flight"
+    ))]
+    NotInTheLoop {
+        /// The scenario file.
+        file: String,
+        /// The planner.
+        planner: String,
+    },
     /// `harness plan` was given several planners.
     #[error("one planner makes one plan: --planner was given more than once")]
     OnePlanner,

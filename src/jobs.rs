@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use planners::Planner;
-use scenarios::{Issue, Scenario, ScenarioFile, closest_name};
+use scenarios::{Family, Issue, Scenario, ScenarioFile, closest_name};
 
 use crate::error::Error;
 use crate::plan_source::PlanSource;
@@ -125,6 +125,7 @@ fn pair(
             Some(reason) => Err(Error::Unfit { file: file.display().to_string(), planner: planner.name, reason }),
             None => Ok(job(plan_source.clone())),
         },
+        PlanSource::External(planner) => check_in_the_loop(file, planner, scenario).map(|()| job(plan_source.clone())),
         _ => Ok(job(plan_source.clone())),
     };
     plan_sources.iter().map(supported).collect()
@@ -142,14 +143,14 @@ fn named_by_scenario(file: &Path, source: &ScenarioFile, scenario: &Scenario) ->
             return Err(issue(expected.into(), "rename it, or remove `command`".into()).into());
         }
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let (name, command, folder) = (name.clone(), command.clone(), folder.to_owned());
-        return Ok(PlanSource::External(ExternalPlanner {
-            name,
-            command,
-            folder,
+        let planner = ExternalPlanner {
+            name: name.clone(),
+            command: command.clone(),
+            folder: folder.to_owned(),
             time_limit_s: scenario.planner.time_limit_s,
             in_loop: scenario.planner.in_loop,
-        }));
+        };
+        return check_in_the_loop(file, &planner, scenario).map(|()| PlanSource::External(planner));
     }
     let Some(planner) = planners::find(name) else {
         return Err(issue(format!("the name of a planner: {}", known_planners()), remedy_for(name)).into());
@@ -169,6 +170,15 @@ fn check_support(
             Err(issue(expected, "`harness list` shows what each planner handles".into()).into())
         }
     }
+}
+
+/// Only multirotors are planned for in the loop.
+fn check_in_the_loop(file: &Path, planner: &ExternalPlanner, scenario: &Scenario) -> Result<(), Error> {
+    if planner.in_loop && scenario.family() != Family::Multirotor {
+        let (file, planner) = (file.display().to_string(), planner.name.clone());
+        return Err(Error::NotInTheLoop { file, planner });
+    }
+    Ok(())
 }
 
 fn unknown_planner(name: &str) -> Error {

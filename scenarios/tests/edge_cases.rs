@@ -123,3 +123,16 @@ fn the_number_of_steps_has_a_maximum() {
         assert!(lines.iter().any(|line| line.contains("steps")), "{step_s}, {most_s}: {lines:?}");
     }
 }
+
+/// Scripts write rounding, such as that of an arc tangent, in place of 0.
+#[test]
+fn tiny_coordinates_and_angles_are_as_good_as_zero() {
+    for (old, tiny) in [
+        ("center_m = [0, 0]", "center_m = [-5.8e-14, 1e-300]"),
+        ("y_m = 200", "y_m = 200, heading_deg = -5.8e-14"),
+        ("y_m = 200", "y_m = 200, flight_path_deg = 5e-324"),
+    ] {
+        assert!(TEXT.contains(old), "{old}");
+        assert_eq!(issue_lines(&TEXT.replacen(old, tiny, 1)), Vec::<String>::new(), "{tiny}");
+    }
+}

@@ -102,3 +102,13 @@ fn the_planner_view_has_no_unknown_obstacles_and_no_disturbances() {
     assert_eq!(scenario.planner_view().world.obstacle_names().collect::<Vec<_>>(), ["box"]);
     assert!(scenario.is_planar());
 }
+
+#[test]
+fn multirotors_may_start_above_each_other_and_fixed_wings_may_not() {
+    let second = "\n[[vehicles]]\nname = \"uav-2\"\nmodel = \"quad\"\nstart = { x_m = 0, y_m = 0, z_m = HIGH }\n\
+                  goal = { x_m = 10, y_m = 0, z_m = HIGH }\n\n[fleet]\nseparation_m = 1.5\n\n[planner]";
+    let stacked = |high: &str| parse("quad.toml", &TEXT.replace("\n[planner]", &second.replace("HIGH", high)));
+    assert!(stacked("3.5").is_ok(), "{:?}", stacked("3.5").err());
+    let error = stacked("3.4").expect_err("0.1 m too close").to_string();
+    assert!(!error.is_empty());
+}

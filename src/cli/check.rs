@@ -57,10 +57,12 @@ A JSON file is a plan.json of `harness run`, or the same with these columns as a
 impl Check {
     /// Reads, flies and judges the plan.
     pub fn execute(&self) -> Result<Exit, Error> {
-        let (source, scenario) = jobs::load_file(&self.scenario, self.seed)?;
-        let (header, tracks) = plan_input::read(&self.plan, &scenario)?;
+        let (source, scenario) =
+            jobs::load_file(&self.scenario, self.seed).inspect_err(|_| self.session.retract(None))?;
         let stem = self.plan.file_stem().unwrap_or_default().to_string_lossy();
         let name = plain_name(self.name.as_deref().unwrap_or(&stem));
+        let (header, tracks) = plan_input::read(&self.plan, &scenario)
+            .inspect_err(|_| self.session.retract(Some([scenario.name.as_str(), name.as_str()])))?;
         let seed = scenario.simulation.seed;
         let answer = plan_import::complete(&scenario, header, tracks, &name, seed);
         let plan_source = PlanSource::Imported(Box::new(answer));

@@ -107,6 +107,18 @@ struct Completed {
 }
 
 impl Session {
+    /// Removes the results of an earlier run of a job that is now refused: they must not be taken for its own. Those that
+    /// cannot be removed are left, since the refusal is the error to tell.
+    ///
+    /// - `job`: names of scenario and planner, as far as they are known
+    pub fn retract(&self, job: Option<[&str; 2]>) {
+        let summaries = ["summary.json", "summary.md", "junit.xml", page::FILE_NAME].map(|name| self.out.join(name));
+        let report = job.map(|[scenario, planner]| self.out.join(scenario).join(planner).join("report.json"));
+        for path in summaries.into_iter().chain(report) {
+            let _ = output::remove_stale(&path);
+        }
+    }
+
     /// Runs all valid jobs, reports the others, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         let outputs = Outputs {

@@ -1,12 +1,15 @@
 //! Arrival: the time between the first and the last arrival, and the flight time.
 //!
-//! In flight the arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
+//! A vehicle that can hover has arrived when it stays within the tolerance of its goal from then on: its plan may go on at
+//! the goal while others are under way. A fixed wing passes its goal. In flight its arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
 //! arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late arrival is in the log. A
 //! vehicle that is closest to its goal at the very end of its log has not arrived.
 
-use scenarios::{CheckSpec, Plan, Scenario};
+use nalgebra::Vector3;
+use scenarios::{CheckSpec, Family, Plan, Scenario, Vehicle};
 
 use crate::verdict::Check;
+use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
 use crate::verdict::missing_evidence::MissingEvidence;
@@ -16,9 +19,17 @@ pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Eviden
     if !scenario.fleet.simultaneous_arrival {
         return Ok(any_time(spec));
     }
-    let ends = plan?.trajectories.iter().map(|trajectory| {
-        let early = || MissingEvidence::EndsEarly { vehicle: trajectory.vehicle().to_owned() };
-        Ok((trajectory.end_s().ok_or_else(early)?, trajectory.vehicle()))
+    let tolerance_m = scenario.limits().goal_m;
+    let ends = plan?.trajectories.iter().zip(&scenario.vehicles).map(|(trajectory, vehicle)| {
+        let early = || MissingEvidence::EndsEarly { vehicle: vehicle.name.clone() };
+        let end_s = trajectory.end_s().ok_or_else(early)?;
+        let nodes = trajectory.nodes();
+        let rows = trajectory.times_s().iter().enumerate().map(|(row, &t_s)| (t_s, nodes.position_m(row)));
+        let reached_s = match trajectory.family() {
+            Family::FixedWing => end_s,
+            Family::SlungLoad | Family::Multirotor => reached_s(rows, vehicle, tolerance_m).unwrap_or(end_s),
+        };
+        Ok((reached_s, vehicle.name.as_str()))
     });
     Ok(spec.at_most(spread(ends)?, scenario.limits().arrival_spread_s))
 }
@@ -32,9 +43,15 @@ pub fn check_flown_arrival(
     if !scenario.fleet.simultaneous_arrival {
         return Ok(any_time(spec));
     }
-    let arrivals = flown?.vehicles.iter().map(|vehicle| {
-        let arrival_s = vehicle.arrival_s().ok_or_else(|| not_arrived(vehicle))?;
-        Ok((arrival_s, vehicle.name))
+    let tolerance_m = scenario.limits().goal_m;
+    let arrivals = flown?.vehicles.iter().zip(&scenario.vehicles).map(|(flown, vehicle)| {
+        let arrival_s = flown.arrival_s().ok_or_else(|| not_arrived(flown))?;
+        let samples = flown.tracked.iter().map(|sample| (sample.t_s, sample.position_m));
+        let reached_s = match scenario.family() {
+            Family::FixedWing => arrival_s,
+            Family::SlungLoad | Family::Multirotor => reached_s(samples, vehicle, tolerance_m).unwrap_or(arrival_s),
+        };
+        Ok((reached_s, flown.name))
     });
     Ok(spec.at_most(spread(arrivals)?, scenario.limits().arrival_spread_s))
 }
@@ -53,6 +70,25 @@ pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: &Flown
 /// Time until the last vehicle has arrived, s. A vehicle that does not arrive counts until the end of its log.
 pub fn duration_s(flown: &FlownMotions<'_>) -> f64 {
     flown.vehicles.iter().map(|vehicle| vehicle.arrival_s().unwrap_or(vehicle.log_end_s)).fold(0.0, f64::max)
+}
+
+/// Time from which on a vehicle stays within `tolerance_m` of its goal, s; `None` if it does not at the end.
+///
+/// - `positions_m`: in the order of time, s
+fn reached_s(positions_m: impl Iterator<Item = (f64, [f64; 3])>, vehicle: &Vehicle, tolerance_m: f64) -> Option<f64> {
+    let goal_m = Vector3::from(vehicle.goal.position_m());
+    let (mut outside, mut reached_s) = (None, None);
+    for (t_s, position_m) in positions_m {
+        let beyond_m = (Vector3::from(position_m) - goal_m).norm() - tolerance_m;
+        if exceeds(beyond_m, 0.0) {
+            (outside, reached_s) = (Some((t_s, beyond_m)), None);
+        } else if reached_s.is_none() {
+            // Linear between the last position outside and the first one inside.
+            let crossing_s = |(from_s, from_m): (f64, f64)| from_s + (t_s - from_s) * from_m / (from_m - beyond_m);
+            reached_s = Some(outside.map_or(t_s, crossing_s));
+        }
+    }
+    reached_s
 }
 
 fn any_time(spec: &CheckSpec) -> Check {

@@ -60,7 +60,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
-    ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.planned()?)),
+    ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?, it.provenance)),
     ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.planned()?, it.provenance)),
     ("plan.goal", |spec, it| {
         goal::check_planned(spec, it.scenario, it.planned_motions()?, |index, end| it.end_error(index, end))

@@ -4,12 +4,14 @@
 //! plant's steps halved and quartered, and the turbulence sampled at the finer steps. References that were planned in the
 //! loop are followed again. A check whose margin is smaller than the difference is undecided.
 
+use scenarios::check_spec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sim::{Flight, VehicleLog};
 
 use crate::number_format::quantity;
 use crate::verdict::compare::{exceeds, is_larger};
+use crate::verdict::tolerance::limit_tolerance;
 use crate::verdict::{Check, Status};
 
 /// The difference between two integrators.
@@ -61,7 +63,7 @@ impl Integration {
             let decided = matches!(check.status, Status::Pass | Status::Fail);
             let Some(margin_m) = check.margin.filter(|_| decided) else { continue };
             let (is_unsure, by) = match self.disagreement_m {
-                Some(max_m) => (exceeds(max_m, margin_m.abs()), quantity(max_m, "m")),
+                Some(max_m) => (exceeds(max_m, margin_m.abs().max(rounding_m(check))), quantity(max_m, "m")),
                 None => (true, "more than a crash".to_owned()),
             };
             if is_unsure {
@@ -70,6 +72,12 @@ impl Integration {
             }
         }
     }
+}
+
+/// By how much a check may be beyond its limit all the same, m.
+fn rounding_m(check: &Check) -> f64 {
+    let spec = check_spec(&check.name);
+    spec.zip(check.limit).map_or(0.0, |(spec, limit_m)| limit_tolerance(spec, limit_m))
 }
 
 const DYNAMICS: &str = "flight.dynamics";

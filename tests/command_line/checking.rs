@@ -35,6 +35,18 @@ fn a_plan_of_the_harness_keeps_its_verdict_in_either_format() {
 }
 
 #[test]
+fn results_of_an_earlier_run_do_not_outlive_a_refusal() {
+    let workplace = planned(11);
+    assert_eq!(check(&workplace, "theirs.csv").0, 0);
+    let results = ["out/summary.json", "out/summary.md", "out/junit.xml", "out/pair/theirs/report.json"];
+    assert!(results.iter().all(|file| workplace.path(file).exists()));
+    fs::write(workplace.path("theirs.csv"), "vehicle,t_s\nuav-1,nan\n").unwrap();
+    assert_eq!(check(&workplace, "theirs.csv").0, 2);
+    let left: Vec<_> = results.iter().filter(|file| workplace.path(file).exists()).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
 fn missing_controls_are_reconstructed_and_reported() {
     let workplace = planned(8);
     let (code, page, errors) = check(&workplace, "theirs.csv");

@@ -96,6 +96,22 @@ fn what_no_vehicle_gives_is_skipped_with_the_reason() {
     }
 }
 
+/// 10 deg beside the course at every row, without ever moving to the side: by the law half a second turns by 2 m/s at most.
+#[test]
+fn velocities_that_contradict_the_positions_fail() {
+    let with_heading = |heading_deg: f64| {
+        let mut aside = with_velocities(positions("uav-2", 100.0, 0.5), SPEED_MPS);
+        let count = aside["t_s"].as_array().expect("times").len();
+        let heading = |row: usize| if row == 0 || row == count - 1 { 0.0 } else { heading_deg };
+        aside["heading_deg"] = json!((0..count).map(heading).collect::<Vec<_>>());
+        let verdict = verdict(&scenario(), [with_velocities(positions("uav-1", -100.0, 0.5), SPEED_MPS), aside]);
+        check(&verdict, "plan.dynamics").clone()
+    };
+    let dynamics = with_heading(10.0);
+    assert_eq!((dynamics.status, &dynamics.between[..]), (Status::Fail, &["uav-2".to_owned()][..]), "{dynamics:#?}");
+    assert_eq!(with_heading(1.0).status, Status::Pass);
+}
+
 /// Rows a second apart leave the direction at the end open by some 7 deg, of which the goal admits 3.
 #[test]
 fn a_goal_that_sparse_positions_leave_open_is_undecided_in_the_unit_of_its_part() {

@@ -85,3 +85,19 @@ fn a_crash_after_the_mission_is_told_and_does_not_decide() {
     case.flight().events.push(crash(end_s - 0.5));
     assert_eq!(case.status("flight.crash"), Status::Fail);
 }
+
+/// The first vehicle is at its goal after 5 s, and its plan goes on there until the second one has arrived.
+#[test]
+fn a_vehicle_that_waits_at_its_goal_has_arrived_before() {
+    let mut case = Case::good();
+    let stop = |t_s: f64, x_m: f64, y_m: f64| Node::at_rest(t_s, [x_m, y_m, 2.0]);
+    *case.trajectory(0) =
+        Trajectory::through("uav-1", &[stop(0.0, 0.0, 0.0), stop(5.0, 6.0, 0.0), stop(9.0, 6.0, 0.0)]);
+    *case.trajectory(1) = Trajectory::through("uav-2", &[stop(0.0, 0.0, 3.0), stop(9.0, 6.0, 3.0)]);
+    case.fly();
+    for name in ["plan.arrival", "flight.arrival"] {
+        let check = case.check(name);
+        assert_eq!((check.status, &check.between[..]), (Status::Fail, &["uav-1".into(), "uav-2".into()][..]));
+        assert!((check.value.unwrap() - 3.7).abs() < 0.3, "{check:?}");
+    }
+}

@@ -36,19 +36,43 @@ pub fn offset_polygon(obstacle: &Obstacle, offset_m: f64) -> Vec<[f64; 2]> {
     corners
 }
 
-/// The closed polygon with additional points on its edges, at most `spacing_m` apart.
-pub fn subdivided(corners: &[[f64; 2]], spacing_m: f64) -> Vec<[f64; 2]> {
-    let edge = |i: usize| subdivided_edge(corners[i], corners[(i + 1) % corners.len()], spacing_m);
+/// The part of a closed polygon inside a rectangle, with additional points on its edges, at most `spacing_m` apart.
+///
+/// - `bounds_m`: of the rectangle, [west, east] and [south, north]; an obstacle may be far larger than the map
+pub fn subdivided(corners: &[[f64; 2]], spacing_m: f64, bounds_m: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let edge = |i: usize| subdivided_edge(corners[i], corners[(i + 1) % corners.len()], spacing_m, bounds_m);
     (0..corners.len()).flat_map(edge).collect()
 }
 
-/// Points from `from` (included) to `to` (excluded), equally spaced, at most `spacing_m` apart.
-fn subdivided_edge(from: [f64; 2], to: [f64; 2], spacing_m: f64) -> impl Iterator<Item = [f64; 2]> {
+/// Points from `from` (included) to `to` (excluded), equally spaced, at most `spacing_m` apart, as far as they lie within the
+/// bounds.
+fn subdivided_edge(
+    from: [f64; 2],
+    to: [f64; 2],
+    spacing_m: f64,
+    bounds_m: [[f64; 2]; 2],
+) -> impl Iterator<Item = [f64; 2]> {
     let pieces = ((to[0] - from[0]).hypot(to[1] - from[1]) / spacing_m).ceil().max(1.0);
-    (0..pieces as usize).map(move |piece| {
+    let [enters, leaves] = fractions_within(from, to, bounds_m);
+    let (first, end) = ((enters * pieces).floor().max(0.0), (leaves * pieces).floor() + 1.0);
+    (first as usize..end.clamp(0.0, pieces) as usize).filter_map(move |piece| {
         let fraction = piece as f64 / pieces;
-        [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]))
+        let point = [0, 1].map(|axis| from[axis] + fraction * (to[axis] - from[axis]));
+        [0, 1].into_iter().all(|axis| (bounds_m[axis][0]..=bounds_m[axis][1]).contains(&point[axis])).then_some(point)
     })
+}
+
+/// The fractions of a line at which it enters and leaves a rectangle; the first is larger if it misses it.
+fn fractions_within(from: [f64; 2], to: [f64; 2], bounds_m: [[f64; 2]; 2]) -> [f64; 2] {
+    let mut within = [0.0_f64, 1.0_f64];
+    for axis in 0..2 {
+        let along_m = to[axis] - from[axis];
+        if along_m != 0.0 {
+            let [a, b] = bounds_m[axis].map(|bound_m| (bound_m - from[axis]) / along_m);
+            within = [within[0].max(a.min(b)), within[1].min(a.max(b))];
+        }
+    }
+    within
 }
 
 /// Counterclockwise angle from `a` to `b`, rad; in [0, π] for the normals at a convex corner.
@@ -92,12 +116,26 @@ mod tests {
     #[test]
     fn subdivided_polygons_keep_their_corners_and_the_spacing() {
         let square = [[0.0, 0.0], [2.5, 0.0], [2.5, 1.0], [0.0, 1.0]];
-        let points = subdivided(&square, 1.0);
+        let points = subdivided(&square, 1.0, [UNBOUNDED; 2]);
         assert_eq!(points.len(), 3 + 1 + 3 + 1);
         assert!(square.iter().all(|corner| points.contains(corner)));
         for (i, from) in points.iter().enumerate() {
             let to = points[(i + 1) % points.len()];
             assert!((to[0] - from[0]).hypot(to[1] - from[1]) <= 1.0 + 1e-12);
         }
+    }
+
+    #[test]
+    fn only_the_part_within_the_bounds_is_subdivided() {
+        let bounds_m = [[-3.0, 4.0], [-2.0, 2.0]];
+        let is_inside = |[x, y]: &[f64; 2]| (-3.0..=4.0).contains(x) && (-2.0..=2.0).contains(y);
+        let tilted = [[-7.0, -5.0], [6.0, -1.5], [5.0, 9.0], [-9.0, 1.0]];
+        let mut all = subdivided(&tilted, 0.25, [UNBOUNDED; 2]);
+        all.retain(is_inside);
+        assert!(all.len() > 20);
+        assert_eq!(subdivided(&tilted, 0.25, bounds_m), all);
+        let huge = [[-5e8, -1.0], [5e8, -1.0], [5e8, 1.0], [-5e8, 1.0]];
+        let points = subdivided(&huge, 0.25, bounds_m);
+        assert!((50..70).contains(&points.len()) && points.iter().all(is_inside), "{}", points.len());
     }
 }

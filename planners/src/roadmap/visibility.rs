@@ -24,7 +24,7 @@ pub fn extend(roadmap: &mut Roadmap, space: &FreeSpace, known: usize, clearance_
         |from, to| added.iter().all(|obstacle| segment_clear(obstacle, from, to, clearance_m)),
     );
     for obstacle in added {
-        for node in nodes_around(obstacle, clearance_m + NODE_STANDOFF_M, altitudes_m) {
+        for node in nodes_around(obstacle, space, clearance_m + NODE_STANDOFF_M, altitudes_m) {
             if space.is_clear(node, node, clearance_m) {
                 add_node(roadmap, node, space, clearance_m);
             }
@@ -42,12 +42,13 @@ fn add_node(roadmap: &mut Roadmap, node: Point, space: &FreeSpace, clearance_m: 
     }
 }
 
-fn nodes_around(obstacle: &Obstacle, offset_m: f64, altitudes_m: &[f64]) -> Vec<Point> {
+fn nodes_around(obstacle: &Obstacle, space: &FreeSpace, offset_m: f64, altitudes_m: &[f64]) -> Vec<Point> {
     let corners = offset_polygon(obstacle, offset_m + obstacle.rounding_radius_m());
     let [low_m, high_m] = obstacle.altitude_m();
     let levels = altitudes_m.iter().copied().filter(|z_m| (low_m - offset_m..=high_m + offset_m).contains(z_m));
     let rims = [low_m - offset_m, high_m + offset_m].into_iter().filter(|z_m| z_m.is_finite());
     let at = |corners: &[[f64; 2]], z_m: f64| corners.iter().map(|&[x, y]| Point::new(x, y, z_m)).collect::<Vec<_>>();
-    let rim = subdivided(&corners, MAX_RIM_SPACING_M);
+    let [x_m, y_m, _] = space.bounds_m;
+    let rim = subdivided(&corners, MAX_RIM_SPACING_M, [x_m, y_m]);
     levels.flat_map(|z_m| at(&corners, z_m)).chain(rims.flat_map(|z_m| at(&rim, z_m))).collect()
 }

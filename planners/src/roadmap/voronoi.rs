@@ -21,6 +21,7 @@ const MAX_SAMPLE_SPACING_M: f64 = 1.0;
 pub const PREFERRED_LINK_M: f64 = 4.0;
 
 /// Smallest number of samples around a cylinder.
+const MAX_CYLINDER_SAMPLES: usize = 10_000;
 const MIN_CYLINDER_SAMPLES: usize = 12;
 
 /// Grid width on which Voronoi vertices are identified with each other, m.
@@ -116,7 +117,7 @@ fn sites(space: &FreeSpace, z_m: f64, clearance_m: f64) -> Vec<Site> {
     let [[west, east], [south, north], _] = space.bounds_m;
     let mut sites = Vec::new();
     let mut add = |corners: &[[f64; 2]], owner: usize| {
-        let samples = subdivided(corners, MAX_SAMPLE_SPACING_M).into_iter();
+        let samples = subdivided(corners, MAX_SAMPLE_SPACING_M, [[west, east], [south, north]]).into_iter();
         sites.extend(samples.map(|[x, y]| Site { position: Point2::new(x, y), owner }));
     };
     add(&[[west, south], [east, south], [east, north], [west, north]], BOUNDS_OWNER);
@@ -136,7 +137,8 @@ fn boundary(obstacle: &Obstacle) -> Vec<[f64; 2]> {
         return obstacle.edges().iter().map(|edge| edge.corner).collect();
     }
     let ([x, y], radius_m) = obstacle.bounding_circle();
-    let count = ((TAU * radius_m / MAX_SAMPLE_SPACING_M).ceil() as usize).max(MIN_CYLINDER_SAMPLES);
+    let count = (TAU * radius_m / MAX_SAMPLE_SPACING_M).ceil() as usize;
+    let count = count.clamp(MIN_CYLINDER_SAMPLES, MAX_CYLINDER_SAMPLES);
     let angle = |i: usize| TAU * i as f64 / count as f64;
     (0..count).map(|i| [x + radius_m * angle(i).cos(), y + radius_m * angle(i).sin()]).collect()
 }

@@ -8,6 +8,11 @@ use toml::de::{DeTable, DeValue};
 
 use crate::Issue;
 
+/// Quantities of either sign, where scripts write rounding in place of 0.
+const SIGNED: [&str; 9] =
+    ["x_m", "y_m", "z_m", "center_m", "corners_m", "offset_m", "position_m", "path_m", "velocity_mps"];
+const SIGNED_UNIT: &str = "_deg";
+
 /// Magnitudes of non-zero quantities, in their own units.
 const MIN_MAGNITUDE: f64 = 1e-12;
 const MAX_MAGNITUDE: f64 = 1e12;
@@ -27,7 +32,7 @@ fn walk(field: &str, value: &Spanned<DeValue<'_>>, issues: &mut Vec<(Issue, Rang
             let issue = Issue::new(field, float.as_str(), "a finite number");
             issues.push((issue.remedy("for \"no limit\", omit the key where it is optional"), value.span()));
         }
-        DeValue::Float(float) if float.as_str().replace('_', "").parse().is_ok_and(is_out_of_range) => {
+        DeValue::Float(float) if float.as_str().replace('_', "").parse().is_ok_and(|it| is_out_of_range(field, it)) => {
             let expected = format!("0, or a number between {MIN_MAGNITUDE:e} and {MAX_MAGNITUDE:e} in magnitude");
             issues.push((Issue::new(field, float.as_str(), expected), value.span()));
         }
@@ -41,6 +46,13 @@ fn walk(field: &str, value: &Spanned<DeValue<'_>>, issues: &mut Vec<(Issue, Rang
     }
 }
 
-fn is_out_of_range(value: f64) -> bool {
-    value != 0.0 && !(MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&value.abs())
+fn is_out_of_range(field: &str, value: f64) -> bool {
+    let is_too_small = value != 0.0 && value.abs() < MIN_MAGNITUDE && !is_signed(field);
+    is_too_small || value.abs() > MAX_MAGNITUDE
+}
+
+fn is_signed(field: &str) -> bool {
+    let name = field.rsplit('.').next().unwrap_or(field);
+    let name = name.split('[').next().unwrap_or(name);
+    SIGNED.contains(&name) || name.ends_with(SIGNED_UNIT)
 }

@@ -14,10 +14,8 @@ use crate::verdict::fixed_wing::{max_distance_from_chord_m, max_velocity_from_ch
 
 /// Numbers with more decimals than this were not rounded.
 const MAX_DECIMALS: usize = 9;
-/// Rows farther apart than this are not thinned, s.
-const DENSE_S: f64 = 0.1;
-/// Kept rows are at most about this far apart, s.
-const MAX_INTERVAL_S: f64 = 0.5;
+/// Kept rows are at most about this far apart, s; rows farther apart are not thinned.
+const MAX_INTERVAL_S: f64 = 2.0;
 /// What rounding may contribute to an acceleration, as a fraction of its limit.
 const MAX_NOISE: f64 = 0.02;
 
@@ -65,7 +63,7 @@ impl Rounding {
         let max_noise_mps2 = MAX_NOISE * acceleration_mps2;
         let last = times_s.len() - 1;
         let mean_interval_s = (times_s[last] - times_s[0]) / last as f64;
-        if mean_interval_s >= DENSE_S || self.noise_mps2(mean_interval_s) <= max_noise_mps2 {
+        if mean_interval_s >= MAX_INTERVAL_S || self.noise_mps2(mean_interval_s) <= max_noise_mps2 {
             return None;
         }
         let is_long = |from: usize, to: usize| {

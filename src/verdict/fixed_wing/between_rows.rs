@@ -32,7 +32,8 @@
 use scenarios::Range;
 use scenarios::fixed_wing::{GRAVITY_MPS2, Limits, Trajectory};
 
-use crate::verdict::compare::is_larger;
+use crate::verdict::compare::{exceeds, is_larger};
+use crate::verdict::fixed_wing::planned::{NodeError, WINDOW_S};
 use crate::verdict::goal::EndError;
 use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::provenance::{EndVelocity, GivenRows};
@@ -78,6 +79,24 @@ pub fn max_turn_deg(error_mps: f64, speed_mps: f64) -> f64 {
         _ if error_mps < speed_mps => (error_mps / speed_mps).asin().to_degrees(),
         _ => 180.0,
     }
+}
+
+/// The largest contradiction between given positions and given velocities: the part of the difference of a velocity from
+/// that of the chord that no motion within the limits has, times the duration of the interval, at least 1 s.
+///
+/// Returns `None` if there is none.
+pub fn contradiction(trajectory: &Trajectory, velocities_mps: &[[f64; 3]], limits: &Limits) -> Option<NodeError> {
+    let acceleration_mps2 = max_acceleration_mps2(limits);
+    let at_ends = (1..trajectory.times_s.len()).flat_map(|end| {
+        let interval_s = trajectory.times_s[end] - trajectory.times_s[end - 1];
+        let possible_mps = max_velocity_from_chord_mps(acceleration_mps2, interval_s, 1.0);
+        let chord_mps = chord_mps(trajectory, end);
+        [end - 1, end].map(|row| NodeError {
+            error_m: (distance(velocities_mps[row], chord_mps) - possible_mps) * interval_s.max(WINDOW_S),
+            t_s: trajectory.times_s[row],
+        })
+    });
+    at_ends.reduce(NodeError::larger).filter(|largest| exceeds(largest.error_m, 0.0))
 }
 
 /// How far the true motion may be from a reconstructed one.

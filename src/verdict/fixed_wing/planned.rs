@@ -15,7 +15,7 @@ const MAX_STEP_S: f64 = 0.05;
 /// Largest step of the open-loop integration, s.
 const OPEN_LOOP_STEP_S: f64 = 0.25;
 /// A defect is accumulated over at least this time, s, so that dense rows do not hide it.
-const WINDOW_S: f64 = 1.0;
+pub const WINDOW_S: f64 = 1.0;
 /// Smallest time between the beginnings of two windows, s.
 const WINDOW_STRIDE_S: f64 = 0.2;
 
@@ -41,7 +41,7 @@ pub struct NodeError {
 
 impl NodeError {
     /// The larger of two; NaN is the largest.
-    fn larger(self, other: Self) -> Self {
+    pub fn larger(self, other: Self) -> Self {
         if is_larger(other.error_m, self.error_m) { other } else { self }
     }
 }

@@ -108,6 +108,8 @@ impl Lengthening<'_> {
             (route.length_m() > self.max_length_m, counted_m, route.length_m())
         };
         let ranked = routes.into_iter().map(|route| (rank(&route), route));
+        // A route without length has no direction.
+        let ranked = ranked.filter(|((_, counted_m, length_m), _)| !counted_m.is_nan() && !length_m.is_nan());
         let best = ranked.min_by(|a, b| a.0.partial_cmp(&b.0).expect("lengths are numbers"));
         best.map(|(_, route)| route)
     }
@@ -165,6 +167,12 @@ mod tests {
         for length_m in [2000.0, 5000.0] {
             assert_flyable(&lengthened(ahead(300.0), length_m), ahead(300.0), length_m);
         }
+    }
+
+    /// The route to a goal at the start has no length, and no direction.
+    #[test]
+    fn a_goal_at_the_start_gets_a_wide_circle() {
+        assert_flyable(&lengthened(ahead(0.0), 1000.0), ahead(0.0), 1000.0);
     }
 
     #[test]

@@ -93,16 +93,24 @@ fn jump(nodes: &[Node], continuation: &Continuation) -> Option<String> {
     })
 }
 
-/// Speeds at the nodes, and mean speeds and accelerations between them, that are beyond the limits of the vehicle.
+/// Speeds at the nodes, mean speeds between them and accelerations of the cubics between them that are beyond the limits of
+/// the vehicle. The acceleration of a cubic is linear in time, so that it is largest at an end:
+///
+/// ```text
+/// a_0 = (6 m - 4 v_0 - 2 v_1)/T,   a_1 = (2 v_0 + 4 v_1 - 6 m)/T          m: mean velocity, T: duration
+/// ```
 fn excess(nodes: &[Node], continuation: &Continuation) -> Option<String> {
     let Continuation { takes_effect_s, limits, .. } = continuation;
     let pairs = nodes.windows(2).filter(|pair| pair[1].t_s > *takes_effect_s);
     let excess_of = |pair: &[Node]| {
         let dt_s = pair[1].t_s - pair[0].t_s;
-        let distance = |a: [f64; 3], b: [f64; 3]| (Vector3::from(b) - Vector3::from(a)).norm();
-        let mean_mps = distance(pair[0].position_m, pair[1].position_m) / dt_s;
-        let speed_mps = Vector3::from(pair[1].velocity_mps).norm().max(mean_mps);
-        let acceleration_mps2 = distance(pair[0].velocity_mps, pair[1].velocity_mps) / dt_s;
+        let [from_m, to_m] = [0, 1].map(|node| Vector3::from(pair[node].position_m));
+        let [from_mps, to_mps] = [0, 1].map(|node| Vector3::from(pair[node].velocity_mps));
+        let mean_mps = (to_m - from_m) / dt_s;
+        let speed_mps = to_mps.norm().max(mean_mps.norm());
+        let begins = (mean_mps * 6.0 - from_mps * 4.0 - to_mps * 2.0) / dt_s;
+        let ends = (from_mps * 2.0 + to_mps * 4.0 - mean_mps * 6.0) / dt_s;
+        let acceleration_mps2 = begins.norm().max(ends.norm());
         let beyond = |value: f64, limit: f64, unit: &str| {
             let at_s = pair[0].t_s;
             (value > LIMIT_ROUNDING * limit).then(|| {
@@ -171,10 +179,14 @@ mod tests {
             let end = Node { t_s, position_m: [x_m, 0.0, 1.0], velocity_mps: [vx_mps, 0.0, 0.0] };
             [line(&[0.5, 1.0, 2.0]), vec![end]].concat()
         };
-        assert_eq!(defect_of(&with_end(3.0, 3.9, 2.0), 0.0, 0.0), None);
+        assert_eq!(defect_of(&with_end(3.0, 3.6, 2.0), 0.0, 0.0), None);
         assert!(defect_of(&with_end(3.0, 4.1, 2.0), 0.0, 0.0).unwrap().contains("2.100 m/s, the vehicle's limit is 2"));
         assert!(defect_of(&with_end(3.0, 3.5, 2.1), 0.0, 0.0).is_some());
-        assert!(defect_of(&with_end(2.3, 2.2, 0.0), 0.0, 0.0).unwrap().contains("3.333 m/s²"));
+        assert!(defect_of(&with_end(2.3, 2.2, 0.0), 0.0, 0.0).unwrap().contains("6.667 m/s²"));
+        // To the side and back: the mean acceleration is none.
+        let hop = Node { t_s: 1.6, position_m: [1.6, 0.3, 1.0], velocity_mps: [1.0, 0.0, 0.0] };
+        let hopping = [line(&[0.5, 1.0, 1.5]), vec![hop], line(&[1.7, 2.5])].concat();
+        assert!(defect_of(&hopping, 0.0, 0.0).unwrap().contains("180.000 m/s²"));
         let past = [vec![Node::at_rest(0.4, [-9.0, 0.0, 1.0])], line(&[0.5, 1.0, 2.0])].concat();
         assert_eq!(defect_of(&past, 0.0, 0.0), None, "what lies before is not flown");
     }
