@@ -4,4 +4,5 @@ mod case;
 mod edges;
 mod gusts;
 mod in_loop;
+mod plans;
 mod together;
