@@ -69,6 +69,13 @@ pub enum Error {
         /// What was given.
         command: String,
     },
+    /// A file that would be written exists already.
+    #[error("{}: the file exists already", path.display())]
+    #[diagnostic(help("give another name, or remove it"))]
+    FileExists {
+        /// The file.
+        path: PathBuf,
+    },
     /// `harness plan` was given several planners.
     #[error("one planner makes one plan: --planner was given more than once")]
     OnePlanner,
