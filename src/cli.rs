@@ -12,8 +12,10 @@ mod generate;
 mod list;
 #[cfg(feature = "parquet")]
 mod merge;
+mod new;
 mod plan;
 mod report;
+mod request;
 mod run;
 mod schema;
 mod selection;
@@ -38,6 +40,7 @@ pub struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
+  harness new multirotor             write a commented scenario to start from
   harness list                       list the scenarios and the planners
   harness run                        run every scenario with the planner that it names
   harness run --name 'rendezvous-*'  run the scenarios whose names match
@@ -59,6 +62,8 @@ enum Command {
     Run(run::Run),
     Check(check::Check),
     Plan(plan::PlanCommand),
+    New(new::New),
+    Request(request::Request),
     List(list::List),
     Compare(compare::Compare),
     Baseline(compare::BaselineCommand),
@@ -100,6 +105,8 @@ impl Cli {
             Command::Run(run) => run.execute(),
             Command::Check(check) => check.execute(),
             Command::Plan(plan) => plan.execute(),
+            Command::New(new) => new.execute(),
+            Command::Request(request) => request.execute(),
             Command::List(list) => list.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Baseline(baseline) => baseline.execute(),

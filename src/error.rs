@@ -80,6 +80,13 @@ pub enum Error {
         /// The planner.
         planner: String,
     },
+    /// A file that would be written exists already.
+    #[error("{}: the file exists already", path.display())]
+    #[diagnostic(help("give another name, or remove it"))]
+    FileExists {
+        /// The file.
+        path: PathBuf,
+    },
     /// `harness plan` was given several planners.
     #[error("one planner makes one plan: --planner was given more than once")]
     OnePlanner,

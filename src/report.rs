@@ -10,7 +10,7 @@ use crate::campaign::margin_budget::MarginBudget;
 use crate::metrics::Metrics;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::statistics;
-use crate::verdict::{Check, Integration, Outcome, Reconstruction, RoundedRows, Verdict};
+use crate::verdict::{Check, CurveAsCubics, Integration, Outcome, Reconstruction, RoundedRows, Verdict};
 
 /// Version of the format of `report.json` and `summary.json`.
 pub const SCHEMA: u32 = 1;
@@ -99,6 +99,12 @@ pub struct PlanSummary {
     /// Rows of the plan's file that were left out because differences of their rounded numbers are noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounded: Option<RoundedRows>,
+    /// Polynomial pieces that are judged as cubics.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<CurveAsCubics>,
+    /// How the plan file was read, where a user should know.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// Events of the plan, in the order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventSummary>,
@@ -225,6 +231,8 @@ impl PlanSummary {
             alternatives: plan.diagnostics.alternatives.iter().map(AlternativeSummary::new).collect(),
             reconstruction: answer.provenance.reconstruction,
             rounded: answer.provenance.rounded,
+            curve: answer.provenance.curve,
+            remarks: answer.provenance.remarks.clone(),
         }
     }
 }

@@ -11,6 +11,7 @@ mod closest;
 mod collision;
 mod compare;
 mod conditions;
+mod curve_as_cubics;
 mod evidence;
 pub mod fixed_wing;
 mod flight_integrity;
@@ -46,6 +47,7 @@ use serde::{Deserialize, Serialize};
 
 pub use arrival::duration_s as flown_duration_s;
 pub use closest::{ClosestApproach, between_vehicles as closest_vehicles};
+pub use curve_as_cubics::CurveAsCubics;
 pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;

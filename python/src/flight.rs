@@ -51,7 +51,7 @@ type Table<'py> = (String, Bound<'py, PyAny>, Vec<(String, Bound<'py, PyAny>)>);
 #[pyfunction]
 pub fn read_plan_tables(py: Python<'_>, scenario: &Scenario, name: &str, tables: Vec<Table<'_>>) -> PyResult<Plan> {
     let tables = tables.into_iter().map(|table| column_table(py, table)).collect::<PyResult<_>>()?;
-    let document = PlanDocument { header: PlanHeader::default(), tables };
+    let document = PlanDocument { tables, ..PlanDocument::default() };
     let read = plan_input::from_tables("plan", document, &scenario.scenario);
     let (header, tracks) = read.map_err(|error| of_plan(&error))?;
     Ok(completed(scenario, header, tracks, name))

@@ -9,6 +9,7 @@
 
 mod checks;
 mod closest_name;
+pub mod curve;
 mod families;
 mod find;
 pub mod fixed_wing;

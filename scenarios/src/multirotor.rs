@@ -15,6 +15,7 @@ use crate::Range;
 
 pub use crate::GRAVITY_MPS2;
 pub(crate) use family::FAMILY;
+pub use import::Positions;
 pub use trajectory::{CSV_COLUMNS, State, Trajectory};
 
 /// A multirotor.

@@ -1,7 +1,8 @@
 //! Import of plans from CSV, JSON or Parquet files.
 //!
 //! Every format is read into one [`ColumnTable`] per vehicle: named columns over time. [`columns`] defines the columns of
-//! the vehicle families. `check` compares the tables with the scenario and rejects faulty files: wrong names, gaps, times
+//! the vehicle families, [`names`] how people write them. Polynomial pieces and splines are read into a
+//! [`Curve`]. `check` compares the tables with the scenario and rejects faulty files: wrong names, gaps, times
 //! that do not increase, numbers that are not finite, implausible units. Whether the motion can be flown is left to the
 //! judge.
 //!
@@ -22,11 +23,15 @@
 mod check;
 pub mod columns;
 mod csv;
+mod digits;
 mod error;
 mod imported;
 mod json;
+mod layout;
+pub mod names;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod polynomial;
 mod units;
 
 use std::collections::BTreeMap;
@@ -35,6 +40,8 @@ use std::path::Path;
 use self::columns::Columns;
 pub use self::error::{PlanError, PlanIssue};
 pub use self::imported::ImportedTrajectory;
+use self::names::ColumnMap;
+use crate::curve::Curve;
 use crate::{Iteration, PlanDiagnostics, PlanStatus, PlanTimings, Scenario};
 
 /// The content of a plan file, not yet checked against a scenario.
@@ -44,6 +51,8 @@ pub struct PlanDocument {
     pub header: PlanHeader,
     /// One table per vehicle, in the order of their appearance.
     pub tables: Vec<ColumnTable>,
+    /// One curve per vehicle that is not given as a table.
+    pub curves: Vec<Curve>,
 }
 
 /// The content of a plan file except the trajectories.
@@ -65,6 +74,8 @@ pub struct PlanHeader {
     pub diagnostics: PlanDiagnostics,
     /// Planning time, measured by the planner.
     pub timings: Option<PlanTimings>,
+    /// What the user should know of how the file was read.
+    pub remarks: Vec<String>,
 }
 
 /// The rows of one vehicle.
@@ -135,7 +146,8 @@ impl RowLocations {
     }
 }
 
-/// Reads a plan file for `scenario`: `.csv`, `.json` or (with the feature `parquet`) `.parquet`.
+/// Reads a plan file for `scenario`: a text table (`.csv`, `.tsv`, `.txt`, `.tum`), `.json` or (with the feature `parquet`)
+/// `.parquet`.
 ///
 /// Returns the header, and one trajectory per vehicle in the order of the scenario.
 ///
@@ -144,13 +156,28 @@ impl RowLocations {
 /// The file cannot be read, its format is not supported, or its content is not a plan for `scenario`. All issues are
 /// reported together.
 pub fn read(path: &Path, scenario: &Scenario) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
+    read_with(path, scenario, &ColumnMap::default())
+}
+
+/// Like [`read()`], with names of the file's columns.
+///
+/// # Errors
+///
+/// As of [`read()`].
+pub fn read_with(
+    path: &Path,
+    scenario: &Scenario,
+    map: &ColumnMap,
+) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let name = path.display().to_string();
     let unreadable = |reason| PlanError::Read { path: path.to_owned(), reason };
     let document = match path.extension().and_then(|extension| extension.to_str()) {
-        Some("csv") => csv::read(&text_of(&std::fs::read(path).map_err(unreadable)?), scenario),
+        Some("csv" | "txt" | "tum" | "tsv") => {
+            csv::read(&text_of(&std::fs::read(path).map_err(unreadable)?), scenario, map)
+        }
         Some("json") => json::read(&text_of(&std::fs::read(path).map_err(unreadable)?), columns_of(scenario)),
         #[cfg(feature = "parquet")]
-        Some("parquet") => parquet::read(std::fs::File::open(path).map_err(unreadable)?, scenario),
+        Some("parquet") => parquet::read(std::fs::File::open(path).map_err(unreadable)?, scenario, map),
         #[cfg(not(feature = "parquet"))]
         Some("parquet") => return Err(PlanError::ParquetNotBuilt { path: path.to_owned() }),
         _ => return Err(PlanError::Kind { path: path.to_owned() }),
@@ -181,7 +208,7 @@ pub fn parse_csv(
     text: &str,
     scenario: &Scenario,
 ) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
-    finish(name, csv::read(text, scenario), scenario)
+    finish(name, csv::read(text, scenario, &ColumnMap::default()), scenario)
 }
 
 /// Like [`read()`], from tables in memory. `name` is their name in messages.

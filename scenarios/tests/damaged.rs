@@ -4,7 +4,7 @@ mod damage;
 
 use damage::copies_of;
 use scenarios::plan_input::{ImportedTrajectory, parse_csv, parse_json};
-use scenarios::{parse, validate};
+use scenarios::{Scenario, parse, validate};
 
 const PAIR: &str = include_str!("../../tests/scenarios/pair.toml");
 const ROUNDS: usize = 4000;
@@ -75,4 +75,71 @@ fn damaged_documents_are_rejected_or_valid() {
         }
     }
     assert!(rejected > ROUNDS / 2, "only {rejected} were rejected with a reason");
+}
+
+/// Tables of other tools, polynomial pieces and splines. `FUZZ_ROUNDS=1000000` asks for a million copies of each.
+#[test]
+fn damaged_plans_of_other_tools_are_rejected_or_valid() {
+    let rounds = std::env::var("FUZZ_ROUNDS").ok().and_then(|rounds| rounds.parse().ok()).unwrap_or(ROUNDS);
+    let scenario = parse("hoverer.toml", include_str!("../../tests/scenarios/hoverer.toml")).unwrap();
+    for original in OTHER_TOOLS {
+        assert_valid_multirotor(&read(original, &scenario).expect("the original is a plan"), original);
+        let (mut rejected, mut accepted) = (0, 0);
+        for text in copies_of(original, rounds) {
+            match read(&text, &scenario) {
+                Ok(trajectories) if trajectories.is_empty() => {}
+                Ok(trajectories) => {
+                    assert_valid_multirotor(&trajectories, &text);
+                    accepted += 1;
+                }
+                Err(lines) => {
+                    assert!(!lines.is_empty(), "rejected without a reason:\n{text}");
+                    rejected += 1;
+                }
+            }
+        }
+        println!("{rejected} rejected, {accepted} accepted of {rounds} copies of {original:?}");
+        assert!(rejected > rounds / 10 && accepted > 0, "{rejected} rejected, {accepted} accepted:\n{original}");
+    }
+}
+
+/// Originals: dialects of tables, pieces, and the three forms of curves in JSON.
+const OTHER_TOOLS: [&str; 7] = [
+    ",t,x,y,z,vx,vy,vz,ax,phase\n0,0,0,0,2,0,0,0,9,climb\n1,2,1,0,2,0,0,0,,turn\n2,3,2,0,2,0,0,0,,end\n",
+    "# by hand\n# time[ms] pos_x[cm] y z\n0 0 0 2\n500 20 0 2\n1000 60 0 2\n",
+    "1403636579.5 0 0 2 0 0 0 1\n1403636580.0 0.25 0 2 0 0 0 1\n1403636581.0 1 0 2 0 0 0 1\n",
+    "duration,x^0,x^1,x^2,y^0,z^0,yaw^0,\n1.000000,0.000000,0.000000,1.000000,0.000000,2.000000,0.000000,\n\
+     2.000000,1.000000,2.000000,0.000000,0.000000,2.000000,0.000000,\n",
+    r#"{"trajectories": [{"vehicle": "uav-1", "polynomials": [{"duration_s": 1, "x": [0, 0, 1], "y": [], "z": [2]}]}]}"#,
+    r#"{"trajectories": [{"vehicle": "uav-1", "bezier": [{"duration_s": 1, "points_m": [[0,0,2],[0,0,2],[1,0,2]]}]}]}"#,
+    r#"{"trajectories": [{"vehicle": "uav-1", "b_spline": {"degree": 2, "knots_s": [0,0,0,1,1,3,3,3],
+        "points_m": [[0,0,2],[0,0,2],[1,0,2],[3,0,2],[5,0,2]]}}]}"#,
+];
+
+fn read(text: &str, scenario: &Scenario) -> Result<Vec<ImportedTrajectory>, Vec<String>> {
+    let is_json = text.trim_start().starts_with('{');
+    let read = if is_json { parse_json("plan.json", text, scenario) } else { parse_csv("plan.csv", text, scenario) };
+    read.map(|(_, trajectories)| trajectories).map_err(|error| error.lines())
+}
+
+/// Finite, from time 0 on, and in the order of time, also as the cubics that the judge sees.
+fn assert_valid_multirotor(trajectories: &[ImportedTrajectory], text: &str) {
+    let [trajectory] = trajectories else { panic!("one vehicle:\n{text}") };
+    let (times_s, numbers): (Vec<f64>, Vec<f64>) = match trajectory {
+        ImportedTrajectory::Complete(trajectory) => (trajectory.times_s().to_vec(), trajectory.nodes().numbers()),
+        ImportedTrajectory::Positions(positions) => {
+            assert!(positions.times_s.windows(2).all(|pair| pair[0] < pair[1]), "{text}");
+            (positions.times_s.clone(), positions.positions_m.concat())
+        }
+        ImportedTrajectory::Curve(curve) => {
+            let (nodes, error) = curve.cubics(1e-3);
+            assert!(error.position_m >= 0.0 && error.acceleration_mps2 >= 0.0, "{text}");
+            let numbers = nodes.iter().flat_map(|node| node.position_m);
+            (nodes.iter().map(|node| node.t_s).collect(), numbers.collect())
+        }
+        ImportedTrajectory::Partial(_) => panic!("of a multirotor:\n{text}"),
+    };
+    assert!(times_s.len() >= 2 && times_s[0].abs() <= 1e-9, "{text}");
+    assert!(times_s.windows(2).all(|pair| pair[0] <= pair[1]), "{text}");
+    assert!(times_s.iter().chain(&numbers).all(|number| number.is_finite()), "{text}");
 }

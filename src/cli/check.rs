@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use scenarios::plan_input;
+use scenarios::plan_input::names::ColumnMap;
 
 use super::run::plain_name;
 use super::session::Session;
@@ -22,9 +23,12 @@ pub struct Check {
     /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// The plan, a .csv, .json or .parquet file
+    /// The plan: a table (.csv, .tsv, .txt, .tum, .parquet), polynomial pieces (.csv), or a .json file
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
+    /// Names of the file's columns, where they are not understood: 'theirs=ours, theirs[unit]=ours'
+    #[arg(long, value_name = "MAP", value_parser = column_map, default_value = "", hide_default_value = true)]
+    columns: ColumnMap,
     /// Name of the results, in place of a planner's [default: the name of the plan file]
     #[arg(short = 'p', long = "planner", value_name = "NAME")]
     name: Option<String>,
@@ -39,6 +43,8 @@ const EXAMPLES: &str = "\
 Examples:
   harness check scenarios/fixed-wing/rendezvous-1.toml --plan my-plan.csv
   harness check scenarios/fixed-wing/rendezvous-7.toml --plan out/rendezvous-7/parallel-scp/plan.json
+  harness check scenarios/multirotor/trap.toml --plan pieces.csv
+  harness check scenarios/multirotor/trap.toml --plan log.txt --columns 'when[ms]=t_s, alt[ft]=z_m'
 
 Columns of CSV and Parquet files for fixed wings, one row per node; x points east, y north, z up:
   vehicle                                     name in the scenario; optional if there is only one vehicle
@@ -49,10 +55,33 @@ Columns of CSV and Parquet files for fixed wings, one row per node; x points eas
                                               reconstructed if absent
   n_x, n_y, n_z                               load factors, linear between the nodes; reconstructed if absent
 
-The plan of another vehicle needs the columns of its plan.csv. In a table every row counts as a node of the planner in
-the checks nodes.*, unless the column at_node of a slung load's plan says `no`; plan.json names the planner's own nodes.
+Columns for multirotors:
+  vehicle, t_s, x_m, y_m, z_m                 as above
+  vx_mps, vy_mps, vz_mps                      velocity; between two rows the plan is the cubic with their positions and
+                                              velocities. Reconstructed if absent; then the vehicle may have done anything
+                                              within its acceleration limit between two rows
+
+Columns for slung loads, all required except the last:
+  vehicle, t_s, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps
+  roll_rad, pitch_rad, yaw_rad, rate_x_radps, rate_y_radps, rate_z_radps
+  load_x_m, load_y_m, load_z_m, load_vx_mps, load_vy_mps, load_vz_mps
+  thrust_1_n, thrust_2_n, thrust_3_n, thrust_4_n
+  cable                                       taut or slack, from this row to the next
+  at_node                                     yes where the planner imposed its constraints, no at samples between
+
+In a table every row counts as a node of the planner in the checks nodes.*, unless the column at_node says `no`;
+plan.json names the planner's own nodes. Common names (t, time, px, pos_x, vel_x, ...) and units in brackets (px[ft],
+time[ms]) are understood; other columns are not used, and named. Separators are commas, semicolons, tabs or spaces; lines
+that begin with # are comments. Eight numbers in a row without a header are the TUM format.
+
+Polynomial pieces of multirotors and fixed wings: duration,x^0,x^1,...,y^0,...,z^0,... as written by uav_trajectories and
+Crazyswarm. Bezier curves and B-splines are given in JSON. docs/plans.md describes all of them.
 
 A JSON file is a plan.json of `harness run`, or the same with these columns as arrays in every trajectory.";
+
+fn column_map(text: &str) -> Result<ColumnMap, String> {
+    ColumnMap::parse(text).map_err(|issue| issue.to_string())
+}
 
 impl Check {
     /// Reads, flies and judges the plan.
@@ -61,7 +90,7 @@ impl Check {
             jobs::load_file(&self.scenario, self.seed).inspect_err(|_| self.session.retract(None))?;
         let stem = self.plan.file_stem().unwrap_or_default().to_string_lossy();
         let name = plain_name(self.name.as_deref().unwrap_or(&stem));
-        let (header, tracks) = plan_input::read(&self.plan, &scenario)
+        let (header, tracks) = plan_input::read_with(&self.plan, &scenario, &self.columns)
             .inspect_err(|_| self.session.retract(Some([scenario.name.as_str(), name.as_str()])))?;
         let seed = scenario.simulation.seed;
         let answer = plan_import::complete(&scenario, header, tracks, &name, seed);

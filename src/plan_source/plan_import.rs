@@ -3,9 +3,11 @@
 //! For the fixed-wing point mass the position is a flat output: velocity, speed, heading and flight-path angle follow
 //! from its first derivative, the load factors from its second. `velocities` differentiates a spline; `controls` takes the
 //! second derivative as the initial guess of a fit of the load factors to the nodes by the simulator's equations of motion,
-//! whose residual is known. Plans of other families must be complete.
+//! whose residual is known. Of multirotors, `curves` turns polynomial pieces into cubics with certified errors, and positions
+//! into a spline through them. Plans of slung loads must be complete.
 
 mod controls;
+mod curves;
 mod rounding;
 mod velocities;
 
@@ -13,7 +15,7 @@ use nalgebra::Vector3;
 use rounding::Rounding;
 use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
 use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
-use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
+use scenarios::{Family, Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
 
 use crate::verdict::fixed_wing::{max_acceleration_mps2, max_distance_m, max_velocity_from_chord_mps};
 use crate::verdict::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
@@ -49,6 +51,7 @@ pub fn complete(
     seed: u64,
 ) -> CompletedPlan {
     let mut provenance = Provenance::whole();
+    provenance.remarks = header.remarks;
     let mut trajectories = Vec::with_capacity(tracks.len());
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
         let (trajectory, own) = completed(scenario, vehicle, track);
@@ -76,6 +79,13 @@ fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) 
             (trajectory.into(), VehicleProvenance { rounded, ..VehicleProvenance::default() })
         }
         ImportedTrajectory::Complete(trajectory) => (trajectory, VehicleProvenance::default()),
+        ImportedTrajectory::Positions(positions) => curves::through_positions(scenario, vehicle, positions),
+        ImportedTrajectory::Curve(curve) if scenario.family() == Family::Multirotor => {
+            curves::multirotor(&scenario.multirotor_model(vehicle).limits, &curve)
+        }
+        ImportedTrajectory::Curve(curve) => {
+            completed(scenario, vehicle, ImportedTrajectory::Partial(curves::fixed_wing(&curve)))
+        }
         ImportedTrajectory::Partial(track) => {
             let limits = &scenario.fixed_wing_model(vehicle).limits;
             let lacks_controls = track.controls.is_none();
@@ -84,7 +94,8 @@ fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) 
             let (given, trajectory, residual) = reconstructed(vehicle, track);
             let reconstruction =
                 residual.map(|residual| between_rows(scenario, vehicle, &trajectory, &given, residual));
-            (trajectory.into(), VehicleProvenance { reconstruction, given, rounded, lacks_controls, end_velocity })
+            let own = VehicleProvenance { reconstruction, given, rounded, lacks_controls, end_velocity, curve: None };
+            (trajectory.into(), own)
         }
     }
 }

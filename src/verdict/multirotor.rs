@@ -1,5 +1,6 @@
 //! The judge of multirotors, with plans made before the flight or in the loop.
 
+mod between_nodes;
 mod clearance;
 pub mod guard;
 mod limits;
@@ -13,18 +14,24 @@ use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
 use scenarios::{CheckSpec, Family, Plan};
 
+use between_nodes::BetweenNodes;
 pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::{Case, CheckTable, function_of};
+use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::goal::EndError;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, Provenance, collision, flight_integrity, goal, in_loop_planner, separation};
+use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, separation};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
+/// Why the end of a plan of positions is not asked to be at rest.
+const NO_VELOCITIES: &str = "the plan gives no velocities: see flight.rest";
+/// Why the nodes of a plan of positions are not asked for their accelerations.
+const NO_NODE_ACCELERATIONS: &str = "the plan gives no velocities: see plan.control_limits";
 /// Why a plan is not rolled out in open loop.
 const NO_ROLLOUT: &str = "without feedback a double integrator drifts, whatever its plan";
 
@@ -40,24 +47,32 @@ struct FleetCase<'a> {
     planned: Result<Vec<Motion>, MissingEvidence>,
     /// The planned motions, each hovering at its end until the last vehicle has arrived.
     hovering: Result<Vec<Motion>, MissingEvidence>,
-    /// The flown motions, as far as a rounded plan is known; `None` if it was not rounded.
-    flown_rounded: Option<Vec<Motion>>,
+    /// The flown motions, as far as the plan is known between its nodes; `None` if it is known exactly.
+    flown_in_tubes: Option<Vec<Motion>>,
+    /// Vehicle by vehicle, how well the plan is known between its nodes.
+    between: Vec<BetweenNodes>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
-    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?)),
-    ("nodes.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
+    ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?, &it.between)),
+    ("nodes.control_limits", |spec, it| match it.gives_velocities() {
+        true => limits::check_accelerations(spec, it.scenario, it.planned()?, &it.between),
+        false => Ok(spec.skip(NO_NODE_ACCELERATIONS)),
+    }),
     ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?, |index, _| it.rounding(index))),
     ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering(), SeparationShape::Spatial)),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.hovering()?)),
-    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?)),
-    ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?)),
+    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?, &it.between)),
+    ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?, &it.between)),
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
     ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
     ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?, |index, _| it.rounding(index))),
-    ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?)),
+    ("plan.rest", |spec, it| match it.gives_velocities() {
+        true => rest::check_planned(spec, it.scenario, it.planned()?),
+        false => Ok(spec.skip(NO_VELOCITIES)),
+    }),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
@@ -70,7 +85,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Spatial)
     }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions()?)),
-    ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?)),
+    ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?, it.flown_motions()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
     ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?, |index| it.rounding(index))),
@@ -85,15 +100,21 @@ impl<'a> FleetCase<'a> {
 
     fn new(shared: &'a Case<'a>) -> Self {
         let plan = shared.flyable().map_err(MissingEvidence::from);
-        let planned = plan.and_then(planned_motions).map(|motions| rounded(motions, shared.provenance));
+        let vehicles = shared.scenario.vehicles.iter().enumerate();
+        let between =
+            |(index, vehicle)| BetweenNodes::of(shared.provenance, index, shared.scenario.multirotor_model(vehicle));
+        let between: Vec<BetweenNodes> = vehicles.map(between).collect();
+        let planned = plan.and_then(planned_motions);
+        let tubes = planned.as_ref().map_or_else(|_| Vec::new(), |planned| tubes(shared, planned, &between));
+        let planned = planned.map(|motions| surround(motions, &tubes));
         let hovering = planned.clone().map(until_all_have_arrived);
-        let flown = shared.flown_motions().ok().filter(|_| shared.provenance.rounded.is_some());
-        let flown_rounded = flown.map(|motions| rounded(motions.to_vec(), shared.provenance));
-        Self { shared, planned, hovering, flown_rounded }
+        let flown = shared.flown_motions().ok().filter(|_| tubes.iter().any(Tube::has_width));
+        let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
+        Self { shared, planned, hovering, flown_in_tubes, between }
     }
 
     fn flown_motions(&self) -> Evidence<'_, [Motion]> {
-        self.flown_rounded.as_deref().map_or_else(|| self.shared.flown_motions(), Ok)
+        self.flown_in_tubes.as_deref().map_or_else(|| self.shared.flown_motions(), Ok)
     }
 
     fn hovering(&self) -> Evidence<'_, [Motion]> {
@@ -102,6 +123,11 @@ impl<'a> FleetCase<'a> {
 
     fn planned(&self) -> Evidence<'_, [Motion]> {
         self.planned.as_deref()
+    }
+
+    /// Whether the plan gives the velocities of all vehicles.
+    fn gives_velocities(&self) -> bool {
+        self.between.iter().all(BetweenNodes::gives_velocities)
     }
 }
 
@@ -121,13 +147,44 @@ fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, MissingEvidence> {
     plan.trajectories.iter().map(|trajectory| motion(trajectory.multirotor())).collect()
 }
 
-/// The motions, each in a tube as wide as its rows were rounded.
-fn rounded(motions: Vec<Motion>, provenance: &Provenance) -> Vec<Motion> {
-    let tube = |(index, motion): (usize, Motion)| match provenance.rounding_m(index) {
-        0.0 => motion,
-        rounding_m => motion.within(|_| rounding_m),
+/// How far the true motion of a vehicle may be from the one that is judged.
+struct Tube {
+    /// Ends of the intervals, s.
+    ends_s: Vec<f64>,
+    /// Largest distance during each interval, m.
+    distances_m: Vec<f64>,
+}
+
+/// The tubes around the planned motions: what lies between the nodes, and the rounding of the rows.
+fn tubes(case: &Case<'_>, planned: &[Motion], between: &[BetweenNodes]) -> Vec<Tube> {
+    let tube = |(index, (motion, between)): (usize, (&Motion, &BetweenNodes))| {
+        let rounding_m = case.provenance.rounding_m(index);
+        let (ends_s, distances_m) =
+            motion.segments().map(|segment| (segment.t_s[1], between.distance_m(&segment) + rounding_m)).unzip();
+        Tube { ends_s, distances_m }
     };
-    motions.into_iter().enumerate().map(tube).collect()
+    planned.iter().zip(between).enumerate().map(tube).collect()
+}
+
+impl Tube {
+    fn has_width(&self) -> bool {
+        self.distances_m.iter().any(|distance_m| *distance_m != 0.0)
+    }
+
+    /// Largest distance during an interval of time, m; beyond the end that of the last interval.
+    fn distance_m(&self, [from_s, to_s]: [f64; 2]) -> f64 {
+        let last = self.ends_s.len().saturating_sub(1);
+        let [first, end] = [from_s, to_s].map(|t_s| self.ends_s.partition_point(|end_s| *end_s < t_s).min(last));
+        self.distances_m[first..=end].iter().copied().fold(0.0, |a, b| if is_larger(b, a) { b } else { a })
+    }
+}
+
+/// The motions, each in its tube.
+fn surround(motions: Vec<Motion>, tubes: &[Tube]) -> Vec<Motion> {
+    let surround = |(motion, tube): (Motion, &Tube)| {
+        if tube.has_width() { motion.within(|segment| tube.distance_m(segment.t_s)) } else { motion }
+    };
+    motions.into_iter().zip(tubes).map(surround).collect()
 }
 
 /// A vehicle that has arrived hovers there until the last one has.

@@ -1,9 +1,11 @@
 //! What a plan gives, and what had to be reconstructed: a check never claims more than the plan gives.
 
+use scenarios::curve::CubicsError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::number_format::quantity;
+use crate::verdict::CurveAsCubics;
 use crate::verdict::compare::is_larger;
 use crate::verdict::{Check, Status};
 
@@ -17,6 +19,10 @@ pub struct Provenance {
     pub reconstruction: Option<Reconstruction>,
     /// Rows that were left out as rounding, of all vehicles.
     pub rounded: Option<RoundedRows>,
+    /// Polynomial pieces that are judged as cubics, with the largest errors of all vehicles.
+    pub curve: Option<CurveAsCubics>,
+    /// What the user should know of how the file was read.
+    pub remarks: Vec<String>,
     /// Vehicle by vehicle, in the order of the scenario; empty if the plan was whole.
     vehicles: Vec<VehicleProvenance>,
 }
@@ -34,6 +40,8 @@ pub struct VehicleProvenance {
     pub lacks_controls: bool,
     /// Of rows without velocities: what they tell of the last velocity.
     pub end_velocity: Option<EndVelocity>,
+    /// Polynomial pieces that are judged as cubics.
+    pub curve: Option<CurveAsCubics>,
 }
 
 /// What positions tell of the velocity at the last of them.
@@ -107,7 +115,14 @@ impl Provenance {
             }),
             (a, b) => a.or(b),
         };
+        self.curve = CurveAsCubics::sum(self.curve, vehicle.curve);
         self.vehicles.push(vehicle);
+    }
+
+    /// How far a vehicle's cubics may be from the curve that they stand for.
+    pub fn curve_error(&self, vehicle: usize) -> CubicsError {
+        let curve = self.vehicles.get(vehicle).and_then(|vehicle| vehicle.curve);
+        curve.map_or_else(CubicsError::default, |curve| curve.error())
     }
 
     /// What the rows of a vehicle give.
@@ -203,9 +218,21 @@ impl Reconstruction {
         }
     }
 
+    /// Whether it is that of a vehicle whose plan has no controls, by its positions.
+    fn is_of_positions(&self) -> bool {
+        self.velocities && self.position_m == 0.0 && self.load_factor == 0.0
+    }
+
     /// In words, for people.
     pub fn describe(&self) -> String {
         let what = if self.velocities { "velocities and controls" } else { "controls" };
+        if self.is_of_positions() {
+            return format!(
+                "velocities reconstructed; rows up to {} apart: between them the motion is known to {}",
+                quantity(self.row_interval_s, "s"),
+                quantity(self.between_rows_m, "m"),
+            );
+        }
         format!(
             "{what} reconstructed: they miss the nodes by {}, load factors to ±{}; rows up to {} apart: between them the \
              motion is known to {}",

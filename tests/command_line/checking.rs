@@ -96,7 +96,7 @@ fn a_plan_that_ends_in_the_wrong_place_fails() {
 #[test]
 fn an_invalid_plan_file_is_exit_code_2_and_leaves_nothing_behind() {
     let csv = "vehicle,t_s,x_m,y_m,z_m\nuav-1,0,0,-100,400\nuav-1,10,350,-100,400\nuav-3,0,0,100,400\n";
-    let workplace = Workplace::new(&[("pair.toml", PAIR), ("theirs.csv", csv), ("theirs.txt", csv)]);
+    let workplace = Workplace::new(&[("pair.toml", PAIR), ("theirs.csv", csv), ("theirs.doc", csv)]);
     let (exit, _, errors) = check(&workplace, "theirs.csv");
     assert_eq!(exit, 2);
     for part in
@@ -104,7 +104,7 @@ fn an_invalid_plan_file_is_exit_code_2_and_leaves_nothing_behind() {
     {
         assert!(errors.contains(part), "`{part}` is missing in\n{errors}");
     }
-    for (plan, message) in [("theirs.txt", "ends in .csv, .json or"), ("missing.csv", "missing.csv")] {
+    for (plan, message) in [("theirs.doc", "ends in .csv, .json or"), ("missing.csv", "missing.csv")] {
         let (exit, _, errors) = check(&workplace, plan);
         assert_eq!(exit, 2);
         assert!(errors.contains(message), "{errors}");

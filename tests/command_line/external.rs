@@ -259,3 +259,36 @@ fn invalid_settings_are_errors_with_their_field() {
         assert!(errors.contains(message), "{planner}: {errors}");
     }
 }
+
+/// The scenario of an example, run in its folder: exit code and page.
+fn run_example(scenario: &str) -> (i32, String) {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let workplace = Workplace::new(&[]);
+    let scenario = root.join("examples").join(scenario);
+    let output = workplace.harness(&["run", scenario.to_str().unwrap(), "--record", "none"]);
+    (code(&output), stdout(&output) + &stderr(&output))
+}
+
+#[test]
+fn the_flatness_example_passes() {
+    if has_python("numpy") {
+        let (code, page) = run_example("flatness/pillar.toml");
+        assert_eq!(code, 0, "{page}");
+    }
+}
+
+/// The trapezoidal rule fails between its nodes only; the second scenario has what it lacks.
+#[test]
+fn the_casadi_example_fails_and_passes_as_it_says() {
+    if has_python("numpy, casadi") {
+        let (code, page) = run_example("casadi/trapezoid.toml");
+        assert_eq!(code, 1, "{page}");
+        let fails = |check: &str| page.lines().any(|line| line.starts_with(check) && line.contains(" fail "));
+        for check in ["plan.clearance", "plan.dynamics", "plan.rollout"] {
+            assert!(fails(check), "{check} does not fail in\n{page}");
+        }
+        assert!(!fails("nodes."), "{page}");
+        let (code, page) = run_example("casadi/passes.toml");
+        assert_eq!(code, 0, "{page}");
+    }
+}

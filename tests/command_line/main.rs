@@ -17,6 +17,7 @@ mod results;
 mod running;
 mod schemas;
 mod shipped;
+mod starting;
 #[cfg(unix)]
 mod stopping;
 mod sweeping;

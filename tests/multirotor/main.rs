@@ -6,4 +6,5 @@ mod edge_table;
 mod edges;
 mod gusts;
 mod in_loop;
+mod plans;
 mod together;

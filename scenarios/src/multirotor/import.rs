@@ -2,15 +2,15 @@
 
 use super::{CSV_COLUMNS, State, Trajectory};
 use crate::Family;
-use crate::plan_input::columns::{Columns, without_vehicle_and_time};
+use crate::plan_input::columns::Columns;
 use crate::plan_input::{ColumnTable, ImportedTrajectory};
 
-/// Position and velocity, both required: nothing is reconstructed.
+/// Position and velocity; without the latter it is reconstructed.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::Multirotor,
     written: &CSV_COLUMNS,
-    required: without_vehicle_and_time(&CSV_COLUMNS),
-    velocity: &[],
+    required: &["x_m", "y_m", "z_m"],
+    velocity: &[&["vx_mps", "vy_mps", "vz_mps"]],
     controls: &[],
     optional: &[],
     converted: &[],
@@ -20,14 +20,24 @@ pub(super) const COLUMNS: Columns = Columns {
     refuses_gaps: true,
 };
 
+/// The planned motion of one multirotor by its positions alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Positions {
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// Times of the nodes, s, increasing from 0.
+    pub times_s: Vec<f64>,
+    /// Positions at the nodes, m.
+    pub positions_m: Vec<[f64; 3]>,
+}
+
 pub(super) fn trajectory(table: &ColumnTable) -> ImportedTrajectory {
     let positions_m = table.triples(["x_m", "y_m", "z_m"]).unwrap_or_default();
-    let velocities_mps = table.triples(["vx_mps", "vy_mps", "vz_mps"]).unwrap_or_default();
-    let states = positions_m.into_iter().zip(velocities_mps);
-    let trajectory = Trajectory {
-        vehicle: table.vehicle.clone(),
-        times_s: table.times_s.clone(),
-        states: states.map(|(position_m, velocity_mps)| State { position_m, velocity_mps }).collect(),
+    let (vehicle, times_s) = (table.vehicle.clone(), table.times_s.clone());
+    let Some(velocities_mps) = table.triples(["vx_mps", "vy_mps", "vz_mps"]) else {
+        return ImportedTrajectory::Positions(Positions { vehicle, times_s, positions_m });
     };
-    ImportedTrajectory::Complete(trajectory.into())
+    let states = positions_m.into_iter().zip(velocities_mps);
+    let states = states.map(|(position_m, velocity_mps)| State { position_m, velocity_mps }).collect();
+    ImportedTrajectory::Complete(Trajectory { vehicle, times_s, states }.into())
 }

@@ -4,10 +4,14 @@ use std::cmp::Ordering;
 
 use super::columns::Columns;
 use super::{ColumnTable, ImportedTrajectory, PlanDocument, PlanIssue, RowLocations, units};
-use crate::{Issue, PlanStatus, Scenario, Vehicle, closest_name};
+use crate::curve::Curve;
+use crate::{Family, Issue, PlanStatus, Scenario, Vehicle, closest_name};
 
 /// Tolerance of the first time, which must be 0, s.
 const TIME_TOLERANCE_S: f64 = 1e-9;
+/// Times beyond these are stamps since 1970, in s and in ns: the year 2001.
+const EPOCH_S: f64 = 1e9;
+const EPOCH_NS: f64 = 1e18;
 /// Maximum interval, in median intervals of the table; a longer one is a gap.
 const MAX_INTERVALS: f64 = 20.0;
 /// Maximum end time, in maximum durations of the simulation; a longer plan is in another unit.
@@ -19,18 +23,22 @@ pub(super) fn trajectories(
     scenario: &Scenario,
 ) -> Result<Vec<ImportedTrajectory>, Vec<PlanIssue>> {
     let mut issues: Vec<PlanIssue> = other_scenario(document, scenario).into_iter().collect();
-    if document.header.status == Some(PlanStatus::NoPlan) && document.tables.is_empty() {
+    if document.header.status == Some(PlanStatus::NoPlan) && document.tables.is_empty() && document.curves.is_empty() {
         return if issues.is_empty() { Ok(Vec::new()) } else { Err(issues) };
     }
     issues.extend(surplus(document, scenario));
     let mut trajectories = Vec::with_capacity(scenario.vehicles.len());
     for vehicle in &scenario.vehicles {
-        match document.tables.iter().find(|table| table.vehicle == vehicle.name) {
-            None => issues.push(missing(vehicle)),
-            Some(table) => match trajectory(table, vehicle, scenario) {
-                Ok(trajectory) => trajectories.push(trajectory),
-                Err(found) => issues.extend(found),
-            },
+        let table = document.tables.iter().find(|table| table.vehicle == vehicle.name);
+        let curve = document.curves.iter().find(|curve| curve.vehicle == vehicle.name);
+        let trajectory = match (table, curve) {
+            (Some(table), _) => trajectory(table, vehicle, scenario),
+            (None, Some(curve)) => of_curve(curve, vehicle, scenario),
+            (None, None) => Err(vec![missing(vehicle)]),
+        };
+        match trajectory {
+            Ok(trajectory) => trajectories.push(trajectory),
+            Err(found) => issues.extend(found),
         }
     }
     if issues.is_empty() { Ok(trajectories) } else { Err(issues) }
@@ -46,17 +54,20 @@ fn other_scenario(document: &PlanDocument, scenario: &Scenario) -> Option<PlanIs
 fn surplus(document: &PlanDocument, scenario: &Scenario) -> Vec<PlanIssue> {
     let names: Vec<&str> = scenario.vehicles.iter().map(|vehicle| vehicle.name.as_str()).collect();
     let mut issues = Vec::new();
-    for (index, table) in document.tables.iter().enumerate() {
-        let found = format!("\"{}\"", table.vehicle);
-        if document.tables[..index].iter().any(|other| other.vehicle == table.vehicle) {
+    let tables = document.tables.iter().map(|table| (table.vehicle.as_str(), table.locations.of(0)));
+    let curves = document.curves.iter().map(|curve| (curve.vehicle.as_str(), String::new()));
+    let given: Vec<(&str, String)> = tables.chain(curves).collect();
+    for (index, (vehicle, place)) in given.iter().enumerate() {
+        let found = format!("\"{vehicle}\"");
+        if given[..index].iter().any(|(other, _)| other == vehicle) {
             let issue = Issue::new("vehicle", found, "one trajectory per vehicle");
-            issues.push(PlanIssue::new(table.locations.of(0), issue));
-        } else if !names.contains(&table.vehicle.as_str()) {
-            let has_no_table = |name: &&str| document.tables.iter().all(|table| table.vehicle != **name);
-            let remedy = closest_name(&table.vehicle, names.iter().copied().filter(has_no_table));
+            issues.push(PlanIssue::new(place, issue));
+        } else if !names.contains(vehicle) {
+            let is_missing = |name: &&str| given.iter().all(|(vehicle, _)| vehicle != name);
+            let remedy = closest_name(vehicle, names.iter().copied().filter(is_missing));
             let remedy = remedy.map_or_else(String::new, |name| format!("did you mean \"{name}\"?"));
             let expected = format!("a vehicle of the scenario: {}", names.join(", "));
-            issues.push(PlanIssue::new(table.locations.of(0), Issue::new("vehicle", found, expected).remedy(remedy)));
+            issues.push(PlanIssue::new(place, Issue::new("vehicle", found, expected).remedy(remedy)));
         }
     }
     issues
@@ -90,6 +101,44 @@ fn trajectory(
     let trajectory = (spec.import)(&converted(table, spec.columns));
     let suspicions = units::suspicions(&trajectory, vehicle);
     let located = |(row, issue)| PlanIssue::new(table.locations.of(row), issue);
+    if suspicions.is_empty() { Ok(trajectory) } else { Err(suspicions.into_iter().map(located).collect()) }
+}
+
+/// A curve, of a vehicle whose motion it determines.
+fn of_curve(curve: &Curve, vehicle: &Vehicle, scenario: &Scenario) -> Result<ImportedTrajectory, Vec<PlanIssue>> {
+    let issue = |found: String, expected: String, remedy: &str| {
+        let field = format!("curve of {}", curve.vehicle);
+        Err(vec![PlanIssue::new("", Issue::new(field, found, expected).remedy(remedy))])
+    };
+    let max_end_s = MAX_DURATIONS * scenario.simulation.max_duration_s;
+    if scenario.family() == Family::SlungLoad {
+        let remedy = "give the states and controls in a table";
+        return issue("polynomial pieces".into(), "the motion of quadrotor and load".into(), remedy);
+    }
+    if curve.pieces.iter().flat_map(|piece| &piece.points_m).flatten().any(|value| !value.is_finite()) {
+        return issue("a number that is not finite".into(), "finite numbers".into(), "");
+    }
+    let [begin_s, end_s] = [curve.pieces.first().map_or(f64::NAN, |piece| piece.t_s[0]), curve.end_s()];
+    if begin_s.abs() > TIME_TOLERANCE_S || begin_s.is_nan() {
+        return issue(
+            format!("{begin_s} s at the beginning"),
+            "0 s".into(),
+            "measure the time from the start of the scenario",
+        );
+    }
+    if end_s > max_end_s {
+        let expected = format!("at most {max_end_s} s, ten times simulation.max_duration_s");
+        return issue(format!("{end_s} s at the end"), expected, "are the durations in milliseconds?");
+    }
+    if scenario.family() == Family::FixedWing
+        && let Some(jump) = curve.joints().find(|joint| !joint.is_rounding)
+    {
+        let found = format!("a jump by {} m and {} m/s at {} s", jump.position_m, jump.velocity_mps, jump.t_s);
+        return issue(found, "pieces that continue each other in position and velocity".into(), "");
+    }
+    let trajectory = ImportedTrajectory::Curve(curve.clone());
+    let suspicions = units::suspicions(&trajectory, vehicle);
+    let located = |(_, issue)| PlanIssue::new("", issue);
     if suspicions.is_empty() { Ok(trajectory) } else { Err(suspicions.into_iter().map(located).collect()) }
 }
 
@@ -166,15 +215,25 @@ fn time_issue(table: &ColumnTable, columns: &Columns) -> Option<PlanIssue> {
         Some(PlanIssue::new(table.locations.of(row), of_vehicle(table, issue)))
     };
     if times_s[0].abs() > TIME_TOLERANCE_S {
-        let remedy = "measure the time from the start of the scenario, and include the start as the first row";
+        let remedy = match times_s[0] {
+            stamp if stamp > EPOCH_NS => {
+                "these are nanoseconds since 1970: subtract the first stamp, and name the unit"
+            }
+            stamp if stamp > EPOCH_S => "these are seconds since 1970: subtract the first stamp",
+            _ => "measure the time from the start of the scenario, and include the start as the first row",
+        };
         return issue(0, format!("{} s in the first row", times_s[0]), "0 s", remedy);
     }
+    // Positions alone say nothing of a velocity before and after a jump.
+    let has_velocity = |form: &&[&str]| form.iter().all(|name| table.columns.contains_key(*name));
+    let may_jump =
+        columns.allows_discontinuity && (columns.velocity.is_empty() || columns.velocity.iter().any(has_velocity));
     let mut intervals_s = Vec::with_capacity(times_s.len());
     for (row, pair) in times_s.windows(2).enumerate() {
         let found = format!("{} s after {} s", pair[1], pair[0]);
         match pair[0].partial_cmp(&pair[1]) {
             Some(Ordering::Less) => intervals_s.push(pair[1] - pair[0]),
-            Some(Ordering::Equal) if columns.allows_discontinuity && intervals_s.last() != Some(&0.0) => {
+            Some(Ordering::Equal) if may_jump && intervals_s.last() != Some(&0.0) => {
                 intervals_s.push(0.0);
             }
             Some(Ordering::Equal) => {

@@ -20,7 +20,7 @@ pub enum PlanError {
         reason: std::io::Error,
     },
     /// The extension of the file is not that of a supported format.
-    #[error("{}: a plan file ends in .csv, .json or .parquet", path.display())]
+    #[error("{}: a plan file ends in .csv, .json or .parquet (tables also in .tsv, .txt or .tum)", path.display())]
     #[diagnostic(help("rename the file if it has one of these formats"))]
     Kind {
         /// The file.

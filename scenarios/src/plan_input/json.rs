@@ -1,9 +1,12 @@
 //! JSON documents: the format of `plan.json`, or the same with columns instead of states and controls.
 //!
+//! A trajectory may also be a curve, see `curve`.
+//!
 //! ```text
 //! { "status": "solved", "trajectories": [ { "vehicle": "uav-1", "times_s": [...], "x_m": [...], "y_m": [...], ... } ] }
 //! ```
 
+mod curve;
 mod trajectory;
 mod unique_keys;
 
@@ -13,6 +16,7 @@ use serde_json::{Map, Value};
 use self::unique_keys::UniqueKeys;
 use super::columns::Columns;
 use super::{ColumnTable, PlanDocument, PlanHeader, PlanIssue};
+use crate::curve::Curve;
 use crate::{Issue, Plan, PlanStatus, closest_name};
 
 /// Keys of a document. `protocol` occurs in replies of external planners.
@@ -45,17 +49,17 @@ pub(super) fn read(text: &str, columns: &Columns) -> Result<PlanDocument, Vec<Pl
         issues.push(PlanIssue::new("", issue));
     }
     let header = header(&document, &mut issues);
-    let tables = match document.get("trajectories") {
+    let (tables, curves) = match document.get("trajectories") {
         Some(Value::Array(trajectories)) => tables(trajectories, columns, &mut issues),
-        None | Some(Value::Null) if header.status == Some(PlanStatus::NoPlan) => Vec::new(),
+        None | Some(Value::Null) if header.status == Some(PlanStatus::NoPlan) => Default::default(),
         other => {
             let found = describe(other.unwrap_or(&Value::Null));
             let issue = issue("trajectories", found, "an array with one trajectory per vehicle");
             issues.push(PlanIssue::new("", issue));
-            Vec::new()
+            Default::default()
         }
     };
-    if issues.is_empty() { Ok(PlanDocument { header, tables }) } else { Err(issues) }
+    if issues.is_empty() { Ok(PlanDocument { header, tables, curves }) } else { Err(issues) }
 }
 
 fn unknown_keys(document: &Map<String, Value>) -> impl Iterator<Item = PlanIssue> + '_ {
@@ -91,6 +95,7 @@ fn header(document: &Map<String, Value>, issues: &mut Vec<PlanIssue>) -> PlanHea
         history: optional(history, issues).unwrap_or_default(),
         diagnostics: optional(diagnostics, issues).unwrap_or_default(),
         timings: optional(timings, issues),
+        remarks: Vec::new(),
     };
     issues.extend(negative_times(&header));
     header
@@ -128,15 +133,20 @@ fn optional<T: DeserializeOwned>(
     }
 }
 
-fn tables(trajectories: &[Value], columns: &Columns, issues: &mut Vec<PlanIssue>) -> Vec<ColumnTable> {
-    let mut tables = Vec::with_capacity(trajectories.len());
+/// The trajectories that are tables, and those that are curves.
+fn tables(trajectories: &[Value], columns: &Columns, issues: &mut Vec<PlanIssue>) -> (Vec<ColumnTable>, Vec<Curve>) {
+    let (mut tables, mut curves) = (Vec::with_capacity(trajectories.len()), Vec::new());
     for (index, trajectory) in trajectories.iter().enumerate() {
-        match trajectory::table(trajectory, index, columns) {
-            Ok(table) => tables.push(table),
-            Err(issue) => issues.push(PlanIssue::new("", issue)),
+        let read = if curve::is_curve(trajectory) {
+            curve::read(trajectory, index).map(|curve| curves.push(curve))
+        } else {
+            trajectory::table(trajectory, index, columns).map(|table| tables.push(table))
+        };
+        if let Err(issue) = read {
+            issues.push(PlanIssue::new("", issue));
         }
     }
-    tables
+    (tables, curves)
 }
 
 fn issue(field: &str, found: String, expected: &str) -> Issue {

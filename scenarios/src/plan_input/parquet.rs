@@ -8,11 +8,15 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
 use super::columns::{Columns, TIME, VEHICLE};
+use super::names::{ColumnMap, Meaning};
 use super::{PlanDocument, PlanIssue, RowLocations};
 use crate::{Issue, Scenario};
 
+/// Beginning of the name of the index that pandas adds.
+const PANDAS_INDEX: &str = "__index_level";
+
 /// Reads the file. The column `vehicle` is optional if the scenario has a single vehicle.
-pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<PlanIssue>> {
+pub(super) fn read(file: File, scenario: &Scenario, map: &ColumnMap) -> Result<PlanDocument, Vec<PlanIssue>> {
     let broken = |error: ParquetError| {
         let issue = Issue::new(
             "Parquet",
@@ -28,14 +32,28 @@ pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<
         let issue = Issue::new("columns", format!("two columns named `{twice}`"), "each name once");
         return Err(vec![PlanIssue::new("", issue.remedy("rename or remove one of them"))]);
     }
+    let known = super::columns_of(scenario);
+    let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+    let missing = map.missing(&names);
+    let meanings: Result<Vec<Meaning>, Issue> = names.iter().map(|name| map.meaning(name, known)).collect();
+    let meanings = meanings.map_err(|issue| vec![PlanIssue::new("", issue)])?;
+    if !missing.is_empty() {
+        return Err(missing.into_iter().map(|issue| PlanIssue::new("", issue)).collect());
+    }
     let only_vehicle = (scenario.vehicles.len() == 1).then(|| scenario.vehicles[0].name.as_str());
     let mut document = PlanDocument::default();
     let mut issues = Vec::new();
     for (index, row) in reader.get_row_iter(None).map_err(broken)?.enumerate() {
         let row = row.map_err(broken)?;
-        if let Err(issue) = add(&row, index + 1, only_vehicle, super::columns_of(scenario), &mut document) {
+        if let Err(issue) = add(&row, &meanings, index + 1, only_vehicle, known, &mut document) {
             issues.push(PlanIssue::new(format!(", row {}", index + 1), issue));
         }
+    }
+    let is_unused =
+        |(name, meaning): &(&String, &Meaning)| **meaning == Meaning::Unused && !name.starts_with(PANDAS_INDEX);
+    let unused: Vec<&str> = names.iter().zip(&meanings).filter(is_unused).map(|(name, _)| name.as_str()).collect();
+    if !unused.is_empty() {
+        document.header.remarks.push(format!("columns not used: {}", unused.join(", ")));
     }
     if issues.is_empty() { Ok(document) } else { Err(issues) }
 }
@@ -43,6 +61,7 @@ pub(super) fn read(file: File, scenario: &Scenario) -> Result<PlanDocument, Vec<
 /// Adds a row to the table of its vehicle.
 fn add(
     row: &Row,
+    meanings: &[Meaning],
     number: usize,
     only_vehicle: Option<&str>,
     known: &Columns,
@@ -51,19 +70,28 @@ fn add(
     let mut vehicle = only_vehicle;
     let mut t_s = None;
     let mut values = BTreeMap::new();
-    for (name, field) in row.get_column_iter() {
-        match (name.as_str(), field) {
-            (VEHICLE, Field::Str(text)) => vehicle = Some(text),
+    for ((theirs, field), meaning) in row.get_column_iter().zip(meanings) {
+        let Meaning::Column(name, factor) = meaning else { continue };
+        let number = match (name.as_str(), field) {
+            (VEHICLE, Field::Str(text)) => {
+                vehicle = Some(text);
+                continue;
+            }
             (VEHICLE, other) => return Err(Issue::new(VEHICLE, other.to_string(), "text")),
-            (TIME, field) => t_s = Some(number_in(name, field)?),
-            // The index that pandas adds.
-            (name, _) if name.starts_with("__index_level") => {}
             (_, Field::Str(word)) => {
                 let number = known.word(name, word);
-                let number = number.ok_or_else(|| Issue::new(name, format!("\"{word}\""), known.expectation(name)))?;
-                values.insert(name.clone(), number);
+                number.ok_or_else(|| Issue::new(theirs, format!("\"{word}\""), known.expectation(name)))?
             }
-            (_, field) => drop(values.insert(name.clone(), number_in(name, field)?)),
+            (_, field) => number_in(theirs, field)?,
+        };
+        let number = if *factor == 1.0 { number } else { number * factor };
+        let is_second =
+            if name == TIME { t_s.replace(number).is_some() } else { values.insert(name.clone(), number).is_some() };
+        if is_second {
+            let remedy = "name the one to use with --columns 'theirs=ours', or remove one";
+            return Err(
+                Issue::new(theirs, format!("a second column for `{name}`"), "each quantity once").remedy(remedy)
+            );
         }
     }
     let vehicle = vehicle.ok_or_else(|| Issue::new(VEHICLE, "nothing", "a column with the vehicle's name"))?;

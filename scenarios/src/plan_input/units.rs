@@ -13,11 +13,14 @@ use crate::{Issue, Vehicle};
 const POSITION_TOLERANCE: f64 = 1e-3;
 /// Distance from the start up to which the first position is accepted, m.
 const MAX_START_OFFSET_M: f64 = 1.0;
+/// Horizontal distance between start and goal from which degrees can be told from metres, m.
+const MIN_FLIGHT_M: f64 = 10.0;
 /// Relative tolerance of the ratio of two means over a trajectory.
 const MEAN_TOLERANCE: f64 = 0.02;
 
 /// Units of length: name and number per metre.
-const LENGTHS: [(&str, f64); 3] = [("kilometres", 1e-3), ("feet", 1.0 / 0.3048), ("millimetres", 1e3)];
+const LENGTHS: [(&str, f64); 4] =
+    [("kilometres", 1e-3), ("feet", 1.0 / 0.3048), ("centimetres", 1e2), ("millimetres", 1e3)];
 /// Units of speed: name and number per m/s.
 const SPEEDS: [(&str, f64); 4] = [
     ("km/h", 3.6),
@@ -32,9 +35,16 @@ pub(super) fn suspicions(trajectory: &ImportedTrajectory, vehicle: &Vehicle) -> 
         |(row, issue): (usize, Issue)| (row, Issue { field: format!("{} of {}", issue.field, vehicle.name), ..issue });
     let of_motion = match trajectory {
         ImportedTrajectory::Partial(trajectory) => [angles(trajectory), heading(trajectory), speed(trajectory)],
-        ImportedTrajectory::Complete(_) => [None, None, None],
+        ImportedTrajectory::Complete(_) | ImportedTrajectory::Positions(_) | ImportedTrajectory::Curve(_) => {
+            [None, None, None]
+        }
     };
-    [position(trajectory, vehicle)].into_iter().chain(of_motion).flatten().map(named).collect()
+    [position(trajectory, vehicle).or_else(|| degrees(trajectory, vehicle))]
+        .into_iter()
+        .chain(of_motion)
+        .flatten()
+        .map(named)
+        .collect()
 }
 
 /// A first position that is the vehicle's start in another unit or frame.
@@ -54,6 +64,28 @@ fn position(trajectory: &ImportedTrajectory, vehicle: &Vehicle) -> Option<(usize
     })?;
     let found = format!("({}, {}, {}), which is the vehicle's start {guess}", first[0], first[1], first[2]);
     Some((0, Issue::new("position", found, format!("({x}, {y}, {z}): x east, y north, z up, in m"))))
+}
+
+/// Latitude and longitude: numbers in their ranges that hardly change over a flight of many metres.
+fn degrees(trajectory: &ImportedTrajectory, vehicle: &Vehicle) -> Option<(usize, Issue)> {
+    let (start, goal) = (vehicle.start.position_m(), vehicle.goal.position_m());
+    let [first, last] = trajectory.end_positions_m()?;
+    let is_angle = |[x, y, _]: [f64; 3]| (x.abs() <= 90.0 && y.abs() <= 180.0) || (y.abs() <= 90.0 && x.abs() <= 180.0);
+    let horizontal_m = |a: [f64; 3], b: [f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    // A degree is 111 km.
+    let moved_deg = horizontal_m(first, last);
+    let asked_deg = horizontal_m(start, goal) / 111_000.0;
+    let is_suspect = horizontal_m(start, goal) > MIN_FLIGHT_M
+        && horizontal_m(first, start) > MAX_START_OFFSET_M
+        && is_angle(first)
+        && is_angle(last)
+        && moved_deg > 0.3 * asked_deg
+        && moved_deg < 3.0 * asked_deg;
+    is_suspect.then(|| {
+        let found = format!("({}, {}), which looks like latitude and longitude in degrees", first[0], first[1]);
+        let issue = Issue::new("position", found, "x east, y north, z up, in m from the origin of the scenario");
+        (0, issue.remedy("project the positions onto the plane, with the origin of the scenario's map"))
+    })
 }
 
 /// A flight-path angle beyond vertical.

@@ -1,9 +1,11 @@
 //! Import of plan files: what is accepted, and the messages for what is rejected.
 
+mod curves;
 mod json;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod slung_load;
+mod tables;
 
 use std::path::Path;
 
@@ -147,8 +149,7 @@ fn wrong_columns_are_named() {
         "{half:#?}"
     );
     assert_csv_rejected(&complete().replace("n_y", "n_x"), &["plan.csv:1: header: found two columns named `n_x`"]);
-    assert_csv_rejected(&complete().replace("t_s", "time"), &["a column `t_s`"]);
-    assert_csv_rejected(&complete().replace(',', ";"), &["separated by semicolons"]);
+    assert_csv_rejected(&complete().replace("t_s", "when"), &["a column `t_s`", "--columns"]);
     assert_csv_rejected("", &["plan.csv:1: header"]);
 }
 
@@ -248,7 +249,7 @@ fn files_that_are_not_plan_files_are_rejected() {
         std::fs::write(&path, content).unwrap();
         read(&path, &scenario()).unwrap_err().lines().join("\n")
     };
-    assert!(message("plan.txt", b"").contains("ends in .csv, .json or .parquet"));
+    assert!(message("plan.doc", b"").contains("ends in .csv, .json or .parquet"));
     assert!(message("plan.csv", &[0xff, 0xfe, 0x00]).contains("plan.csv:1"));
     assert!(message("plan.parquet", b"PAR1 and nothing else").contains("plan.parquet"));
     assert!(read(Path::new("missing.csv"), &scenario()).unwrap_err().to_string().contains("missing.csv"));

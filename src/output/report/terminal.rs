@@ -11,12 +11,15 @@ use super::{Summary, SummaryRun, headline, table};
 use crate::campaign::margin_budget::MarginBudget;
 use crate::number_format::{number, quantity, signed, signed_quantity};
 use crate::report::Report;
-use crate::verdict::{Check, Integration, Method, Outcome, Reconstruction, RoundedRows, Status};
+use crate::verdict::{Check, CurveAsCubics, Integration, Method, Outcome, Reconstruction, RoundedRows, Status};
 
 /// Width of the table of checks where it is not printed to a terminal, characters.
 const CHECKS_WIDTH: u16 = 80;
 /// Number of lines of an external planner's log that are shown if there is no plan.
 const LOG_LINES: usize = 20;
+
+/// Number of checks that fail for the same reason from which they are shown in one line.
+const MIN_ALIKE: usize = 5;
 
 /// Which checks are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,9 +37,12 @@ pub fn report(report: &Report, log: Option<&str>, detail: Detail) -> String {
     if report.verdict == Outcome::NoPlan {
         return no_plan(report, log);
     }
+    let alike: Vec<&str> = common_failures(report).into_iter().flat_map(|(_, names)| names).collect();
+    let rows = made(report).filter(|check| !alike.contains(&check.name.as_str()));
     let (shown, hidden): (Vec<&Check>, Vec<&Check>) =
-        made(report).partition(|check| detail == Detail::All || is_decisive(check));
+        rows.partition(|check| detail == Detail::All || is_decisive(check));
     let mut lines = vec![checks_table(&shown).trim_fmt()];
+    lines.extend(failed_alike(report));
     lines.extend((!hidden.is_empty()).then(|| format!("{} more checks passed; -v lists them", hidden.len())));
     lines.extend(skipped(report));
     lines.push(plan_line(report));
@@ -124,15 +130,37 @@ fn color(check: &Check) -> Color {
 
 /// Skipped checks, one line per reason.
 fn skipped(report: &Report) -> Vec<String> {
+    let by_reason = by_reason(report.checks.iter().filter(|check| check.status == Status::Skip));
+    by_reason.into_iter().map(|(reason, names)| format!("skipped: {} ({reason})", names.join(", "))).collect()
+}
+
+/// Checks that could not be made for a common reason, one line per reason in place of many rows.
+fn failed_alike(report: &Report) -> Vec<String> {
+    let line = |(reason, names): (&str, Vec<&str>)| {
+        painted(&format!("failed: {reason}"), AnsiColor::Red) + &format!(" ({})", names.join(", "))
+    };
+    common_failures(report).into_iter().map(line).collect()
+}
+
+/// The reasons for which several checks failed without a value, and these checks.
+fn common_failures(report: &Report) -> Vec<(&str, Vec<&str>)> {
+    let has_no_value = |check: &&Check| check.status == Status::Fail && check.value.is_none() && !check.advisory;
+    let mut by_reason = by_reason(report.checks.iter().filter(has_no_value));
+    by_reason.retain(|(_, names)| names.len() >= MIN_ALIKE);
+    by_reason
+}
+
+/// Names of checks by their reasons, in the order of the checks.
+fn by_reason<'r>(checks: impl Iterator<Item = &'r Check>) -> Vec<(&'r str, Vec<&'r str>)> {
     let mut by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
-    for check in report.checks.iter().filter(|check| check.status == Status::Skip) {
+    for check in checks {
         let reason = check.reason.as_deref().unwrap_or("not applicable");
         match by_reason.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, names)) => names.push(&check.name),
             None => by_reason.push((reason, vec![&check.name])),
         }
     }
-    by_reason.into_iter().map(|(reason, names)| format!("skipped: {} ({reason})", names.join(", "))).collect()
+    by_reason
 }
 
 fn plan_line(report: &Report) -> String {
@@ -147,6 +175,8 @@ fn plan_line(report: &Report) -> String {
     parts.extend(plan.flight_time_s.map(|flight_time_s| format!("flight time {}", quantity(flight_time_s, "s"))));
     parts.extend(plan.reconstruction.as_ref().map(Reconstruction::describe));
     parts.extend(plan.rounded.as_ref().map(RoundedRows::describe));
+    parts.extend(plan.curve.as_ref().map(CurveAsCubics::describe));
+    parts.extend(plan.remarks.iter().cloned());
     parts.join("; ")
 }
 

@@ -36,6 +36,7 @@ use scenarios::{AppliedLimits, CheckSpec, Family, Scenario, World, check_spec, c
 use sim::multirotor::Obstacles;
 use thiserror::Error;
 
+use super::between_nodes::BetweenNodes;
 use super::clearance::FRAME;
 use super::clearance::search::{Approach, Body, Effort, PathLengths, Search};
 use super::limits::Limited;
@@ -263,13 +264,15 @@ impl Guard {
 
     fn state_limits(&self) -> Margin {
         let limited = self.limited();
-        limits_margin("plan.state_limits", |worst| limited.planned_states(worst, &self.motion))
+        limits_margin("plan.state_limits", |worst| limited.planned_states(worst, &self.motion, &BetweenNodes::EXACT))
     }
 
     fn control_limits(&self) -> Margin {
         let limited = self.limited();
         let limit_mps2 = limited.physical().acceleration_mps2;
-        limits_margin("plan.control_limits", |worst| limited.planned_accelerations(worst, &self.motion, limit_mps2))
+        limits_margin("plan.control_limits", |worst| {
+            limited.planned_accelerations(worst, &self.motion, &BetweenNodes::EXACT, limit_mps2)
+        })
     }
 
     fn rest(&self, knots: &[Knot]) -> Margin {

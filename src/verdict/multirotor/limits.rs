@@ -9,6 +9,7 @@ use scenarios::multirotor::{Airframe, Limits, Model, Plant};
 use scenarios::{CheckSpec, Group, Range, Scenario, Vehicle};
 use sim::{Actuation, Commanded, Sample};
 
+use super::between_nodes::{BetweenNodes, Bounded};
 use super::rest::RECORD;
 use crate::number_format::quantity;
 use crate::verdict::airspeed::air_velocities;
@@ -29,35 +30,58 @@ const SAME_NODE: f64 = 1e-9;
 const RESOLUTION_M2PS2: f64 = 1e-9;
 
 /// States at the nodes against the planning limits.
-pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+///
+/// - `between`: what the plan gives of each vehicle; speeds that it does not give are not judged here
+pub fn check_node_states(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    between: &[BetweenNodes],
+) -> CheckResult {
     check_limits(spec, |worst| {
-        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
+        for ((limited, motion), between) in limited_vehicles(scenario).zip(motions).zip(between) {
             for knot in motion.knots() {
                 limited.map.place(worst, knot.position_m, knot.t_s);
-                limited.speed(worst, norm(knot.velocity_mps), limited.promised.speed_mps, knot.t_s);
+                if between.gives_velocities() {
+                    limited.speed(worst, (norm(knot.velocity_mps), 0.0), limited.promised.speed_mps, knot.t_s);
+                }
             }
         }
     })
 }
 
 /// States of the continuous plan against the physical limits.
-pub fn check_planned_states(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+pub fn check_planned_states(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    between: &[BetweenNodes],
+) -> CheckResult {
     check_limits(spec, |worst| {
-        limited_vehicles(scenario).zip(motions).for_each(|(limited, motion)| limited.planned_states(worst, motion));
+        for ((limited, motion), between) in limited_vehicles(scenario).zip(motions).zip(between) {
+            limited.planned_states(worst, motion, between);
+        }
     })
 }
 
 /// Flown states against the physical limits.
-pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMotions<'_>) -> CheckResult {
+///
+/// - `motions`: the flown ones, as far as the plan is known
+pub fn check_flown_states(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    flown: &FlownMotions<'_>,
+    motions: &[Motion],
+) -> CheckResult {
     check_limits(spec, |worst| {
-        let logs = flown.motions.iter().zip(&flown.vehicles);
+        let logs = motions.iter().zip(&flown.vehicles);
         for (limited, (motion, vehicle)) in limited_vehicles(scenario).zip(logs) {
             limited.map.path(worst, motion);
             for sample in vehicle.judged {
                 limited.tilt(worst, sample);
             }
             for (t_s, air_velocity_mps) in air_velocities(scenario, vehicle.judged) {
-                limited.speed(worst, norm(air_velocity_mps), limited.physical().speed_mps, t_s);
+                limited.speed(worst, (norm(air_velocity_mps), 0.0), limited.physical().speed_mps, t_s);
             }
         }
     })
@@ -66,12 +90,19 @@ pub fn check_flown_states(spec: &CheckSpec, scenario: &Scenario, flown: &FlownMo
 /// Accelerations of the cubics between the nodes, against the planning limits for [`Group::Nodes`] and the physical ones for
 /// [`Group::Plan`]. An acceleration is linear in time and largest at an end. Two nodes that share a time and differ in
 /// position or velocity need an infinite one.
-pub fn check_accelerations(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+///
+/// - `between`: how well each motion is known
+pub fn check_accelerations(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    between: &[BetweenNodes],
+) -> CheckResult {
     let jumps = || motions.iter().flat_map(|motion| motion.knots().windows(2).filter(|pair| is_jump(pair)));
     let check = check_limits(spec, |worst| {
-        for (limited, motion) in limited_vehicles(scenario).zip(motions) {
+        for ((limited, motion), between) in limited_vehicles(scenario).zip(motions).zip(between) {
             let limits = if spec.group == Group::Nodes { limited.promised } else { *limited.physical() };
-            limited.planned_accelerations(worst, motion, limits.acceleration_mps2);
+            limited.planned_accelerations(worst, motion, between, limits.acceleration_mps2);
         }
     })?;
     Ok(Check { reason: jumps().next().map(jump_remark).or(check.reason), ..check })
@@ -120,24 +151,33 @@ impl<'a> Limited<'a> {
     }
 
     /// Considers position and speed of a planned motion over continuous time, against the physical limits.
-    pub fn planned_states(&self, worst: &mut Worst<'a>, motion: &Motion) {
+    pub fn planned_states(&self, worst: &mut Worst<'a>, motion: &Motion, between: &BetweenNodes) {
         self.map.path(worst, motion);
         for segment in motion.segments().filter(Segment::lasts) {
-            let (speed_mps, t_s) = fastest(&segment);
+            let (fastest_mps, t_s) = fastest(&segment);
+            let speed_mps = between.speed_mps(&segment, fastest_mps);
             self.speed(worst, speed_mps, self.physical().speed_mps, t_s);
         }
     }
 
     /// Considers the accelerations of a planned motion, jumps included.
-    pub fn planned_accelerations(&self, worst: &mut Worst<'a>, motion: &Motion, limit_mps2: f64) {
-        for segment in motion.segments().filter(Segment::lasts) {
-            for (value, t_s) in accelerations_mps2(&segment).into_iter().zip(segment.t_s) {
+    pub fn planned_accelerations(
+        &self,
+        worst: &mut Worst<'a>,
+        motion: &Motion,
+        between: &BetweenNodes,
+        limit_mps2: f64,
+    ) {
+        for (index, segment) in motion.segments().enumerate().filter(|(_, segment)| segment.lasts()) {
+            let ends = accelerations_mps2(&segment).into_iter().zip(segment.t_s).zip([index, index + 1]);
+            for ((value, t_s), knot) in ends {
                 let value_mps2 = without_rounding(norm(value), limit_mps2, &segment);
+                let value_mps2 = between.acceleration_mps2(motion, knot, value_mps2, limit_mps2);
                 self.acceleration(worst, value_mps2, limit_mps2, t_s);
             }
         }
         for jump in motion.knots().windows(2).filter(|pair| is_jump(pair)) {
-            self.acceleration(worst, f64::INFINITY, limit_mps2, jump[0].t_s);
+            self.acceleration(worst, (f64::INFINITY, 0.0), limit_mps2, jump[0].t_s);
         }
     }
 
@@ -146,12 +186,17 @@ impl<'a> Limited<'a> {
         &self.model.limits
     }
 
-    fn speed(&self, worst: &mut Worst<'a>, speed_mps: f64, most_mps: f64, t_s: f64) {
-        worst.consider(self.vehicle, up_to("speed", "m/s", most_mps, LimitKey::Limits("speed_mps")), speed_mps, t_s);
+    fn speed(&self, worst: &mut Worst<'a>, speed_mps: Bounded, most_mps: f64, t_s: f64) {
+        worst.consider_within(
+            self.vehicle,
+            up_to("speed", "m/s", most_mps, LimitKey::Limits("speed_mps")),
+            speed_mps,
+            t_s,
+        );
     }
 
-    fn acceleration(&self, worst: &mut Worst<'a>, value_mps2: f64, most_mps2: f64, t_s: f64) {
-        worst.consider(
+    fn acceleration(&self, worst: &mut Worst<'a>, value_mps2: Bounded, most_mps2: f64, t_s: f64) {
+        worst.consider_within(
             self.vehicle,
             up_to("acceleration", "m/s²", most_mps2, LimitKey::Limits("acceleration_mps2")),
             value_mps2,
@@ -190,10 +235,10 @@ impl<'a> Limited<'a> {
                 }
             }
             (Actuation::Acceleration(Commanded { control, .. }), None) => {
-                self.acceleration(worst, norm(*control), self.physical().acceleration_mps2, sample.t_s);
+                self.acceleration(worst, (norm(*control), 0.0), self.physical().acceleration_mps2, sample.t_s);
             }
             // A log with another vehicle's controls is no log of this one.
-            _ => self.acceleration(worst, f64::NAN, self.physical().acceleration_mps2, sample.t_s),
+            _ => self.acceleration(worst, (f64::NAN, 0.0), self.physical().acceleration_mps2, sample.t_s),
         }
     }
 }

@@ -1,0 +1,144 @@
+//! Plans of polynomial pieces and of positions alone.
+
+#[path = "../../scenarios/tests/damage/mod.rs"]
+mod damage;
+
+use harness::plan_source::plan_import::complete;
+use harness::verdict::{Check, Outcome, Status, Verdict, is_flyable, judge_imported};
+use scenarios::Scenario;
+use scenarios::plan_input::parse_csv;
+
+use crate::case;
+
+/// One vehicle of the case, past the wall.
+fn scenario() -> Scenario {
+    let mut scenario = case::scenario();
+    scenario.vehicles.truncate(1);
+    scenario.fleet.separation_m = None;
+    scenario
+}
+
+fn judged(text: &str, scenario: &Scenario) -> Option<Verdict> {
+    let (header, tracks) = parse_csv("plan.csv", text, scenario).ok()?;
+    let answer = complete(scenario, header, tracks, "theirs", 0);
+    let flight = is_flyable(scenario, &answer.plan).is_ok().then(|| sim::fly(scenario, &answer.plan, 0, &mut |_| {}));
+    Some(judge_imported(scenario, &answer.plan, &answer.provenance, flight.as_ref()))
+}
+
+#[track_caller]
+fn check(text: &str, name: &str) -> Check {
+    let verdict = judged(text, &scenario()).expect("a plan");
+    verdict.checks.into_iter().find(|check| check.name == name).expect("a check of this name")
+}
+
+/// The minimum-snap motion from rest to rest over 6 m in `duration_s`, x = 6 (35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷), and a bulge of
+/// y = `bulge_m` · 256 u⁴ (1 - u)⁴.
+fn septic(duration_s: f64, bulge_m: f64) -> String {
+    let scaled =
+        |c: [f64; 9]| -> String { (0..9).map(|k| format!(",{:.17e}", c[k] / duration_s.powi(k as i32))).collect() };
+    let x = scaled([0.0, 0.0, 0.0, 0.0, 210.0, -504.0, 420.0, -120.0, 0.0]);
+    let y = scaled([0.0, 0.0, 0.0, 0.0, 1.0, -4.0, 6.0, -4.0, 1.0].map(|c| 256.0 * bulge_m * c));
+    let header: String = ["x", "y"].iter().flat_map(|axis| (0..9).map(move |k| format!(",{axis}^{k}"))).collect();
+    format!("duration{header},z^0\n{duration_s}{x}{y},2\n")
+}
+
+#[test]
+fn a_polynomial_of_degree_8_passes() {
+    let verdict = judged(&septic(7.0, 0.0), &scenario()).expect("a plan");
+    let failed = verdict.failed_checks();
+    assert_eq!(verdict.outcome, Outcome::Pass, "{failed:?}");
+}
+
+/// The wall is 1.5 m beside the line between start and goal, the body 0.35 m in radius: the bulge reaches up to it.
+#[test]
+fn a_bulge_into_the_wall_is_found() {
+    for (bulge_m, status) in [(-1.149_8, Status::Pass), (-1.150_2, Status::Fail)] {
+        assert_eq!(check(&septic(9.0, bulge_m), "plan.clearance").status, status, "{bulge_m}");
+    }
+}
+
+/// The largest acceleration of the motion is 6 · 7.5132 m / T².
+#[test]
+fn the_acceleration_is_that_of_the_polynomial() {
+    let worst = |duration_s: f64| check(&septic(duration_s, 0.0), "plan.control_limits");
+    let exact_mps2 = |duration_s: f64| 6.0 * 7.513_188 / (duration_s * duration_s);
+    let found = worst(7.0);
+    assert!((found.value.unwrap() - exact_mps2(7.0)).abs() < 1e-3, "{found:?}");
+    let at_limit_s = (6.0 * 7.513_188_f64 / 3.0).sqrt();
+    assert_eq!(worst(at_limit_s * 1.001).status, Status::Pass);
+    assert_eq!(worst(at_limit_s * 0.999).status, Status::Fail);
+}
+
+/// Two pieces at constant velocity from rest need an infinite acceleration where they begin to move.
+#[test]
+fn a_jump_between_pieces_fails() {
+    let jump = check("duration,x^0,x^1,x^2,y^0,z^0\n2,0,0,0.5,0,2\n2,2,1,-0.25,0,2\n", "plan.control_limits");
+    assert_eq!(jump.status, Status::Fail);
+    assert!(jump.reason.unwrap().contains("it jumps by 0.000 m and 1.000 m/s"), "told");
+}
+
+/// The motion of the case by its positions, a row every `step_s`.
+fn positions(step_s: f64) -> String {
+    let x_m = |t_s: f64| match t_s {
+        t_s if t_s < 2.0 => t_s * t_s / 2.0,
+        t_s if t_s < 3.0 => 2.0 + 2.0 * (t_s - 2.0),
+        _ => 6.0 - (5.0 - t_s).powi(2) / 2.0,
+    };
+    let count = (5.0 / step_s).round() as usize;
+    let rows = (0..=count).map(|k| k as f64 * 5.0 / count as f64).map(|t_s| format!("{t_s:?},{:?},0,2\n", x_m(t_s)));
+    "t,x,y,z\n".to_owned() + &rows.collect::<String>()
+}
+
+#[test]
+fn dense_positions_pass_and_say_what_they_leave_open() {
+    let verdict = judged(&positions(0.05), &scenario()).expect("a plan");
+    assert_eq!(verdict.outcome, Outcome::Pass, "{:?}", verdict.failed_checks());
+    for name in ["nodes.control_limits", "plan.rest"] {
+        assert_eq!(verdict.check(name).unwrap().status, Status::Skip, "{name}");
+    }
+    let clearance_m = |step_s: f64| check(&positions(step_s), "plan.clearance").value.unwrap();
+    // The whole body passes 1.15 m from the wall; a T²/8 less is certain.
+    for step_s in [0.05, 0.5, 1.0] {
+        let least_m = 1.15 - 3.0 * step_s * step_s / 8.0;
+        let found_m = clearance_m(step_s);
+        assert!(
+            found_m <= least_m + 1e-3 && found_m > least_m - 0.4 * step_s,
+            "{found_m} m, {least_m} m at {step_s} s"
+        );
+    }
+}
+
+#[test]
+fn sparse_positions_leave_clearance_and_speed_undecided() {
+    for name in ["plan.clearance", "plan.state_limits", "flight.clearance"] {
+        assert_eq!(check(&positions(2.5), name).status, Status::Undecided, "{name}");
+    }
+}
+
+/// A row 0.2 m off the line cannot be reached within the limit: that is certain, however the vehicle flies between the rows.
+#[test]
+fn positions_that_need_more_acceleration_than_there_is_fail() {
+    let text = positions(0.1).replacen(",0,2\n2.6", ",0.2,2\n2.6", 1);
+    assert_ne!(text, positions(0.1));
+    assert_eq!(check(&text, "plan.control_limits").status, Status::Fail);
+}
+
+#[test]
+fn damaged_plans_that_pass_still_lead_to_the_goal() {
+    let scenario = scenario();
+    let six = "duration,x^0,x^1,x^2,x^3,y^0,z^0\n2,0,0,0.5,0,0,2\n1,2,2,0,0,0,2\n2,4,2,-0.5,0,0,2\n";
+    let (mut judged_count, mut passed) = (0, 0);
+    for original in [six.to_owned(), positions(0.25)] {
+        for text in damage::copies_of(&original, 400) {
+            let Some(verdict) = judged(&text, &scenario) else { continue };
+            judged_count += 1;
+            if verdict.outcome == Outcome::Pass {
+                passed += 1;
+                let (_, tracks) = parse_csv("plan.csv", &text, &scenario).unwrap();
+                let first_m = tracks[0].first_position_m();
+                assert!((first_m[0].hypot(first_m[1])) < 0.02, "begins elsewhere, and passes:\n{text}");
+            }
+        }
+    }
+    assert!(judged_count > 5 && passed > 2 && passed < judged_count, "{judged_count} judged, {passed} passed");
+}
