@@ -17,6 +17,7 @@ pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
 mod flown_reference;
+mod geofence;
 mod goal;
 mod in_loop_planner;
 mod in_loop_planning;
@@ -161,6 +162,8 @@ pub struct Check {
 pub enum LimitKey {
     /// In `world.map`.
     Map(&'static str),
+    /// The geofence that the check names.
+    Geofence,
     /// In the limits of the vehicle's model: `planning_limits` for `nodes.*`, else `limits`.
     Limits(&'static str),
     /// In the airframe of the vehicle's model.

@@ -7,6 +7,8 @@ pub use motion::{PointMassMotion, PointMassState, sagitta_m};
 
 use scenarios::{Family, Scenario};
 
+use crate::planner::ignored_geofence;
+
 /// Default distance kept beyond the body, as an allowance for the tracking error, m.
 const DEFAULT_MARGIN_M: f64 = 0.25;
 
@@ -39,8 +41,10 @@ impl PlanningLimits {
 
 /// Why a planner for multirotors cannot handle a scenario; `None` if it can.
 pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
-    (scenario.family() != Family::Multirotor)
-        .then(|| format!("vehicle `{}` is not a multirotor", scenario.vehicles[0].name))
+    if scenario.family() != Family::Multirotor {
+        return Some(format!("vehicle `{}` is not a multirotor", scenario.vehicles[0].name));
+    }
+    ignored_geofence(scenario)
 }
 
 /// Distance that the planner keeps between the vehicle's centre and everything else, m.

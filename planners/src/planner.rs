@@ -101,3 +101,34 @@ impl Planner {
         }
     }
 }
+
+/// Why a planner that does not model geofences cannot handle a scenario; `None` if there are none.
+pub(crate) fn ignored_geofence(scenario: &Scenario) -> Option<String> {
+    let fence = scenario.world.geofences.first()?;
+    Some(format!("it does not plan around geofences such as `{}`", fence.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use scenarios::{Geofence, GeofenceKind, Scenario};
+
+    #[test]
+    fn every_planner_refuses_geofences_by_name() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+        for file in ["multirotor/paper-map.toml", "slung/rectangle.toml", "fixed-wing/rendezvous-7.toml"] {
+            let mut scenario = scenarios::load(&folder.join(file)).unwrap();
+            let fitting = |scenario: &Scenario| {
+                crate::registry().iter().filter(|planner| (planner.unsupported_reason)(scenario).is_none()).count()
+            };
+            assert!(fitting(&scenario) > 0, "{file}");
+            let polygon_m = vec![[-1e5, -1e5], [1e5, -1e5], [0.0, 1e5]];
+            let fence = Geofence { name: "airport".into(), kind: GeofenceKind::StayIn, polygon_m, z_m: None };
+            scenario.world.geofences.push(fence);
+            assert_eq!(fitting(&scenario), 0, "{file}");
+            let planner = crate::find(&scenario.planner.name).unwrap();
+            assert!((planner.unsupported_reason)(&scenario).unwrap().contains("`airport`"), "{file}");
+        }
+    }
+}

@@ -25,9 +25,9 @@ mod time_bound;
 mod transcription;
 mod trapezoid;
 
-use scenarios::Scenario;
+use scenarios::{Scenario, Vehicle};
 
-use crate::planner::Planner;
+use crate::planner::{Planner, ignored_geofence};
 
 /// The planners of the fixed-wing family.
 pub(crate) const PLANNERS: &[Planner] =
@@ -35,6 +35,9 @@ pub(crate) const PLANNERS: &[Planner] =
 
 /// Why these planners cannot handle a scenario, if they cannot.
 pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
-    let other = scenario.vehicles.iter().find(|vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model))?;
-    Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name))
+    let is_other = |vehicle: &&Vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model);
+    match scenario.vehicles.iter().find(is_other) {
+        Some(other) => Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name)),
+        None => ignored_geofence(scenario),
+    }
 }

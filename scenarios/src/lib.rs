@@ -54,7 +54,7 @@ pub use trajectory::{Interpolation, TrajectoryNodes};
 pub use validate::{validate, wind_without_effect};
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
-pub use world::{BoxObstacle, Cylinder, Gate, Map, MovingCylinder, Prism, Window, World};
+pub use world::{BoxObstacle, Cylinder, Gate, Geofence, GeofenceKind, Map, MovingCylinder, Prism, Window, World};
 
 /// Gravitational acceleration, m/s², as in all four papers.
 pub const GRAVITY_MPS2: f64 = 9.81;

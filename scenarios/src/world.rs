@@ -4,10 +4,12 @@ use serde::{Deserialize, Serialize};
 use crate::Range;
 
 mod gate;
+mod geofence;
 mod moving_cylinder;
 mod prism;
 
 pub use gate::{Gate, Window};
+pub use geofence::{Geofence, GeofenceKind};
 pub use moving_cylinder::MovingCylinder;
 pub use prism::{BoxObstacle, Prism};
 
@@ -35,6 +37,9 @@ pub struct World {
     /// Gates that a quadrotor with a slung load must pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<Gate>,
+    /// Volumes that vehicles may not leave or may not enter.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub geofences: Vec<Geofence>,
     /// Moving obstacles, which multirotors must sense.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub moving: Vec<MovingCylinder>,
@@ -54,6 +59,7 @@ impl World {
             prisms: Vec::new(),
             ground_m: None,
             gates: Vec::new(),
+            geofences: Vec::new(),
             moving: Vec::new(),
             hidden: Vec::new(),
         }
@@ -77,6 +83,7 @@ impl World {
             prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             ground_m: self.ground_m,
             gates: self.gates.clone(),
+            geofences: self.geofences.clone(),
             ..Self::empty(self.map.clone())
         }
     }

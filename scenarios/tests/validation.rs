@@ -320,3 +320,15 @@ fn verdict_limits_are_positive_and_checks_are_known() {
         "the full name of a check",
     );
 }
+
+#[test]
+fn geofences_are_simple_polygons_and_allow_start_and_goal() {
+    let with = |fence: &str| format!("radius_m = 50\n\n[[world.geofences]]\nname = \"zone\"\n{fence}");
+    let crossed = with("kind = \"keep-out\"\npolygon_m = [[0, 0], [9, 9], [9, 0], [0, 9]]");
+    assert_issue("radius_m = 50", &crossed, ("world.geofences[0].polygon_m", 15, 13), "4 corners", "simple polygon");
+    let floor = "kind = \"keep-out\"\npolygon_m = [[0, 0], [9, 0], [0, 9]]\nz_m = [300, 200]";
+    assert_issue("radius_m = 50", &with(floor), ("world.geofences[0].z_m", 16, 7), "[300, 200]", "min below max");
+    let start = with("kind = \"keep-out\"\npolygon_m = [[-950, -250], [-850, -250], [-850, -150], [-950, -150]]");
+    let found = "50.000 m inside geofence `zone`";
+    assert_issue("radius_m = 50", &start, ("vehicles[0].start", 40, 9), found, "a point outside it");
+}

@@ -1,30 +1,35 @@
-use scenarios::{Range, Scenario};
+use scenarios::{Geofence, Range, Scenario};
 
 use crate::verdict::LimitKey;
 use crate::verdict::bernstein;
+use crate::verdict::geofence::smallest_margin;
 use crate::verdict::motion::Motion;
 use crate::verdict::worst::{Quantity, Worst};
 
 /// Distance between the bounds of an extreme position that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
 
-/// A vehicle and the map that it has to stay on.
+/// A vehicle, the map that it has to stay on and the geofences that it has to respect.
 #[derive(Clone, Copy)]
 pub struct MapBounds<'a> {
     vehicle: &'a str,
     axes: [Range; 3],
+    geofences: &'a [Geofence],
 }
 
 impl<'a> MapBounds<'a> {
     /// The vehicle of this name.
-    pub fn new(scenario: &Scenario, vehicle: &'a str) -> Self {
-        Self { vehicle, axes: scenario.world.map.axes() }
+    pub fn new(scenario: &'a Scenario, vehicle: &'a str) -> Self {
+        Self { vehicle, axes: scenario.world.map.axes(), geofences: &scenario.world.geofences }
     }
 
     /// Considers a place.
     pub fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
         for (axis, value) in position_m.into_iter().enumerate() {
             worst.consider(self.vehicle, self.quantity(axis), value, t_s);
+        }
+        for fence in self.geofences {
+            self.geofence(worst, fence, Extreme { value: fence.margin_m(position_m), error: 0.0, t_s });
         }
     }
 
@@ -36,7 +41,20 @@ impl<'a> MapBounds<'a> {
                 worst.consider_within(self.vehicle, self.quantity(axis), (value, error), t_s);
             }
         }
+        for fence in self.geofences {
+            self.geofence(worst, fence, smallest_margin(fence, motion));
+        }
         extremes_m[2]
+    }
+
+    /// Half the width of the map counts as far enough, so that margins compare with those to the map.
+    fn geofence(&self, worst: &mut Worst<'a>, fence: &'a Geofence, margin: Extreme) {
+        let width_m = self.axes[0].width().max(self.axes[1].width());
+        let range = Range::new(0.0, width_m);
+        let quantity = Quantity { name: "geofence", unit: "m", range, key: LimitKey::Geofence };
+        let Extreme { value, error, t_s } = margin;
+        let value = if value > width_m / 2.0 { width_m / 2.0 } else { value };
+        worst.consider_geofence([self.vehicle, &fence.name], quantity, (value, error), t_s);
     }
 
     fn quantity(&self, axis: usize) -> Quantity {

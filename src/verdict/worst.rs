@@ -39,6 +39,7 @@ struct Candidate<'a> {
 #[derive(Clone)]
 pub struct Found<'a> {
     vehicle: &'a str,
+    geofence: Option<&'a str>,
     /// What is limited.
     pub quantity: Quantity,
     /// Its value, in the unit of the quantity.
@@ -70,11 +71,25 @@ impl<'a> Worst<'a> {
 
     /// [`consider`](Self::consider), of a value that is known up to an error.
     pub fn consider_within(&mut self, vehicle: &'a str, quantity: Quantity, (value, error): (f64, f64), t_s: f64) {
-        let Range { min, max } = quantity.range;
+        self.compare(Found { vehicle, geofence: None, quantity, value, error, t_s });
+    }
+
+    /// [`consider_within`](Self::consider_within), of the margin to a geofence.
+    pub fn consider_geofence(
+        &mut self,
+        [vehicle, geofence]: [&'a str; 2],
+        quantity: Quantity,
+        (value, error): (f64, f64),
+        t_s: f64,
+    ) {
+        self.compare(Found { vehicle, geofence: Some(geofence), quantity, value, error, t_s });
+    }
+
+    fn compare(&mut self, found: Found<'a>) {
+        let Found { quantity: Quantity { range: Range { min, max }, .. }, value, error, .. } = found;
         let margin = (value - min).min(max - value);
         let width = max - min;
         let relative = |margin: f64| if width > 0.0 && width.is_finite() { margin / width } else { margin };
-        let found = Found { vehicle, quantity, value, error, t_s };
         self.possible.keep(relative(margin - error), &found);
         self.certain.keep(relative(margin + error), &found);
     }
@@ -99,17 +114,23 @@ impl Found<'_> {
 
     fn into_check(self, spec: &CheckSpec) -> Check {
         let limit = self.limit();
-        let Self { vehicle, quantity: Quantity { name: what, unit, range, key }, value, error, t_s } = self;
+        let Self { vehicle, geofence, quantity: Quantity { name: what, unit, range, key }, value, error, t_s } = self;
         let is_low = value - range.min < range.max - value;
-        let exact = Measurement::value(value).at(t_s).with(vehicle);
-        let bounded = Measurement::bounds(value - error, value + error).at(t_s).with(vehicle);
+        let named =
+            |measured: Measurement| [vehicle].into_iter().chain(geofence).fold(measured.at(t_s), Measurement::with);
+        let exact = named(Measurement::value(value));
+        let bounded = named(Measurement::bounds(value - error, value + error));
         let spec = &CheckSpec { unit, ..*spec };
         let mut check = match is_low {
             _ if error == 0.0 => spec.inside(exact, limit, range.margin(value)),
             true => spec.at_least(bounded, limit),
             false => spec.at_most(bounded, limit),
         };
-        let remark = |place: &str| format!("{what} {place} {}", given_range(range, unit));
+        let limits = given_range(range, unit);
+        let remark = |place: &str| match geofence {
+            Some(name) => format!("{what} {name} {}", if place == "inside" { "kept" } else { "violated" }),
+            None => format!("{what} {place} {limits}"),
+        };
         match check.status {
             Status::Undecided => {}
             Status::Pass | Status::Skip => check.reason = Some(remark("inside")),

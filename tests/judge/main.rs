@@ -8,6 +8,7 @@ mod dense_rows;
 mod edge_table;
 mod edges;
 mod fleet;
+mod geofences;
 mod goals;
 mod partial_plans;
 mod roundabout;

@@ -6,6 +6,7 @@ use scenarios::{Collocation, Family, Formulation, GRAVITY_MPS2, Objective, Range
 use super::optimise::Options;
 use super::polygon::Polygon;
 use super::problem::{CableMode, Gate, InitialCondition, Limits, Phase, Problem, VehicleParameters, Weights};
+use crate::planner::ignored_geofence;
 use crate::pseudospectral::{Duration, Tolerances};
 
 /// The paper's safety distance r', m.
@@ -41,6 +42,9 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     };
     if scenario.family() != Family::SlungLoad {
         return Some(format!("vehicle `{}` is not a quadrotor with a slung load", vehicle.name));
+    }
+    if let Some(reason) = ignored_geofence(scenario) {
+        return Some(reason);
     }
     let settings = scenario.planner.collocation.clone().unwrap_or_default();
     let cable = cable_phases(scenario, &settings);

@@ -1,8 +1,8 @@
-//! Map, obstacles and gates.
+//! Map, obstacles, gates and geofences.
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
-use crate::{BoxObstacle, Gate, Issue, MovingCylinder, Prism, World, closest_name};
+use crate::{BoxObstacle, Gate, Geofence, Issue, MovingCylinder, Prism, World, closest_name};
 
 pub(super) fn issues(world: &World) -> Vec<Issue> {
     let mut issues = Vec::new();
@@ -21,6 +21,8 @@ pub(super) fn issues(world: &World) -> Vec<Issue> {
     issues.extend(world.moving.iter().enumerate().flat_map(|(index, moving)| moving_issues(index, moving)));
     issues.extend(entity_names("world.gates", world.gates.iter().map(|gate| gate.name.as_str())));
     issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| gate_issues(index, gate)));
+    issues.extend(entity_names("world.geofences", world.geofences.iter().map(|fence| fence.name.as_str())));
+    issues.extend(world.geofences.iter().enumerate().flat_map(|(index, fence)| geofence_issues(index, fence)));
     issues.extend(names_in_two_lists(world));
     issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| unknown_hidden(world, index, name)));
     issues
@@ -69,6 +71,17 @@ fn gate_issues(index: usize, gate: &Gate) -> Vec<Issue> {
         named.filter_map(move |(axis, range)| ordered(&format!("world.gates[{index}].{whose}.{axis}"), range?))
     });
     faces.collect()
+}
+
+fn geofence_issues(index: usize, fence: &Geofence) -> Vec<Issue> {
+    let field = format!("world.geofences[{index}]");
+    let shape = (!fence.is_simple()).then(|| {
+        let found = format!("{} corners whose edges cross, touch or fold back", fence.polygon_m.len());
+        Issue::new(format!("{field}.polygon_m"), found, "at least three corners of a simple polygon, in order")
+            .remedy("list the corners in order along the boundary, each once, without repeating the first at the end")
+    });
+    let z_m = fence.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range));
+    shape.into_iter().chain(z_m).collect()
 }
 
 fn prism_issues(index: usize, prism: &Prism) -> Vec<Issue> {

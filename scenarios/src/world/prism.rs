@@ -113,12 +113,20 @@ impl Prism {
 /// altitudes: outside both, to the edge between side and top or bottom; inside, to the nearer of the two.
 pub(crate) fn extruded(in_plane_m: f64, range: Option<Range>, z_m: f64) -> f64 {
     let Some(range) = range else { return in_plane_m };
-    let above_m = -range.margin(z_m);
+    extruded_by(in_plane_m, -range.margin(z_m))
+}
+
+/// [`extruded`], from the signed distances to the outline in the plane and to the range of altitudes, m. It decreases with
+/// neither.
+pub(super) fn extruded_by(in_plane_m: f64, above_m: f64) -> f64 {
+    if in_plane_m.is_nan() || above_m.is_nan() {
+        return f64::NAN;
+    }
     if in_plane_m > 0.0 && above_m > 0.0 { in_plane_m.hypot(above_m) } else { in_plane_m.max(above_m) }
 }
 
 /// Twice the area of the triangle a, b, c, positive counterclockwise.
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+pub(super) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
 }
 

@@ -36,6 +36,10 @@ fn gates(check: &Check, scenario: &Scenario) -> Vec<String> {
     list("gates", check, scenario.world.gates.iter().map(|gate| &gate.name))
 }
 
+fn geofences(check: &Check, scenario: &Scenario) -> Vec<String> {
+    list("geofences", check, scenario.world.geofences.iter().map(|fence| &fence.name))
+}
+
 /// The entries of a list of the world that the check names.
 fn list<'a>(list: &str, check: &Check, names: impl Iterator<Item = &'a String>) -> Vec<String> {
     let concerned = names.enumerate().filter(|(_, name)| check.between.contains(name));
@@ -50,6 +54,7 @@ fn model_limits(check: &Check, scenario: &Scenario) -> Vec<String> {
     let model = concerned.next().map(|vehicle| format!("models.{family}.{}", vehicle.model));
     let limit = match (check.limit_key, &model) {
         (Some(LimitKey::Map(key)), _) => Some(format!("world.map.{key}")),
+        (Some(LimitKey::Geofence), _) => geofences(check, scenario).into_iter().next(),
         (Some(LimitKey::Limits(key)), Some(model)) => Some(format!("{model}.{table}.{key}")),
         (Some(LimitKey::Airframe(key)), Some(model)) => Some(format!("{model}.airframe.{key}")),
         _ => None,

@@ -1,6 +1,6 @@
-//! What a scenario fixes in space: the map with its ground grid, gates, starts and goals.
+//! What a scenario fixes in space: the map with its ground grid, gates, geofences, starts and goals.
 
-use scenarios::{Map, Range, Scenario, Window, World};
+use scenarios::{GeofenceKind, Map, Range, Scenario, Window, World};
 
 use super::{BoxOutline, Label, Lines, Paint, Points, Radius, Scene, colours};
 
@@ -18,6 +18,7 @@ pub(super) fn add(scene: &mut Scene<'_>, scenario: &Scenario) {
         add_ground(scene, &scenario.world.map, ground_m);
     }
     add_gates(scene, &scenario.world);
+    add_geofences(scene, &scenario.world);
     add_ends(scene, scenario);
 }
 
@@ -76,6 +77,23 @@ fn add_gates(scene: &mut Scene<'_>, world: &World) {
             };
             scene.add_item(&["gates", &gate.name, whose], outline);
         }
+    }
+}
+
+/// The edges of geofences; without lowest and highest altitude they extend from the floor to the ceiling of the map.
+fn add_geofences(scene: &mut Scene<'_>, world: &World) {
+    for fence in &world.geofences {
+        let z = fence.z_m.unwrap_or(world.map.z_m);
+        let ring =
+            |z: f64| fence.polygon_m.iter().chain(fence.polygon_m.first()).map(|&[x, y]| [x, y, z]).collect::<Vec<_>>();
+        let posts = fence.polygon_m.iter().map(|&[x, y]| vec![[x, y, z.min], [x, y, z.max]]);
+        let edges = [ring(z.min), ring(z.max)].into_iter().chain(posts).collect();
+        let colour = match fence.kind {
+            GeofenceKind::StayIn => colours::MAP,
+            GeofenceKind::KeepOut => colours::OBSTACLE,
+        };
+        let outline = Lines::new(edges, Paint::opaque(colour), 1.4).labelled(fence.name.as_str(), false);
+        scene.add_item(&["geofences", &fence.name], outline);
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
     })
 }
 
-/// Map, static obstacles (boxes as prisms), ground and gates.
+/// Map, static obstacles (boxes as prisms), ground, gates and geofences.
 pub(super) fn world(world: &World) -> Value {
     json!({
         "map": world.map,
@@ -41,5 +41,6 @@ pub(super) fn world(world: &World) -> Value {
         "prisms": world.prism_obstacles(),
         "ground_m": world.ground_m,
         "gates": world.gates,
+        "geofences": world.geofences,
     })
 }
