@@ -71,7 +71,7 @@ impl<'a> Worst<'a> {
 
     /// [`consider`](Self::consider), of a value that is known up to an error.
     pub fn consider_within(&mut self, vehicle: &'a str, quantity: Quantity, (value, error): (f64, f64), t_s: f64) {
-        self.compare(Found { vehicle, geofence: None, quantity, value, error, t_s });
+        self.compare(&Found { vehicle, geofence: None, quantity, value, error, t_s });
     }
 
     /// [`consider_within`](Self::consider_within), of the margin to a geofence.
@@ -82,16 +82,16 @@ impl<'a> Worst<'a> {
         (value, error): (f64, f64),
         t_s: f64,
     ) {
-        self.compare(Found { vehicle, geofence: Some(geofence), quantity, value, error, t_s });
+        self.compare(&Found { vehicle, geofence: Some(geofence), quantity, value, error, t_s });
     }
 
-    fn compare(&mut self, found: Found<'a>) {
-        let Found { quantity: Quantity { range: Range { min, max }, .. }, value, error, .. } = found;
+    fn compare(&mut self, found: &Found<'a>) {
+        let (Range { min, max }, value, error) = (found.quantity.range, found.value, found.error);
         let margin = (value - min).min(max - value);
         let width = max - min;
         let relative = |margin: f64| if width > 0.0 && width.is_finite() { margin / width } else { margin };
-        self.possible.keep(relative(margin - error), &found);
-        self.certain.keep(relative(margin + error), &found);
+        self.possible.keep(relative(margin - error), found);
+        self.certain.keep(relative(margin + error), found);
     }
 }
 

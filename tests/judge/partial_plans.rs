@@ -46,7 +46,7 @@ fn with_controls(trajectory: Value, n_x: f64) -> Value {
     trajectory
 }
 
-fn verdict(scenario: &Scenario, trajectories: [Value; 2]) -> Verdict {
+fn verdict(scenario: &Scenario, trajectories: &[Value; 2]) -> Verdict {
     let text = json!({ "trajectories": trajectories }).to_string();
     let (header, tracks) = parse_json("plan.json", &text, scenario).expect("a plan");
     let completed = complete(scenario, header, tracks, "theirs", 0);
@@ -62,13 +62,13 @@ fn check<'a>(verdict: &'a Verdict, name: &str) -> &'a Check {
 fn a_plan_without_controls_does_not_hide_those_of_another() {
     // 0.3 is beyond the planning limit of 0.2, and leads elsewhere in open loop.
     let bad =
-        verdict(&scenario(), [positions("uav-1", -100.0, 0.25), with_controls(positions("uav-2", 100.0, 1.0), 0.3)]);
+        verdict(&scenario(), &[positions("uav-1", -100.0, 0.25), with_controls(positions("uav-2", 100.0, 1.0), 0.3)]);
     for name in ["nodes.control_limits", "plan.rollout"] {
         let check = check(&bad, name);
         assert_eq!((check.status, &check.between[..]), (Status::Fail, &["uav-2".to_owned()][..]), "{check:#?}");
     }
     let good =
-        verdict(&scenario(), [positions("uav-1", -100.0, 0.25), with_controls(positions("uav-2", 100.0, 1.0), 0.0)]);
+        verdict(&scenario(), &[positions("uav-1", -100.0, 0.25), with_controls(positions("uav-2", 100.0, 1.0), 0.0)]);
     for name in ["nodes.control_limits", "nodes.state_limits", "plan.rollout"] {
         assert_eq!(check(&good, name).status, Status::Pass, "{:#?}", check(&good, name));
     }
@@ -78,14 +78,14 @@ fn a_plan_without_controls_does_not_hide_those_of_another() {
 fn a_plan_without_velocities_does_not_hide_those_of_another() {
     // 45 m/s is beyond the planning limit of 40 m/s.
     let fast = with_velocities(positions("uav-2", 100.0, 0.25), 45.0);
-    let verdict = verdict(&scenario(), [positions("uav-1", -100.0, 0.25), fast]);
+    let verdict = verdict(&scenario(), &[positions("uav-1", -100.0, 0.25), fast]);
     let states = check(&verdict, "nodes.state_limits");
     assert_eq!((states.status, &states.between[..]), (Status::Fail, &["uav-2".to_owned()][..]), "{states:#?}");
 }
 
 #[test]
 fn what_no_vehicle_gives_is_skipped_with_the_reason() {
-    let verdict = verdict(&scenario(), [positions("uav-1", -100.0, 0.25), positions("uav-2", 100.0, 0.25)]);
+    let verdict = verdict(&scenario(), &[positions("uav-1", -100.0, 0.25), positions("uav-2", 100.0, 0.25)]);
     for (name, reason) in [
         ("nodes.control_limits", "the plan gives no controls"),
         ("nodes.state_limits", "the plan gives no velocities"),
@@ -104,7 +104,7 @@ fn velocities_that_contradict_the_positions_fail() {
         let count = aside["t_s"].as_array().expect("times").len();
         let heading = |row: usize| if row == 0 || row == count - 1 { 0.0 } else { heading_deg };
         aside["heading_deg"] = json!((0..count).map(heading).collect::<Vec<_>>());
-        let verdict = verdict(&scenario(), [with_velocities(positions("uav-1", -100.0, 0.5), SPEED_MPS), aside]);
+        let verdict = verdict(&scenario(), &[with_velocities(positions("uav-1", -100.0, 0.5), SPEED_MPS), aside]);
         check(&verdict, "plan.dynamics").clone()
     };
     let dynamics = with_heading(10.0);
@@ -118,7 +118,7 @@ fn a_goal_that_sparse_positions_leave_open_is_undecided_in_the_unit_of_its_part(
     let goals = |step_s: f64, change: fn(&mut Waypoint)| {
         let mut scenario = scenario();
         change(&mut scenario.vehicles[1].goal);
-        let verdict = verdict(&scenario, [positions("uav-1", -100.0, step_s), positions("uav-2", 100.0, step_s)]);
+        let verdict = verdict(&scenario, &[positions("uav-1", -100.0, step_s), positions("uav-2", 100.0, step_s)]);
         ["nodes.goal", "plan.goal", "flight.goal"].map(|name| check(&verdict, name).clone())
     };
     for goal in goals(0.25, |_| {}) {

@@ -271,7 +271,7 @@ impl Guard {
         let limited = self.limited();
         let limit_mps2 = limited.physical().acceleration_mps2;
         limits_margin("plan.control_limits", |worst| {
-            limited.planned_accelerations(worst, &self.motion, &BetweenNodes::EXACT, limit_mps2)
+            limited.planned_accelerations(worst, &self.motion, &BetweenNodes::EXACT, limit_mps2);
         })
     }
 
