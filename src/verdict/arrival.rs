@@ -1,12 +1,13 @@
 //! Arrival: the time between the first and the last arrival, and the flight time.
 //!
-//! A vehicle that can hover has arrived when it stays within the tolerance of its goal from then on: its plan may go on at
-//! the goal while others are under way. A fixed wing passes its goal. In flight its arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
+//! The plan of a vehicle that can hover may go on at its goal while others are under way: it has arrived when it moves no
+//! more, and in the loop, where the plan comes into being, when it stays within the tolerance of its goal from then on. A
+//! fixed wing passes its goal. In flight its arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
 //! arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late arrival is in the log. A
 //! vehicle that is closest to its goal at the very end of its log has not arrived.
 
 use nalgebra::Vector3;
-use scenarios::{CheckSpec, Family, Plan, Scenario, Vehicle};
+use scenarios::{CheckSpec, Family, Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
@@ -14,22 +15,18 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
 use crate::verdict::missing_evidence::MissingEvidence;
 
+/// A plan that moves a vehicle by less than this keeps it where it is, m.
+const SETTLED_M: f64 = 1e-6;
+
 /// Time between the first and the last end of a trajectory.
 pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
     if !scenario.fleet.simultaneous_arrival {
         return Ok(any_time(spec));
     }
-    let tolerance_m = scenario.limits().goal_m;
     let ends = plan?.trajectories.iter().zip(&scenario.vehicles).map(|(trajectory, vehicle)| {
         let early = || MissingEvidence::EndsEarly { vehicle: vehicle.name.clone() };
         let end_s = trajectory.end_s().ok_or_else(early)?;
-        let nodes = trajectory.nodes();
-        let rows = trajectory.times_s().iter().enumerate().map(|(row, &t_s)| (t_s, nodes.position_m(row)));
-        let reached_s = match trajectory.family() {
-            Family::FixedWing => end_s,
-            Family::SlungLoad | Family::Multirotor => reached_s(rows, vehicle, tolerance_m).unwrap_or(end_s),
-        };
-        Ok((reached_s, vehicle.name.as_str()))
+        Ok((settled_s(trajectory).unwrap_or(end_s), vehicle.name.as_str()))
     });
     Ok(spec.at_most(spread(ends)?, scenario.limits().arrival_spread_s))
 }
@@ -38,20 +35,24 @@ pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Eviden
 pub fn check_flown_arrival(
     spec: &CheckSpec,
     scenario: &Scenario,
+    plan: &Plan,
     flown: Evidence<'_, FlownMotions<'_>>,
+    is_planned_in_loop: bool,
 ) -> CheckResult {
     if !scenario.fleet.simultaneous_arrival {
         return Ok(any_time(spec));
     }
     let tolerance_m = scenario.limits().goal_m;
-    let arrivals = flown?.vehicles.iter().zip(&scenario.vehicles).map(|(flown, vehicle)| {
+    let flown = flown?.vehicles.iter().zip(&scenario.vehicles).zip(&plan.trajectories);
+    let arrivals = flown.map(|((flown, vehicle), trajectory)| {
         let arrival_s = flown.arrival_s().ok_or_else(|| not_arrived(flown))?;
         let samples = flown.tracked.iter().map(|sample| (sample.t_s, sample.position_m));
-        let reached_s = match scenario.family() {
-            Family::FixedWing => arrival_s,
-            Family::SlungLoad | Family::Multirotor => reached_s(samples, vehicle, tolerance_m).unwrap_or(arrival_s),
+        let reached_s = if is_planned_in_loop {
+            reached_s(samples, vehicle, tolerance_m)
+        } else {
+            settled_s(trajectory).filter(|settled_s| *settled_s < arrival_s)
         };
-        Ok((reached_s, flown.name))
+        Ok((reached_s.unwrap_or(arrival_s), flown.name))
     });
     Ok(spec.at_most(spread(arrivals)?, scenario.limits().arrival_spread_s))
 }
@@ -70,6 +71,18 @@ pub fn check_flown_duration(spec: &CheckSpec, scenario: &Scenario, flown: &Flown
 /// Time until the last vehicle has arrived, s. A vehicle that does not arrive counts until the end of its log.
 pub fn duration_s(flown: &FlownMotions<'_>) -> f64 {
     flown.vehicles.iter().map(|vehicle| vehicle.arrival_s().unwrap_or(vehicle.log_end_s)).fold(0.0, f64::max)
+}
+
+/// Time from which on a plan keeps a vehicle that can hover where it ends, s; `None` for others.
+fn settled_s(trajectory: &Trajectory) -> Option<f64> {
+    if trajectory.family() == Family::FixedWing {
+        return None;
+    }
+    let nodes = trajectory.nodes();
+    let end_m = Vector3::from(nodes.position_m(trajectory.times_s().len().checked_sub(1)?));
+    let is_there = |row: &usize| (Vector3::from(nodes.position_m(*row)) - end_m).norm() <= SETTLED_M;
+    let first = (0..trajectory.times_s().len()).rev().take_while(is_there).last()?;
+    Some(trajectory.times_s()[first])
 }
 
 /// Time from which on a vehicle stays within `tolerance_m` of its goal, s; `None` if it does not at the end.

@@ -37,7 +37,10 @@ const SHARED_CHECKS: &CheckTable<fn(&CheckSpec, &Case<'_>) -> CheckResult> = &[
     ("plan.duration", |spec, it| arrival::check_planned_duration(spec, it.scenario, it.flyable()?)),
     ("flight.finite", |spec, it| Ok(flight_integrity::check_finite(spec, it.flight()?))),
     ("flight.conditions", |spec, it| Ok(conditions::check(spec, it.scenario, it.plan, it.flight()?))),
-    ("flight.arrival", |spec, it| arrival::check_flown_arrival(spec, it.scenario, it.flown())),
+    ("flight.arrival", |spec, it| {
+        let is_planned_in_loop = it.flight().is_ok_and(|flight| flight.planning.is_some());
+        arrival::check_flown_arrival(spec, it.scenario, it.plan, it.flown(), is_planned_in_loop)
+    }),
     ("flight.duration", |spec, it| Ok(arrival::check_flown_duration(spec, it.scenario, it.flown()?))),
     ("flight.tracking_rms", |spec, it| tracking::check_root_mean_square(spec, it.scenario, it.flown()?)),
     ("flight.tracking_max", |spec, it| tracking::check_largest(spec, it.scenario, it.flown()?)),

@@ -138,10 +138,10 @@ fn a_goal_that_sparse_positions_leave_open_is_undecided_in_the_unit_of_its_part(
 #[test]
 fn a_row_far_off_in_a_rounded_table_does_not_pass() {
     let scenario = scenario();
-    let table = |jump_m: f64| {
+    let table = |aside_m: &dyn Fn(i32) -> f64| {
         let row = |(name, y_m): (&str, f64), k: i32| {
             let t_s = f64::from(k) / 100.0;
-            let y_m = if name == "uav-2" && k == 1411 { y_m + jump_m } else { y_m };
+            let y_m = if name == "uav-2" { y_m + aside_m(k) } else { y_m };
             format!("{name},{t_s:.2},{:.2},{y_m:.2},400.00\n", t_s * SPEED_MPS)
         };
         let vehicles = [("uav-1", -100.0), ("uav-2", 100.0)];
@@ -152,10 +152,12 @@ fn a_row_far_off_in_a_rounded_table_does_not_pass() {
         let flight = sim::fly(&scenario, &completed.plan, 0, &mut |_| {});
         judge_imported(&scenario, &completed.plan, &completed.provenance, Some(&flight))
     };
-    let smooth = table(0.0);
+    let smooth = table(&|_| 0.0);
     assert_eq!(smooth.failed_checks(), Vec::<String>::new());
     for jump_m in [5.0, -60.0, 1000.0] {
-        let jump = table(jump_m);
+        let jump = table(&|k| if k == 1411 { jump_m } else { 0.0 });
         assert!(!jump.failed_checks().is_empty(), "a row {jump_m} m off passes");
     }
+    let zigzag = table(&|k| if (100..2700).contains(&k) { f64::from(k % 2) * 0.1 } else { 0.0 });
+    assert!(!zigzag.failed_checks().is_empty(), "10 cm from row to row pass");
 }

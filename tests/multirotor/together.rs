@@ -98,6 +98,6 @@ fn a_vehicle_that_waits_at_its_goal_has_arrived_before() {
     for name in ["plan.arrival", "flight.arrival"] {
         let check = case.check(name);
         assert_eq!((check.status, &check.between[..]), (Status::Fail, &["uav-1".into(), "uav-2".into()][..]));
-        assert!((check.value.unwrap() - 3.7).abs() < 0.3, "{check:?}");
+        assert!((check.value.unwrap() - 4.0).abs() < 1e-6, "{check:?}");
     }
 }

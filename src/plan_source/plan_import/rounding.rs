@@ -15,7 +15,7 @@ use crate::verdict::fixed_wing::{max_distance_from_chord_m, max_velocity_from_ch
 /// Numbers with more decimals than this were not rounded.
 const MAX_DECIMALS: usize = 9;
 /// Kept rows are at most about this far apart, s; rows farther apart are not thinned.
-const MAX_INTERVAL_S: f64 = 2.0;
+const MAX_INTERVAL_S: f64 = 0.5;
 /// What rounding may contribute to an acceleration, as a fraction of its limit.
 const MAX_NOISE: f64 = 0.02;
 
@@ -126,11 +126,39 @@ impl Rounding {
         let rounding_mps = 3.0_f64.sqrt() * (2.0 * self.position_m / interval_s + self.velocity_mps);
         (from + 1..to).all(|row| {
             let u = (times_s[row] - times_s[from]) / interval_s;
+            if !self.is_smooth_at(row, times_s, positions_m, velocities_mps, acceleration_mps2) {
+                return false;
+            }
             let off_m = (Vector3::from(positions_m[row]) - begin_m - chord_mps * (u * interval_s)).norm();
             let off_mps = velocities_mps.get(row).map_or(0.0, |given| (Vector3::from(*given) - chord_mps).norm());
             off_m <= max_distance_from_chord_m(acceleration_mps2, interval_s, u) + rounding_m
                 && off_mps <= max_velocity_from_chord_mps(acceleration_mps2, interval_s, u) + rounding_mps
         })
+    }
+}
+
+impl Rounding {
+    /// Whether a row fits its two neighbours, up to rounding: the mean velocities of the intervals before and after it differ by
+    /// a (h_1 + h_2)/2 at most, and given velocities by a h_1.
+    fn is_smooth_at(
+        &self,
+        row: usize,
+        times_s: &[f64],
+        positions_m: &[[f64; 3]],
+        velocities_mps: &[[f64; 3]],
+        acceleration_mps2: f64,
+    ) -> bool {
+        let [before_s, after_s] = [times_s[row] - times_s[row - 1], times_s[row + 1] - times_s[row]];
+        let slope_mps = |end: usize, duration_s: f64| {
+            (Vector3::from(positions_m[end]) - Vector3::from(positions_m[end - 1])) / duration_s
+        };
+        let turn_mps = (slope_mps(row + 1, after_s) - slope_mps(row, before_s)).norm();
+        let rounding_mps = 2.0 * 3.0_f64.sqrt() * self.position_m * (1.0 / before_s + 1.0 / after_s);
+        let change_mps = velocities_mps
+            .get(row)
+            .map_or(0.0, |given_mps| (Vector3::from(*given_mps) - Vector3::from(velocities_mps[row - 1])).norm());
+        turn_mps <= acceleration_mps2 * (before_s + after_s) / 2.0 + rounding_mps
+            && change_mps <= acceleration_mps2 * before_s + 2.0 * 3.0_f64.sqrt() * self.velocity_mps
     }
 }
 
