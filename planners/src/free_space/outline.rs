@@ -127,8 +127,8 @@ mod tests {
 
     #[test]
     fn only_the_part_within_the_bounds_is_subdivided() {
-        let bounds_m = [[-3.0, 4.0], [-2.0, 2.0]];
-        let is_inside = |[x, y]: &[f64; 2]| (-3.0..=4.0).contains(x) && (-2.0..=2.0).contains(y);
+        let bounds_m = [[-3.0, 4.0], [-5.0, 8.0]];
+        let is_inside = |[x, y]: &[f64; 2]| (-3.0..=4.0).contains(x) && (-5.0..=8.0).contains(y);
         let tilted = [[-7.0, -5.0], [6.0, -1.5], [5.0, 9.0], [-9.0, 1.0]];
         let mut all = subdivided(&tilted, 0.25, [UNBOUNDED; 2]);
         all.retain(is_inside);
