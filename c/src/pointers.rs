@@ -12,7 +12,7 @@ pub fn text(pointer: *const c_char) -> Result<String, String> {
     if pointer.is_null() {
         return Err("a text: found null".to_owned());
     }
-    // SAFETY: not null; the header asks for a text that ends with a zero byte.
+    // SAFETY: not null; the header requires a text that ends with a zero byte.
     let text = unsafe { CStr::from_ptr(pointer) };
     text.to_str().map(str::to_owned).map_err(|_| "a text: found bytes that are not UTF-8".to_owned())
 }
@@ -23,7 +23,7 @@ pub fn write_text(pointer: *mut c_char, size: usize, text: &str) {
         return;
     }
     let length = text.floor_char_boundary(size - 1);
-    // SAFETY: the header asks for room for `size` bytes, of which `length + 1` are written.
+    // SAFETY: the header requires room for `size` bytes, of which `length + 1` are written.
     unsafe {
         std::ptr::copy_nonoverlapping(text.as_ptr().cast(), pointer, length);
         pointer.add(length).write(0);
@@ -32,7 +32,7 @@ pub fn write_text(pointer: *mut c_char, size: usize, text: &str) {
 
 /// The value behind a pointer; `None` for null.
 pub fn exclusive<'a, T>(pointer: *mut T) -> Option<&'a mut T> {
-    // SAFETY: the header asks for a valid pointer that nobody else uses during the call.
+    // SAFETY: the header requires a valid pointer, to which nothing else has access during the call.
     unsafe { pointer.as_mut() }
 }
 
@@ -41,14 +41,14 @@ pub fn list<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
     if pointer.is_null() || count == 0 {
         return &[];
     }
-    // SAFETY: not null; the header asks for `count` values.
+    // SAFETY: not null; the header requires `count` values.
     unsafe { std::slice::from_raw_parts(pointer, count) }
 }
 
 /// Frees what a `Box` holds; null is nothing.
 pub fn free<T>(pointer: *mut T) {
     if !pointer.is_null() {
-        // SAFETY: the header asks for a pointer that this library returned, and that is used no more.
+        // SAFETY: the header requires a pointer that this library returned and that is not used afterwards.
         drop(unsafe { Box::from_raw(pointer) });
     }
 }

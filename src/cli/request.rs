@@ -5,7 +5,7 @@ use clap::Args;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
-use crate::plan_source::external;
+use crate::plan_source::external::{DEFAULT_TIME_LIMIT_S, protocol};
 
 /// Print the request that an external planner gets
 ///
@@ -31,7 +31,7 @@ impl Request {
     /// Prints the request.
     pub fn execute(&self) -> Result<Exit, Error> {
         let (_, scenario) = jobs::load_file(&self.scenario, self.seed)?;
-        let request = external::plan_request(&scenario.planner_view(), scenario.simulation.seed, None);
+        let request = protocol::plan_request(&scenario, scenario.simulation.seed, DEFAULT_TIME_LIMIT_S);
         console::print(&format!("{request:#}"))?;
         Ok(Exit::Passed)
     }

@@ -29,7 +29,7 @@ pub const PROTOCOL: u64 = 2;
 /// Oldest version of replies that are read.
 const OLDEST_PROTOCOL: u64 = 1;
 /// Default time limit of a plan, s.
-const DEFAULT_TIME_LIMIT_S: f64 = 60.0;
+pub const DEFAULT_TIME_LIMIT_S: f64 = 60.0;
 
 /// A command that plans.
 #[derive(Clone, Debug)]
@@ -44,14 +44,6 @@ pub struct ExternalPlanner {
     pub time_limit_s: Option<f64>,
     /// Whether it plans in the loop.
     pub in_loop: bool,
-}
-
-/// The request for a plan.
-///
-/// - `planner_view`: the scenario without what planners must not know
-/// - `time_limit_s`: of the reply, s; the default if `None`
-pub fn plan_request(planner_view: &Scenario, seed: u64, time_limit_s: Option<f64>) -> serde_json::Value {
-    request::document(planner_view, seed, time_limit_s.unwrap_or(DEFAULT_TIME_LIMIT_S))
 }
 
 /// What a command returned.
@@ -79,7 +71,7 @@ impl ExternalPlanner {
     /// Requests a plan, and waits until the time limit.
     fn plan(&self, scenario: &Scenario, seed: u64) -> ExternalAnswer {
         let time_limit_s = self.time_limit_s.unwrap_or(DEFAULT_TIME_LIMIT_S);
-        let request = plan_request(scenario, seed, Some(time_limit_s));
+        let request = request::document(scenario, seed, time_limit_s);
         let time_limit = Duration::try_from_secs_f64(time_limit_s).unwrap_or(Duration::MAX);
         let ended = process::run(&self.command, &self.folder, request.to_string().into_bytes(), time_limit);
         let wall_s = ended.wall.as_secs_f64();

@@ -89,7 +89,9 @@ fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) 
         ImportedTrajectory::Partial(track) => {
             let limits = &scenario.fixed_wing_model(vehicle).limits;
             let lacks_controls = track.controls.is_none();
-            let end_velocity = end_velocity(&track, max_acceleration_mps2(limits));
+            let lacks_velocities = track.states.is_none();
+            let end_velocity = end_velocity(&track.times_s, &track.positions_m, max_acceleration_mps2(limits))
+                .filter(|_| lacks_velocities);
             let (track, rounded) = thinned(track, max_acceleration_mps2(limits));
             let (given, trajectory, residual) = reconstructed(vehicle, track);
             let reconstruction =
@@ -170,9 +172,8 @@ fn thinned(track: PartialTrajectory, acceleration_mps2: f64) -> (PartialTrajecto
 }
 
 /// What positions tell of the last velocity. It differs from that of a chord of duration T to the last row by a T/2 and by
-/// the rounding of its ends; the best chord counts. `None` if velocities are given.
-fn end_velocity(track: &PartialTrajectory, acceleration_mps2: f64) -> Option<EndVelocity> {
-    let PartialTrajectory { times_s, positions_m, states: None, .. } = track else { return None };
+/// the rounding of its ends; the best chord counts. `None` with fewer than two rows.
+fn end_velocity(times_s: &[f64], positions_m: &[[f64; 3]], acceleration_mps2: f64) -> Option<EndVelocity> {
     let rounding = Rounding::of(times_s, positions_m, &[]);
     let (&end_s, &end_m) = (times_s.last()?, positions_m.last()?);
     let chords = times_s.iter().zip(positions_m).filter(|(begin_s, _)| **begin_s < end_s).map(|(begin_s, begin_m)| {

@@ -2,12 +2,12 @@
 //!
 //! The plan of a vehicle that can hover may go on at its goal while others are under way: it has arrived when it moves no
 //! more, and in the loop, where the plan comes into being, when it stays within the tolerance of its goal from then on. A
-//! fixed wing passes its goal. In flight its arrival is the closest approach to the goal over continuous time, searched for from 10 s before the planned
-//! arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late arrival is in the log. A
-//! vehicle that is closest to its goal at the very end of its log has not arrived.
+//! fixed wing passes its goal: in flight its arrival is the closest approach to it over continuous time, searched for from
+//! 10 s before the planned arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late
+//! arrival is in the log. A vehicle that is closest to its goal at the very end of its log has not arrived.
 
 use nalgebra::Vector3;
-use scenarios::{CheckSpec, Family, Plan, Scenario, Trajectory, Vehicle};
+use scenarios::{CheckSpec, Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
@@ -15,8 +15,8 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
 use crate::verdict::missing_evidence::MissingEvidence;
 
-/// A plan that moves a vehicle by less than this keeps it where it is, m.
-const SETTLED_M: f64 = 1e-6;
+/// A vehicle that stays this close to the end of its plan waits there, m.
+const SETTLED_M: f64 = 0.01;
 
 /// Time between the first and the last end of a trajectory.
 pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
@@ -75,7 +75,7 @@ pub fn duration_s(flown: &FlownMotions<'_>) -> f64 {
 
 /// Time from which on a plan keeps a vehicle that can hover where it ends, s; `None` for others.
 fn settled_s(trajectory: &Trajectory) -> Option<f64> {
-    if trajectory.family() == Family::FixedWing {
+    if !trajectory.family().hovers() {
         return None;
     }
     let nodes = trajectory.nodes();

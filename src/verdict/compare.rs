@@ -17,9 +17,28 @@ pub fn is_smaller(value: f64, so_far: f64) -> bool {
     is_larger(-value, -so_far)
 }
 
+/// Is a value within these bounds worse than another one, where `limit` is the most that is allowed? What certainly exceeds
+/// it is worse than what may. NaN is the worst.
+///
+/// - `bounds`, `so_far`: lower and upper bound
+pub fn is_worse(bounds: [f64; 2], so_far: [f64; 2], limit: f64) -> bool {
+    match [bounds, so_far].map(|[lower, _]| exceeds(lower, limit)) {
+        [true, true] => is_larger(bounds[0], so_far[0]),
+        [false, false] => is_larger(bounds[1], so_far[1]),
+        [certainly_exceeds, _] => certainly_exceeds,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{exceeds, is_larger, is_smaller};
+    use super::{exceeds, is_larger, is_smaller, is_worse};
+
+    #[test]
+    fn what_certainly_exceeds_is_worse_than_what_may() {
+        assert!(is_worse([2.0, 2.0], [0.0, 9.0], 1.0) && !is_worse([0.0, 9.0], [2.0, 2.0], 1.0));
+        assert!(is_worse([0.0, 9.0], [0.5, 0.5], 1.0) && is_worse([3.0, 3.0], [2.0, 9.0], 1.0));
+        assert!(is_worse([f64::NAN, f64::NAN], [3.0, 3.0], 1.0) && !is_worse([3.0, 3.0], [f64::NAN, f64::NAN], 1.0));
+    }
 
     #[test]
     fn nan_exceeds_and_is_exceeded() {

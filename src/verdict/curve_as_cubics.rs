@@ -1,3 +1,5 @@
+//! How far the cubics that are judged may be from the polynomial pieces of a plan.
+
 use scenarios::curve::CubicsError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -5,6 +5,7 @@
 
 use scenarios::Geofence;
 
+use crate::verdict::compare::is_smaller;
 use crate::verdict::map_bounds::Extreme;
 use crate::verdict::motion::{Motion, Segment};
 
@@ -50,7 +51,7 @@ struct Search<'a> {
 impl Search<'_> {
     fn consider(&mut self, position_m: [f64; 3], t_s: f64, deviation_m: f64) {
         let found = Nearest { margin_m: self.fence.margin_m(position_m), deviation_m, t_s };
-        if self.nearest.is_none_or(|nearest| found.possible_m() < nearest.possible_m()) {
+        if self.nearest.is_none_or(|nearest| is_smaller(found.possible_m(), nearest.possible_m())) {
             self.nearest = Some(found);
         }
     }

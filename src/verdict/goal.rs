@@ -9,7 +9,7 @@ use scenarios::{AppliedLimits, CheckSpec, Family, Plan, Scenario, Vehicle};
 use sim::Sample;
 
 use crate::verdict::arrival::not_arrived;
-use crate::verdict::compare::is_larger;
+use crate::verdict::compare::is_worse;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::fixed_wing::max_turn_deg;
 use crate::verdict::flown::FlownMotions;
@@ -149,14 +149,10 @@ struct Part {
 }
 
 impl Part {
-    /// Whether it is worse than another one: what certainly misses is worse than what may miss. NaN is the worst.
+    /// Whether it is worse than another one, as fractions of their tolerances.
     fn is_worse(&self, other: &Self) -> bool {
-        let [certain, possible] = [0, 1].map(|bound| [self, other].map(|part| part.off[bound] / part.tolerance));
-        match certain.map(|relative| is_larger(relative, 1.0)) {
-            [false, false] => is_larger(possible[0], possible[1]),
-            [true, true] => is_larger(certain[0], certain[1]),
-            [certainly_misses, _] => certainly_misses,
-        }
+        let [own, others] = [self, other].map(|part| part.off.map(|off| off / part.tolerance));
+        is_worse(own, others, 1.0)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod between_nodes;
 mod clearance;
+mod cubic;
 pub mod guard;
 mod limits;
 mod physics;
@@ -28,9 +29,7 @@ use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, 
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
-/// Why the end of a plan of positions is not asked to be at rest.
-const NO_VELOCITIES: &str = "the plan gives no velocities: see flight.rest";
-/// Why the nodes of a plan of positions are not asked for their accelerations.
+/// Why no accelerations are checked at the nodes of plans of positions.
 const NO_NODE_ACCELERATIONS: &str = "the plan gives no velocities: see plan.control_limits";
 /// Why a plan is not rolled out in open loop.
 const NO_ROLLOUT: &str = "without feedback a double integrator drifts, whatever its plan";
@@ -57,7 +56,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?, &it.between)),
-    ("nodes.control_limits", |spec, it| match it.gives_velocities() {
+    ("nodes.control_limits", |spec, it| match it.between.iter().any(BetweenNodes::gives_velocities) {
         true => limits::check_accelerations(spec, it.scenario, it.planned()?, &it.between),
         false => Ok(spec.skip(NO_NODE_ACCELERATIONS)),
     }),
@@ -69,10 +68,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
     ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
     ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?, |index, _| it.rounding(index))),
-    ("plan.rest", |spec, it| match it.gives_velocities() {
-        true => rest::check_planned(spec, it.scenario, it.planned()?),
-        false => Ok(spec.skip(NO_VELOCITIES)),
-    }),
+    ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?, it.provenance)),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
     }),
@@ -89,7 +85,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
     ("flight.goal", |spec, it| goal::check_flown(spec, it.scenario, it.flown()?, |index| it.rounding(index))),
-    ("flight.rest", |spec, it| rest::check_flown(spec, it.scenario, it.plan, it.flown()?)),
+    ("flight.rest", |spec, it| rest::check_flown(spec, it.scenario, it.plan, it.flown()?, it.provenance)),
 ];
 
 impl<'a> FleetCase<'a> {
@@ -123,11 +119,6 @@ impl<'a> FleetCase<'a> {
 
     fn planned(&self) -> Evidence<'_, [Motion]> {
         self.planned.as_deref()
-    }
-
-    /// Whether the plan gives the velocities of all vehicles.
-    fn gives_velocities(&self) -> bool {
-        self.between.iter().all(BetweenNodes::gives_velocities)
     }
 }
 

@@ -218,7 +218,7 @@ impl Reconstruction {
         }
     }
 
-    /// Whether it is that of a vehicle whose plan has no controls, by its positions.
+    /// Whether only velocities were reconstructed, of a multirotor's positions: there are no controls that miss the nodes.
     fn is_of_positions(&self) -> bool {
         self.velocities && self.position_m == 0.0 && self.load_factor == 0.0
     }

@@ -1,13 +1,12 @@
 //! Polynomial pieces, and positions alone, as the motions that simulator and judge know.
 
-use nalgebra::Vector3;
 use scenarios::curve::{CubicNode, Curve, Piece};
 use scenarios::fixed_wing::{PartialTrajectory, states_from_velocities};
 use scenarios::multirotor::{Limits, Positions, State, Trajectory};
 use scenarios::{Scenario, Trajectory as AnyTrajectory, Vehicle};
 
 use super::rounding::Rounding;
-use super::{at, velocities};
+use super::{at, end_velocity, velocities};
 use crate::verdict::fixed_wing::max_distance_m;
 use crate::verdict::{CurveAsCubics, GivenRows, Reconstruction, RoundedRows, VehicleProvenance};
 
@@ -69,6 +68,7 @@ pub(super) fn through_positions(
     positions: Positions,
 ) -> (AnyTrajectory, VehicleProvenance) {
     let acceleration_mps2 = scenario.multirotor_model(vehicle).limits.acceleration_mps2;
+    let end_velocity = end_velocity(&positions.times_s, &positions.positions_m, acceleration_mps2);
     let (Positions { vehicle: name, times_s, positions_m }, rounded) = thinned(positions, acceleration_mps2);
     let velocities_mps = velocities::of(&times_s, &positions_m, vehicle.start.velocity_mps());
     let row_interval_s = times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
@@ -84,26 +84,17 @@ pub(super) fn through_positions(
         given: GivenRows::Positions,
         reconstruction: Some(reconstruction),
         rounded,
+        end_velocity,
         ..VehicleProvenance::default()
     };
     (Trajectory { vehicle: name, times_s, states }.into(), provenance)
 }
 
-/// Positions without the rows that are noise. Those in between are kept where the vehicle cannot have reached them from the
-/// others: the distance from the chord is at most a T² u (1 - u)/2.
+/// Positions without the rows that are noise. Rows in between that the vehicle cannot have reached are kept.
 fn thinned(positions: Positions, acceleration_mps2: f64) -> (Positions, Option<RoundedRows>) {
     let Positions { vehicle, times_s, positions_m } = &positions;
     let rounding = Rounding::of(times_s, positions_m, &[]);
-    let is_between = |from: usize, to: usize| {
-        let [begin_m, end_m] = [from, to].map(|row| Vector3::from(positions_m[row]));
-        let interval_s = times_s[to] - times_s[from];
-        (from + 1..to).all(|row| {
-            let u = (times_s[row] - times_s[from]) / interval_s;
-            let off_m = (Vector3::from(positions_m[row]) - begin_m.lerp(&end_m, u)).norm();
-            let reach_m = acceleration_mps2 * interval_s * interval_s * u * (1.0 - u) / 2.0;
-            off_m <= reach_m + 2.0 * 3.0_f64.sqrt() * rounding.position_m
-        })
-    };
+    let is_between = |from, to| rounding.is_within_reach(times_s, positions_m, &[], acceleration_mps2, [from, to]);
     let Some(kept) = rounding.rows_to_keep(times_s, acceleration_mps2, is_between) else { return (positions, None) };
     let rounded = rounding.rows(times_s.len(), kept.len());
     let vehicle = vehicle.clone();

@@ -126,18 +126,14 @@ impl Rounding {
         let rounding_mps = 3.0_f64.sqrt() * (2.0 * self.position_m / interval_s + self.velocity_mps);
         (from + 1..to).all(|row| {
             let u = (times_s[row] - times_s[from]) / interval_s;
-            if !self.is_smooth_at(row, times_s, positions_m, velocities_mps, acceleration_mps2) {
-                return false;
-            }
             let off_m = (Vector3::from(positions_m[row]) - begin_m - chord_mps * (u * interval_s)).norm();
             let off_mps = velocities_mps.get(row).map_or(0.0, |given| (Vector3::from(*given) - chord_mps).norm());
             off_m <= max_distance_from_chord_m(acceleration_mps2, interval_s, u) + rounding_m
                 && off_mps <= max_velocity_from_chord_mps(acceleration_mps2, interval_s, u) + rounding_mps
+                && self.is_smooth_at(row, times_s, positions_m, velocities_mps, acceleration_mps2)
         })
     }
-}
 
-impl Rounding {
     /// Whether a row fits its two neighbours, up to rounding: the mean velocities of the intervals before and after it differ by
     /// a (h_1 + h_2)/2 at most, and given velocities by a h_1.
     fn is_smooth_at(

@@ -27,7 +27,7 @@ pub enum BetweenNodes {
     Positions(f64),
 }
 
-/// A value and the largest error of it.
+/// A value and its largest error.
 pub type Bounded = (f64, f64);
 
 impl BetweenNodes {
@@ -73,8 +73,9 @@ impl BetweenNodes {
         }
     }
 
-    /// The magnitude of the acceleration at the beginning of the segment `index`, m/s².
+    /// The magnitude of the acceleration at a knot, m/s².
     ///
+    /// - `knot`: its index
     /// - `value_mps2`: of the cubic
     /// - `limit_mps2`: what it is compared with: a cubic within it shows that a motion within it exists
     pub fn acceleration_mps2(&self, motion: &Motion, knot: usize, value_mps2: f64, limit_mps2: f64) -> Bounded {

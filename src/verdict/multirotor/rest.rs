@@ -1,13 +1,14 @@
 //! Rest: the speed at the end of the plan.
 
+use nalgebra::Vector3;
 use scenarios::{CheckSpec, Plan, Scenario};
 use sim::Sample;
 
-use crate::verdict::compare::is_larger;
+use crate::verdict::compare::is_worse;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
-use crate::verdict::{Check, FlownMotions};
+use crate::verdict::{Check, EndVelocity, FlownMotions, Provenance, Status};
 
 /// Times that differ by less are the same, s: rounding.
 const SAME_TIME_S: f64 = 1e-6;
@@ -16,37 +17,61 @@ const SAME_TIME_S: f64 = 1e-6;
 pub const RECORD: &str = "the plan of an in-loop flight is the record of the references that were followed, each of which \
                           begins at a measured state, until the vehicles arrived";
 
-/// Speed at the end of the plan.
-pub fn check_planned(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) -> CheckResult {
+/// Speed at the end of the plan. Of a plan of positions it is what they tell of the last velocity.
+pub fn check_planned(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: &[Motion],
+    provenance: &Provenance,
+) -> CheckResult {
     let check = check_fastest(spec, scenario, |index| {
         let last = motions.get(index)?.knots().last()?;
-        Some((last.velocity_mps, last.t_s))
+        let given = EndVelocity { velocity_mps: last.velocity_mps, error_mps: 0.0 };
+        Some((provenance.end_velocity(index).unwrap_or(given), last.t_s))
     })?;
-    let remark = check.is_bad().then(|| format!("it ends in motion; {RECORD}"));
+    let remark = (check.status == Status::Fail).then(|| format!("it ends in motion; {RECORD}"));
     Ok(Check { reason: remark.or(check.reason), ..check })
 }
 
 /// Speed in flight at the end of the plan.
-pub fn check_flown(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, flown: &FlownMotions<'_>) -> CheckResult {
+pub fn check_flown(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    plan: &Plan,
+    flown: &FlownMotions<'_>,
+    provenance: &Provenance,
+) -> CheckResult {
     check_fastest(spec, scenario, |index| {
         let end_s = plan.trajectories.get(index)?.end_s()?;
         let is_end = |sample: &&Sample| sample.t_s >= end_s - SAME_TIME_S;
         let sample = flown.vehicles.get(index)?.judged.iter().find(is_end)?;
-        Some((sample.velocity_mps, sample.t_s))
+        let error_mps = provenance.end_velocity(index).map_or(0.0, |planned| planned.error_mps);
+        Some((EndVelocity { velocity_mps: sample.velocity_mps, error_mps }, sample.t_s))
     })
 }
 
-/// - `end`: velocity, m/s, and time, s, at the end of a vehicle's plan
-fn check_fastest(spec: &CheckSpec, scenario: &Scenario, end: impl Fn(usize) -> Option<([f64; 3], f64)>) -> CheckResult {
-    let mut fastest: Option<(f64, f64, &str)> = None;
+/// - `end`: velocity, and time, s, at the end of a vehicle's plan
+fn check_fastest(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    end: impl Fn(usize) -> Option<(EndVelocity, f64)>,
+) -> CheckResult {
+    let limit_mps = scenario.limits().rest_mps;
+    let mut fastest: Option<([f64; 2], f64, &str)> = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         let early = || MissingEvidence::EndsEarly { vehicle: vehicle.name.clone() };
-        let (velocity_mps, t_s) = end(index).ok_or_else(early)?;
-        let speed_mps = velocity_mps.iter().map(|component| component * component).sum::<f64>().sqrt();
-        if fastest.is_none_or(|(worst_mps, ..)| is_larger(speed_mps, worst_mps)) {
-            fastest = Some((speed_mps, t_s, &vehicle.name));
+        let (EndVelocity { velocity_mps, error_mps }, t_s) = end(index).ok_or_else(early)?;
+        let speed_mps = Vector3::from(velocity_mps).norm();
+        let bounds_mps = [speed_mps - error_mps, speed_mps + error_mps];
+        if fastest.is_none_or(|(worst_mps, ..)| is_worse(bounds_mps, worst_mps, limit_mps)) {
+            fastest = Some((bounds_mps, t_s, &vehicle.name));
         }
     }
-    let (speed_mps, t_s, vehicle) = fastest.ok_or(MissingEvidence::NoVehicle)?;
-    Ok(spec.at_most(Measurement::value(speed_mps).at(t_s).with(vehicle), scenario.limits().rest_mps))
+    let ([lower_mps, upper_mps], t_s, vehicle) = fastest.ok_or(MissingEvidence::NoVehicle)?;
+    let speed = if lower_mps == upper_mps {
+        Measurement::value(upper_mps)
+    } else {
+        Measurement::bounds(lower_mps.max(0.0), upper_mps)
+    };
+    Ok(spec.at_most(speed.at(t_s).with(vehicle), limit_mps))
 }
