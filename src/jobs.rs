@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use planners::Planner;
-use scenarios::{Family, Issue, Scenario, ScenarioFile, closest_name};
+use scenarios::{Issue, Scenario, ScenarioFile, closest_name};
 
 use crate::error::Error;
 use crate::plan_source::PlanSource;
@@ -172,9 +172,9 @@ fn check_support(
     }
 }
 
-/// Only multirotors are planned for in the loop.
+/// Only vehicles that sense obstacles are planned for in the loop.
 fn check_in_the_loop(file: &Path, planner: &ExternalPlanner, scenario: &Scenario) -> Result<(), Error> {
-    if planner.in_loop && scenario.family() != Family::Multirotor {
+    if planner.in_loop && !scenario.family().senses_obstacles() {
         let (file, planner) = (file.display().to_string(), planner.name.clone());
         return Err(Error::NotInTheLoop { file, planner });
     }

@@ -13,6 +13,7 @@ mod compare;
 mod conditions;
 mod curve_as_cubics;
 mod evidence;
+mod extreme;
 pub mod fixed_wing;
 mod flight_integrity;
 mod flown;
@@ -32,6 +33,7 @@ mod physics;
 mod provenance;
 #[cfg(test)]
 mod random;
+pub mod reconstruction;
 mod rotors;
 mod separation;
 mod separation_shape;
@@ -39,6 +41,7 @@ pub mod slung_load;
 pub mod tolerance;
 mod tracking;
 mod trajectory_defect;
+mod tube;
 mod worst;
 
 use std::fmt;

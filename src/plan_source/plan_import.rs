@@ -15,9 +15,10 @@ use nalgebra::Vector3;
 use rounding::Rounding;
 use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
 use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
-use scenarios::{Family, Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
+use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
 
-use crate::verdict::fixed_wing::{max_acceleration_mps2, max_distance_m, max_velocity_from_chord_mps};
+use crate::verdict::fixed_wing::max_acceleration_mps2;
+use crate::verdict::reconstruction::{max_distance_m, max_velocity_from_chord_mps};
 use crate::verdict::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
 
 /// Load factors that are known better than this come from velocities that fit the positions.
@@ -80,7 +81,7 @@ fn completed(scenario: &Scenario, vehicle: &Vehicle, track: ImportedTrajectory) 
         }
         ImportedTrajectory::Complete(trajectory) => (trajectory, VehicleProvenance::default()),
         ImportedTrajectory::Positions(positions) => curves::through_positions(scenario, vehicle, positions),
-        ImportedTrajectory::Curve(curve) if scenario.family() == Family::Multirotor => {
+        ImportedTrajectory::Curve(curve) if scenario.family().hovers() => {
             curves::multirotor(&scenario.multirotor_model(vehicle).limits, &curve)
         }
         ImportedTrajectory::Curve(curve) => {

@@ -12,6 +12,11 @@ pub fn is_larger(value: f64, so_far: f64) -> bool {
     exceeds(value, so_far) && !so_far.is_nan()
 }
 
+/// The larger of two numbers. NaN counts as larger than any.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if is_larger(b, a) { b } else { a }
+}
+
 /// Is `value` a new smallest after `so_far`? NaN is smaller than anything, and stays.
 pub fn is_smaller(value: f64, so_far: f64) -> bool {
     is_larger(-value, -so_far)

@@ -12,20 +12,18 @@ use std::ops::Deref;
 
 use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 
-pub use between_rows::{
-    max_acceleration_mps2, max_distance_from_chord_m, max_distance_m, max_turn_deg, max_velocity_from_chord_mps,
-};
+pub use between_rows::max_acceleration_mps2;
 pub use clearance::{at_instant as clearance_at, at_nodes as clearance_at_nodes, closest as closest_obstacle};
 pub use planned::PlannedMotions;
 
-use between_rows::Tube;
+use between_rows::RowTube;
 
 use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
-use crate::verdict::goal::EndError;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
+use crate::verdict::tube::EndError;
 use crate::verdict::{Check, collision, flight_integrity, goal, separation};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.
@@ -39,7 +37,7 @@ struct FleetCase<'a> {
     shared: &'a Case<'a>,
     planned: Result<PlannedMotions, MissingEvidence>,
     /// Per vehicle, what may lie between the rows of a reconstructed plan.
-    tubes: Vec<Option<Tube>>,
+    tubes: Vec<RowTube>,
     /// The flown motions in their tubes; `None` if nothing was reconstructed.
     flown_in_tubes: Option<Vec<Motion>>,
 }
@@ -92,8 +90,7 @@ impl<'a> FleetCase<'a> {
         let plan = shared.flyable().map_err(MissingEvidence::from);
         let planned = plan.and_then(|plan| PlannedMotions::new(shared.scenario, plan));
         let tubes = planned.as_ref().map_or_else(|_| Vec::new(), |planned| tubes(shared, planned));
-        let is_reconstructed = tubes.iter().any(Option::is_some);
-        let flown = shared.flown_motions().ok().filter(|_| is_reconstructed);
+        let flown = shared.flown_motions().ok().filter(|_| tubes.iter().any(|tube| tube.tube.has_width()));
         let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
         let planned = planned.map(|planned| PlannedMotions { motions: surround(planned.motions, &tubes), ..planned });
         Self { shared, planned, tubes, flown_in_tubes }
@@ -109,7 +106,7 @@ impl<'a> FleetCase<'a> {
 
     /// How far the true end of a vehicle's plan may be from this one.
     fn end_error(&self, vehicle: usize, end: &Knot) -> EndError {
-        self.tubes.get(vehicle).and_then(Option::as_ref).map_or_else(EndError::default, |tube| tube.end_error(end))
+        self.tubes.get(vehicle).map_or_else(EndError::default, |tube| tube.end_error(end))
     }
 
     /// How far the true end of a vehicle's plan may be from the one that was flown.
@@ -125,23 +122,19 @@ impl<'a> FleetCase<'a> {
     }
 }
 
-fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<Option<Tube>> {
+fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<RowTube> {
     let vehicles = case.scenario.vehicles.iter().zip(&case.plan.trajectories).zip(&planned.motions);
     let tube = |(index, ((vehicle, trajectory), motion)): (usize, ((&Vehicle, &Trajectory), &Motion))| {
         let limits = &case.scenario.fixed_wing_model(vehicle).limits;
         let (given, end_velocity) = (case.provenance.given(index), case.provenance.end_velocity(index));
-        Tube::around(motion, trajectory.fixed_wing(), given, end_velocity, limits)
-            .map(|tube| tube.widened(case.provenance.rounding_m(index)))
+        RowTube::around(motion, trajectory.fixed_wing(), given, end_velocity, limits)
+            .widened(case.provenance.rounding_m(index))
     };
     vehicles.enumerate().map(tube).collect()
 }
 
-fn surround(motions: Vec<Motion>, tubes: &[Option<Tube>]) -> Vec<Motion> {
-    let surround = |(motion, tube): (Motion, &Option<Tube>)| match tube {
-        Some(tube) => tube.surround(motion),
-        None => motion,
-    };
-    motions.into_iter().zip(tubes).map(surround).collect()
+fn surround(motions: Vec<Motion>, tubes: &[RowTube]) -> Vec<Motion> {
+    motions.into_iter().zip(tubes).map(|(motion, tube)| tube.tube.surround(motion)).collect()
 }
 
 impl<'a> Deref for FleetCase<'a> {

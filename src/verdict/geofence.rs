@@ -6,7 +6,7 @@
 use scenarios::Geofence;
 
 use crate::verdict::compare::is_smaller;
-use crate::verdict::map_bounds::Extreme;
+use crate::verdict::extreme::Extreme;
 use crate::verdict::motion::{Motion, Segment};
 
 /// The search stops when the bounds are this close, m.

@@ -1,8 +1,8 @@
 //! Goals: the position in which a vehicle ends and, of fixed wings, its velocity.
 //!
 //! The parts of a goal have tolerances of different units, so that they are compared as fractions of their tolerances; the
-//! check reports the worst one. Headings are compared modulo a full turn. Velocities are over ground. Whether a vehicle that
-//! hovers has come to rest is a check of its own.
+//! check reports the worst one. Headings are compared modulo a full turn. Velocities are over ground. Of a vehicle
+//! that hovers the position alone is asked here: whether it has come to rest is a check of its own.
 
 use nalgebra::Vector3;
 use scenarios::{AppliedLimits, CheckSpec, Family, Plan, Scenario, Vehicle};
@@ -11,20 +11,12 @@ use sim::Sample;
 use crate::verdict::arrival::not_arrived;
 use crate::verdict::compare::is_worse;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
-use crate::verdict::fixed_wing::max_turn_deg;
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
+use crate::verdict::reconstruction::max_turn_deg;
+use crate::verdict::tube::EndError;
 use crate::verdict::{Check, LimitKey};
-
-/// How far the true end of a vehicle's plan may be from the one that is judged.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EndError {
-    /// Distance, m.
-    pub position_m: f64,
-    /// Difference of the velocities, m/s.
-    pub velocity_mps: f64,
-}
 
 /// The last nodes.
 ///
@@ -102,10 +94,10 @@ impl End {
             tolerance: limits.goal_m,
             key: LimitKey::Verdict("goal_m"),
         };
-        match family {
-            Family::FixedWing => [position].into_iter().chain(self.velocity_parts(vehicle, limits)).collect(),
-            Family::SlungLoad | Family::Multirotor => vec![position],
+        if family.hovers() {
+            return vec![position];
         }
+        [position].into_iter().chain(self.velocity_parts(vehicle, limits)).collect()
     }
 
     /// Heading, flight-path angle and speed.
@@ -182,10 +174,7 @@ fn check_part(spec: &CheckSpec, family: Family, part: &Part, t_s: f64, vehicle: 
     let [lower, upper] = part.off;
     let measured = if lower == upper { Measurement::value(upper) } else { Measurement::bounds(lower, upper) };
     let measured = measured.at(t_s).with(vehicle);
-    let measured = match family {
-        Family::FixedWing => measured.with_reason(format!("it is the {}", part.name)),
-        Family::SlungLoad | Family::Multirotor => measured,
-    };
+    let measured = if family.hovers() { measured } else { measured.with_reason(format!("it is the {}", part.name)) };
     let spec = CheckSpec { unit: part.unit, ..*spec };
     Check { limit_key: Some(part.key), ..spec.at_most(measured, part.tolerance) }
 }

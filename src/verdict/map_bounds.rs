@@ -2,6 +2,7 @@ use scenarios::{Geofence, Range, Scenario};
 
 use crate::verdict::LimitKey;
 use crate::verdict::bernstein;
+use crate::verdict::extreme::Extreme;
 use crate::verdict::geofence::smallest_margin;
 use crate::verdict::motion::Motion;
 use crate::verdict::worst::{Quantity, Worst};
@@ -61,17 +62,6 @@ impl<'a> MapBounds<'a> {
         let (name, key) = [("x", "x_m"), ("y", "y_m"), ("z", "z_m")][axis];
         Quantity { name, unit: "m", range: self.axes[axis], key: LimitKey::Map(key) }
     }
-}
-
-/// The smallest or largest value of a coordinate.
-#[derive(Clone, Copy, Debug)]
-pub struct Extreme {
-    /// On the curve, m.
-    pub value: f64,
-    /// How far the true motion may be from the curve there, m: 0 unless it was reconstructed.
-    pub error: f64,
-    /// When, s.
-    pub t_s: f64,
 }
 
 /// Lowest and highest value of one coordinate over continuous time, where the true motion may be lowest and highest.

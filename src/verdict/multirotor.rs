@@ -19,12 +19,11 @@ use between_nodes::BetweenNodes;
 pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::{Case, CheckTable, function_of};
-use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
-use crate::verdict::goal::EndError;
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::{Knot, Motion};
+use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::separation_shape::SeparationShape;
+use crate::verdict::tube::{EndError, Stretch, Tube};
 use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, separation};
 
 /// Why a plan of positions and velocities has no defects.
@@ -138,44 +137,21 @@ fn planned_motions(plan: &Plan) -> Result<Vec<Motion>, MissingEvidence> {
     plan.trajectories.iter().map(|trajectory| motion(trajectory.multirotor())).collect()
 }
 
-/// How far the true motion of a vehicle may be from the one that is judged.
-struct Tube {
-    /// Ends of the intervals, s.
-    ends_s: Vec<f64>,
-    /// Largest distance during each interval, m.
-    distances_m: Vec<f64>,
-}
-
 /// The tubes around the planned motions: what lies between the nodes, and the rounding of the rows.
 fn tubes(case: &Case<'_>, planned: &[Motion], between: &[BetweenNodes]) -> Vec<Tube> {
     let tube = |(index, (motion, between)): (usize, (&Motion, &BetweenNodes))| {
-        let rounding_m = case.provenance.rounding_m(index);
-        let (ends_s, distances_m) =
-            motion.segments().map(|segment| (segment.t_s[1], between.distance_m(&segment) + rounding_m)).unzip();
-        Tube { ends_s, distances_m }
+        let stretch = |segment: Segment| {
+            let end_s = segment.t_s[1];
+            Stretch { end_s, position_m: between.distance_m(&segment), velocity_mps: 0.0 }
+        };
+        Tube::new(motion.segments().map(stretch).collect()).widened(case.provenance.rounding_m(index))
     };
     planned.iter().zip(between).enumerate().map(tube).collect()
 }
 
-impl Tube {
-    fn has_width(&self) -> bool {
-        self.distances_m.iter().any(|distance_m| *distance_m != 0.0)
-    }
-
-    /// Largest distance during an interval of time, m; beyond the end that of the last interval.
-    fn distance_m(&self, [from_s, to_s]: [f64; 2]) -> f64 {
-        let last = self.ends_s.len().saturating_sub(1);
-        let [first, end] = [from_s, to_s].map(|t_s| self.ends_s.partition_point(|end_s| *end_s < t_s).min(last));
-        self.distances_m[first..=end].iter().copied().fold(0.0, |a, b| if is_larger(b, a) { b } else { a })
-    }
-}
-
 /// The motions, each in its tube.
 fn surround(motions: Vec<Motion>, tubes: &[Tube]) -> Vec<Motion> {
-    let surround = |(motion, tube): (Motion, &Tube)| {
-        if tube.has_width() { motion.within(|segment| tube.distance_m(segment.t_s)) } else { motion }
-    };
-    motions.into_iter().zip(tubes).map(surround).collect()
+    motions.into_iter().zip(tubes).map(|(motion, tube)| tube.surround(motion)).collect()
 }
 
 /// A vehicle that has arrived hovers there until the last one has.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::columns::Columns;
 use super::{ColumnTable, ImportedTrajectory, PlanDocument, PlanIssue, RowLocations, units};
 use crate::curve::Curve;
-use crate::{Family, Issue, PlanStatus, Scenario, Vehicle, closest_name};
+use crate::{Issue, PlanStatus, Scenario, Vehicle, closest_name};
 
 /// Tolerance of the first time, which must be 0, s.
 const TIME_TOLERANCE_S: f64 = 1e-9;
@@ -111,7 +111,7 @@ fn of_curve(curve: &Curve, vehicle: &Vehicle, scenario: &Scenario) -> Result<Imp
         Err(vec![PlanIssue::new("", Issue::new(field, found, expected).remedy(remedy))])
     };
     let max_end_s = MAX_DURATIONS * scenario.simulation.max_duration_s;
-    if scenario.family() == Family::SlungLoad {
+    if scenario.family().carries_load() {
         let remedy = "give the states and controls in a table";
         return issue("polynomial pieces".into(), "the motion of quadrotor and load".into(), remedy);
     }
@@ -130,7 +130,7 @@ fn of_curve(curve: &Curve, vehicle: &Vehicle, scenario: &Scenario) -> Result<Imp
         let expected = format!("at most {max_end_s} s, ten times simulation.max_duration_s");
         return issue(format!("{end_s} s at the end"), expected, "are the durations in milliseconds?");
     }
-    if scenario.family() == Family::FixedWing
+    if !scenario.family().hovers()
         && let Some(jump) = curve.joints().find(|joint| !joint.is_rounding)
     {
         let found = format!("a jump by {} m and {} m/s at {} s", jump.position_m, jump.velocity_mps, jump.t_s);

@@ -1,6 +1,6 @@
 //! Text tables: a header with the names of the columns, then one line per vehicle and time.
 
-use csv::{ReaderBuilder, StringRecord};
+use csv::StringRecord;
 
 use super::columns::{Columns, TIME, VEHICLE};
 use super::layout::Layout;
@@ -17,7 +17,7 @@ pub(super) fn read(text: &str, scenario: &Scenario, map: &ColumnMap) -> Result<P
     let header = Header::read(&layout, scenario, map)?;
     let mut document = PlanDocument::default();
     let mut issues = Vec::new();
-    for record in records(&layout) {
+    for record in layout.records() {
         match record {
             Ok((line, record)) => header.add(line, &record, &mut document, &mut issues),
             Err(error) => {
@@ -34,25 +34,6 @@ pub(super) fn read(text: &str, scenario: &Scenario, map: &ColumnMap) -> Result<P
         from_first_time(&mut document);
     }
     Ok(document)
-}
-
-/// The rows of a table, each with its line.
-pub(super) fn records(layout: &Layout) -> impl Iterator<Item = Result<(usize, StringRecord), csv::Error>> {
-    let row = |(_, row): &(usize, String)| match layout.separator {
-        Some(_) => row.clone(),
-        None => row.split_whitespace().collect::<Vec<_>>().join(","),
-    };
-    let text = layout.rows.iter().map(row).collect::<Vec<_>>().join("\n");
-    let lines: Vec<usize> = layout.rows.iter().map(|(line, _)| *line).collect();
-    let separator = layout.separator.unwrap_or(',') as u8;
-    let mut builder = ReaderBuilder::new();
-    builder.has_headers(false).flexible(true).trim(csv::Trim::All).delimiter(separator);
-    let records = builder.from_reader(std::io::Cursor::new(text)).into_records();
-    records.map(move |record| {
-        let record = record?;
-        let row = record.position().map_or(1, |position| position.line() as usize);
-        Ok((lines.get(row - 1).copied().unwrap_or(0), record))
-    })
 }
 
 /// Measures the times of every table from its first one.

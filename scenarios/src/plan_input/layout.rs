@@ -1,5 +1,7 @@
 //! The layout of a text table: its header, its separator, and where its rows begin.
 
+use csv::{ReaderBuilder, StringRecord};
+
 use super::PlanIssue;
 use crate::Issue;
 
@@ -65,6 +67,25 @@ impl Layout {
             return Ok(Self { names: owned(&TUM), separator, header_line: number, rows, is_tum: true });
         }
         Err(no_header(format!("a row of {} values", cells.len()), number))
+    }
+
+    /// The rows of a table, each with its line.
+    pub fn records(&self) -> impl Iterator<Item = Result<(usize, StringRecord), csv::Error>> {
+        let row = |(_, row): &(usize, String)| match self.separator {
+            Some(_) => row.clone(),
+            None => row.split_whitespace().collect::<Vec<_>>().join(","),
+        };
+        let text = self.rows.iter().map(row).collect::<Vec<_>>().join("\n");
+        let lines: Vec<usize> = self.rows.iter().map(|(line, _)| *line).collect();
+        let separator = self.separator.unwrap_or(',') as u8;
+        let mut builder = ReaderBuilder::new();
+        builder.has_headers(false).flexible(true).trim(csv::Trim::All).delimiter(separator);
+        let records = builder.from_reader(std::io::Cursor::new(text)).into_records();
+        records.map(move |record| {
+            let record = record?;
+            let row = record.position().map_or(1, |position| position.line() as usize);
+            Ok((lines.get(row - 1).copied().unwrap_or(0), record))
+        })
     }
 }
 

@@ -7,11 +7,11 @@
 //! x^k is the coefficient of τ^k, in m/s^k, with τ the time since the beginning of the piece, s. Columns of the yaw are not used.
 //! A column `vehicle` tells several vehicles apart.
 
-use ::csv::StringRecord;
+use csv::StringRecord;
 
 use super::digits::Digits;
 use super::layout::Layout;
-use super::{PlanDocument, PlanIssue, csv};
+use super::{PlanDocument, PlanIssue};
 use crate::curve::{Curve, Piece, PieceRounding};
 use crate::{Issue, Scenario};
 
@@ -32,7 +32,7 @@ pub(super) fn read(layout: &Layout, scenario: &Scenario) -> Result<PlanDocument,
         .map_err(|issue| vec![PlanIssue::new(format!(":{}", layout.header_line), issue)])?;
     let mut curves: Vec<Curve> = Vec::new();
     let mut issues = Vec::new();
-    let records: Vec<_> = csv::records(layout).collect();
+    let records: Vec<_> = layout.records().collect();
     let digits = Digits::of(records.iter().flatten().flat_map(|(_, record)| header.numbers(record)));
     for record in &records {
         let piece = match record {

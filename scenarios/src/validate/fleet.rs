@@ -1,7 +1,7 @@
 //! Distances between the vehicles at their starts and goals.
 
 use super::quantity::positive_if_given;
-use crate::{Family, Issue, Scenario, Vehicle, Waypoint};
+use crate::{Issue, Scenario, Vehicle, Waypoint};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     let mut issues: Vec<Issue> =
@@ -32,8 +32,8 @@ fn too_close(
         return Some(Issue::new(field, found, format!("{touching_m} m or more, the sum of the body radii")));
     }
     let separation_m = scenario.fleet.separation_m?;
-    let is_fixed_wing = scenario.models.get(&vehicle.model).is_some_and(|model| model.family() == Family::FixedWing);
-    let (apart_m, sense) = if is_fixed_wing { (horizontal_m, " (horizontally)") } else { (distance_m, "") };
+    let flies_on = scenario.models.get(&vehicle.model).is_some_and(|model| !model.family().hovers());
+    let (apart_m, sense) = if flies_on { (horizontal_m, " (horizontally)") } else { (distance_m, "") };
     (apart_m < separation_m).then(|| {
         let found = format!("a point {apart_m:.3} m{sense} from that of `{}`", other.name);
         Issue::new(field, found, format!("{separation_m} m or more, the separation of the fleet"))

@@ -7,7 +7,7 @@ use scenarios::{Scenario, Trajectory as AnyTrajectory, Vehicle};
 
 use super::rounding::Rounding;
 use super::{at, end_velocity, velocities};
-use crate::verdict::fixed_wing::max_distance_m;
+use crate::verdict::reconstruction::max_distance_m;
 use crate::verdict::{CurveAsCubics, GivenRows, Reconstruction, RoundedRows, VehicleProvenance};
 
 /// The error of the accelerations of the cubics that is aimed at, as a fraction of the vehicle's limit.

@@ -10,7 +10,7 @@ use scenarios::multirotor::State;
 use sim::multirotor::Reference;
 
 use crate::verdict::RoundedRows;
-use crate::verdict::fixed_wing::{max_distance_from_chord_m, max_velocity_from_chord_mps};
+use crate::verdict::reconstruction::{max_distance_from_chord_m, max_velocity_from_chord_mps};
 
 /// Numbers with more decimals than this were not rounded.
 const MAX_DECIMALS: usize = 9;

@@ -1,45 +1,19 @@
-//! What may lie between the rows of a plan that gives no controls.
-//!
-//! Between two rows the vehicle may do anything that its limits allow. Its acceleration follows from the load factors and
-//! the flight-path angle γ,
+//! What may lie between the rows of a plan of a fixed wing that gives no controls: the [law](crate::verdict::reconstruction)
+//! with the largest acceleration that the limits allow. It follows from the load factors and the flight-path angle γ,
 //!
 //! ```text
-//! |p''|² = g² ((n_x - sin γ)² + n_y² + (n_z - cos γ)²) ≤ a²,
+//! |p''|² = g² ((n_x - sin γ)² + n_y² + (n_z - cos γ)²) ≤ a²
 //! ```
-//!
-//! with the largest value that the limits admit. On an interval of length T let u = t/T ∈ [0, 1].
-//!
-//! **Positions are given.** Let c be the chord between two rows. p - c vanishes at both, so that
-//! p(t) - c(t) = -∫ G(t, s) p''(s) ds with Green's function G ≥ 0 of the second derivative, ∫ G ds = t (T - t)/2, and
-//!
-//! ```text
-//! |p - c| ≤ a T² u (1 - u)/2 ≤ a T²/8        |p' - c'| ≤ a T (u² + (1 - u)²)/2 ≤ a T/2
-//! ```
-//!
-//! **Velocities are given too.** Let h be the cubic Hermite through both rows. Interpolation reproduces cubics, so by Peano's
-//! theorem p(t) - h(t) = ∫ K(t, s) p''(s) ds, where for s > t, with w = 1 - s/T,
-//! K = T (u² (1 - u) - u² (3 - 2u) w), and likewise for s < t with u and w replaced by 1 - u and 1 - w. Integrating the
-//! absolute values of these linear functions gives
-//!
-//! ```text
-//! |p - h| ≤ a T² κ(u),   κ(u) = u² (1 - u)²/2 ((1 + 4 (1 - u)²)/(3 - 2u) + (1 + 4u²)/(1 + 2u)) ≤ κ(1/2) = 1/16
-//! |p' - h'| ≤ a T ρ(u) ≤ 0.252 a T
-//! ```
-//!
-//! where ρ is the same integral over |∂K/∂t|. Both bounds are sharp: accelerations of magnitude a that change sign with the
-//! kernel attain them. The reconstructed motion q is known, so that |p - q| ≤ |p - c| + |c - q|, and with h for c.
 
 use scenarios::Range;
 use scenarios::fixed_wing::{GRAVITY_MPS2, Limits, Trajectory};
 
-use crate::verdict::compare::{exceeds, is_larger};
+use crate::verdict::compare::{exceeds, larger};
 use crate::verdict::fixed_wing::planned::{NodeError, WINDOW_S};
-use crate::verdict::goal::EndError;
 use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::provenance::{EndVelocity, GivenRows};
-
-/// Largest ρ, rounded up.
-const MAX_VELOCITY_FACTOR: f64 = 0.252;
+use crate::verdict::reconstruction::{max_position_factor, max_velocity_factor, max_velocity_from_chord_mps};
+use crate::verdict::tube::{EndError, Stretch, Tube};
 
 /// Largest acceleration within the limits, m/s².
 pub fn max_acceleration_mps2(limits: &Limits) -> f64 {
@@ -51,34 +25,6 @@ pub fn max_acceleration_mps2(limits: &Limits) -> f64 {
     let across = limits.n_y.max.max(-limits.n_y.min);
     let upwards = (limits.n_z.max - steepest).max(1.0 - limits.n_z.min);
     GRAVITY_MPS2 * (along * along + across * across + upwards * upwards).sqrt()
-}
-
-/// Largest distance of the vehicle's motion from the curve through two rows, m.
-///
-/// - `interval_s`: between the rows
-pub fn max_distance_m(given: &GivenRows, acceleration_mps2: f64, interval_s: f64) -> f64 {
-    acceleration_mps2 * interval_s * interval_s * max_position_factor(given, [0.0, 1.0])
-}
-
-/// Largest distance of the vehicle's motion from the chord between two positions, a T² u (1 - u)/2, m.
-///
-/// - `u`: the instant, as a fraction of the interval
-pub fn max_distance_from_chord_m(acceleration_mps2: f64, interval_s: f64, u: f64) -> f64 {
-    acceleration_mps2 * interval_s * interval_s * max_position_factor(&GivenRows::Positions, [u, u])
-}
-
-/// Largest difference of the vehicle's velocity from that of the chord, a T (u² + (1 - u)²)/2, m/s.
-pub fn max_velocity_from_chord_mps(acceleration_mps2: f64, interval_s: f64, u: f64) -> f64 {
-    acceleration_mps2 * interval_s * max_velocity_factor(&GivenRows::Positions, [u, u])
-}
-
-/// Largest angle by which a velocity turns if up to `error_mps` is added: asin(|error|/|velocity|), deg.
-pub fn max_turn_deg(error_mps: f64, speed_mps: f64) -> f64 {
-    match error_mps {
-        0.0 => 0.0,
-        _ if error_mps < speed_mps => (error_mps / speed_mps).asin().to_degrees(),
-        _ => 180.0,
-    }
 }
 
 /// The largest contradiction between given positions and given velocities: the part of the difference of a velocity from
@@ -99,11 +45,13 @@ pub fn contradiction(trajectory: &Trajectory, velocities_mps: &[[f64; 3]], limit
     at_ends.reduce(NodeError::larger).filter(|largest| exceeds(largest.error_m, 0.0))
 }
 
-/// How far the true motion may be from a reconstructed one.
-#[derive(Clone, Debug)]
-pub struct Tube {
-    stretches: Vec<Stretch>,
-    end: KnownEnd,
+/// How well a reconstructed motion is known.
+#[derive(Clone, Debug, Default)]
+pub struct RowTube {
+    /// Around the motion.
+    pub tube: Tube,
+    /// `None` if all was given.
+    end: Option<KnownEnd>,
 }
 
 /// What the rows tell of the end of the motion.
@@ -115,16 +63,8 @@ struct KnownEnd {
     error: EndError,
 }
 
-/// A stretch of time and the deviations during it.
-#[derive(Clone, Copy, Debug)]
-struct Stretch {
-    end_s: f64,
-    position_m: f64,
-    velocity_mps: f64,
-}
-
-impl Tube {
-    /// The tube around the reconstructed `motion` of a trajectory; `None` if all was given.
+impl RowTube {
+    /// The tube around the reconstructed `motion` of a trajectory, which has no width if all was given.
     ///
     /// - `end_velocity`: of rows without velocities
     /// - `limits`: what the vehicle can do
@@ -134,65 +74,45 @@ impl Tube {
         given: &GivenRows,
         end_velocity: Option<EndVelocity>,
         limits: &Limits,
-    ) -> Option<Self> {
-        if *given == GivenRows::Everything {
-            return None;
-        }
+    ) -> Self {
+        let Some(end) = KnownEnd::new(trajectory, given, end_velocity) else { return Self::default() };
         let acceleration_mps2 = max_acceleration_mps2(limits);
         let rows = (1..trajectory.times_s.len()).map(|end| RowPair::new(trajectory, end, given));
         let mut segments = motion.segments().filter(Segment::lasts).peekable();
         let mut stretches = Vec::new();
-        let end = KnownEnd::new(trajectory, given, end_velocity)?;
         for pair in rows {
             while let Some(segment) = segments.next_if(|segment| segment.t_s[1] <= pair.curve.t_s[1]) {
                 stretches.push(pair.stretch(&segment, acceleration_mps2));
             }
         }
-        Some(Self { stretches, end })
+        Self { tube: Tube::new(stretches), end: Some(end) }
     }
 
-    /// The tube around rows that are known up to a distance, m.
-    pub fn widened(mut self, distance_m: f64) -> Self {
-        self.stretches.iter_mut().for_each(|stretch| stretch.position_m += distance_m);
-        self.end.error.position_m += distance_m;
-        self
-    }
-
-    /// The motion in its tube.
-    pub fn surround(&self, motion: Motion) -> Motion {
-        motion.within(|segment| self.distance_m(segment.t_s))
-    }
-
-    /// Largest distance from the reconstructed motion during an interval of time, m.
-    pub fn distance_m(&self, t_s: [f64; 2]) -> f64 {
-        self.during(t_s).map(|stretch| stretch.position_m).fold(0.0, larger)
-    }
-
-    /// Largest difference of the velocities at a time, m/s.
-    pub fn velocity_mps(&self, t_s: f64) -> f64 {
-        self.during([t_s, t_s]).map(|stretch| stretch.velocity_mps).fold(0.0, larger)
+    /// The same around rows that are known up to a distance, m.
+    pub fn widened(self, distance_m: f64) -> Self {
+        let widened = |end: KnownEnd| {
+            let error = EndError { position_m: end.error.position_m + distance_m, ..end.error };
+            KnownEnd { error, ..end }
+        };
+        Self { tube: self.tube.widened(distance_m), end: self.end.map(widened) }
     }
 
     /// How far the true end may be from this one.
     pub fn end_error(&self, end: &Knot) -> EndError {
+        let Some(known) = &self.end else { return EndError::default() };
         EndError {
-            position_m: self.end.error.position_m + distance(end.position_m, self.end.position_m),
-            velocity_mps: self.end.error.velocity_mps + distance(end.velocity_mps, self.end.velocity_mps),
+            position_m: known.error.position_m + distance(end.position_m, known.position_m),
+            velocity_mps: known.error.velocity_mps + distance(end.velocity_mps, known.velocity_mps),
         }
-    }
-
-    /// The stretches that touch an interval of time; beyond the end the last one.
-    fn during(&self, [from_s, to_s]: [f64; 2]) -> impl Iterator<Item = &Stretch> {
-        let last = self.stretches.len().saturating_sub(1);
-        let first = self.stretches.partition_point(|stretch| stretch.end_s < from_s).min(last);
-        let end = self.stretches.partition_point(|stretch| stretch.end_s < to_s).min(last);
-        self.stretches.iter().skip(first).take(end + 1 - first)
     }
 }
 
 impl KnownEnd {
-    /// `None` without rows.
+    /// `None` without rows, or if all was given.
     fn new(trajectory: &Trajectory, given: &GivenRows, end_velocity: Option<EndVelocity>) -> Option<Self> {
+        if *given == GivenRows::Everything {
+            return None;
+        }
         let last = trajectory.states.len().checked_sub(1)?;
         let state = &trajectory.states[last];
         let EndVelocity { velocity_mps, error_mps } = match (given, end_velocity) {
@@ -256,37 +176,8 @@ fn chord_mps(trajectory: &Trajectory, end: usize) -> [f64; 3] {
     std::array::from_fn(|axis| (b[axis] - a[axis]) / duration_s)
 }
 
-/// Largest |p - c|/(a T²), or |p - h|/(a T²), over a part of the interval.
-fn max_position_factor(given: &GivenRows, [from, to]: [f64; 2]) -> f64 {
-    let at = |u: f64| match given {
-        GivenRows::Positions => u * (1.0 - u) / 2.0,
-        GivenRows::States(_) => {
-            let ends = (u * (1.0 - u)).powi(2) / 2.0;
-            let later = (1.0 + 4.0 * (1.0 - u).powi(2)) / (3.0 - 2.0 * u);
-            ends * (later + (1.0 + 4.0 * u * u) / (1.0 + 2.0 * u))
-        }
-        GivenRows::Everything => 0.0,
-    };
-    // Both rise until the middle and fall after it.
-    at(0.5_f64.clamp(from, to))
-}
-
-/// Largest |p' - c'|/(a T), or |p' - h'|/(a T), over a part of the interval.
-fn max_velocity_factor(given: &GivenRows, [from, to]: [f64; 2]) -> f64 {
-    match given {
-        GivenRows::Positions => [from, to].map(|u| (u * u + (1.0 - u).powi(2)) / 2.0).into_iter().fold(0.0, larger),
-        GivenRows::States(_) => MAX_VELOCITY_FACTOR,
-        GivenRows::Everything => 0.0,
-    }
-}
-
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
-}
-
-/// The larger of two numbers. NaN counts as larger than any.
-fn larger(a: f64, b: f64) -> f64 {
-    if is_larger(b, a) { b } else { a }
 }
 
 #[cfg(test)]

@@ -14,11 +14,13 @@ use scenarios::{CheckSpec, Plan, Range, Scenario};
 use crate::verdict::LimitKey;
 use crate::verdict::airspeed::air_velocities;
 use crate::verdict::evidence::{CheckResult, Decide};
-use crate::verdict::fixed_wing::between_rows::{Tube, max_turn_deg};
+use crate::verdict::extreme::Extreme;
+use crate::verdict::fixed_wing::between_rows::RowTube;
 use crate::verdict::flown::FlownMotions;
-use crate::verdict::map_bounds::{Extreme, MapBounds};
+use crate::verdict::map_bounds::MapBounds;
 use crate::verdict::motion::Motion;
 use crate::verdict::provenance::{GivenRows, NO_CONTROLS, Provenance};
+use crate::verdict::reconstruction::max_turn_deg;
 use crate::verdict::tolerance::SOLVER_TOLERANCE;
 use crate::verdict::worst::{Quantity, Worst, check_limits};
 
@@ -51,13 +53,13 @@ pub fn check_planned_states(
     spec: &CheckSpec,
     scenario: &Scenario,
     motions: &[Motion],
-    tubes: &[Option<Tube>],
+    tubes: &[RowTube],
 ) -> CheckResult {
     check_limits(spec, |worst| {
         for ((limited, motion), tube) in limited_vehicles(scenario, physical).zip(motions).zip(tubes) {
             limited.path(worst, motion);
             for knot in motion.knots() {
-                limited.velocity_vector(worst, knot.velocity_mps, error_mps(tube, knot.t_s), knot.t_s);
+                limited.velocity_vector(worst, knot.velocity_mps, tube.tube.velocity_mps(knot.t_s), knot.t_s);
             }
         }
     })
@@ -69,22 +71,17 @@ pub fn check_flown_states(
     scenario: &Scenario,
     flown: &FlownMotions<'_>,
     motions: &[Motion],
-    tubes: &[Option<Tube>],
+    tubes: &[RowTube],
 ) -> CheckResult {
     check_limits(spec, |worst| {
         let logs = motions.iter().zip(&flown.vehicles).zip(tubes);
         for (limited, ((motion, vehicle), tube)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);
             for (t_s, air_velocity_mps) in air_velocities(scenario, vehicle.judged) {
-                limited.velocity_vector(worst, air_velocity_mps, error_mps(tube, t_s), t_s);
+                limited.velocity_vector(worst, air_velocity_mps, tube.tube.velocity_mps(t_s), t_s);
             }
         }
     })
-}
-
-/// What is not known of a velocity, m/s.
-fn error_mps(tube: &Option<Tube>, t_s: f64) -> f64 {
-    tube.as_ref().map_or(0.0, |tube| tube.velocity_mps(t_s))
 }
 
 /// Controls at the nodes, as far as vehicles give any, against the planning limits.

@@ -2,8 +2,8 @@
 //!
 //! A plan of positions and velocities is the cubics through them. One of polynomial pieces is cubics up to their
 //! [errors](CubicsError). One of positions alone leaves open whatever the acceleration a of the vehicle allows: between two
-//! rows T apart it is within a T²/8 of the chord c, and its velocity within a T/2 of the chord's (the law of
-//! `fixed_wing/between_rows.rs`). The reconstructed cubic q is known, so that |p - q| ≤ a T²/8 + |c - q|.
+//! rows T apart it is within a T²/8 of the chord c, and its velocity within a T/2 of the chord's (the
+//! [law](crate::verdict::reconstruction)). The reconstructed cubic q is known, so that |p - q| ≤ a T²/8 + |c - q|.
 //!
 //! Of three positions p₀, p₁, p₂ the mean chord velocities v₀, v₁ determine the acceleration that some instant needs at least,
 //!
@@ -16,6 +16,7 @@ use scenarios::curve::CubicsError;
 use scenarios::multirotor::Model;
 
 use crate::verdict::motion::{Motion, Segment};
+use crate::verdict::reconstruction::{max_distance_from_chord_m, max_velocity_from_chord_mps};
 use crate::verdict::{GivenRows, Provenance};
 
 /// How well the motion of a vehicle is known between the nodes of its plan.
@@ -53,7 +54,7 @@ impl BetweenNodes {
             Self::Within(error) => error.position_m,
             Self::Positions(acceleration_mps2) => {
                 let duration_s = segment.t_s[1] - segment.t_s[0];
-                acceleration_mps2 * duration_s * duration_s / 8.0 + from_chord_m(segment)
+                max_distance_from_chord_m(*acceleration_mps2, duration_s, 0.5) + from_chord_m(segment)
             }
         }
     }
@@ -66,7 +67,7 @@ impl BetweenNodes {
             Self::Within(error) => (fastest_mps, error.velocity_mps),
             Self::Positions(acceleration_mps2) => {
                 let duration_s = segment.t_s[1] - segment.t_s[0];
-                let reserve_mps = acceleration_mps2 * duration_s / 2.0;
+                let reserve_mps = max_velocity_from_chord_mps(*acceleration_mps2, duration_s, 1.0);
                 // The mean speed along the chord is reached, and not exceeded by more than the reserve.
                 (chord_mps(segment).norm() + reserve_mps / 2.0, reserve_mps / 2.0)
             }

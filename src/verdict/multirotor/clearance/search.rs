@@ -8,7 +8,8 @@ use scenarios::Map;
 use sim::multirotor::Obstacles;
 
 use crate::verdict::compare::is_smaller;
-use crate::verdict::map_bounds::{Extreme, extremes_m};
+use crate::verdict::extreme::Extreme;
+use crate::verdict::map_bounds::extremes_m;
 use crate::verdict::motion::{Motion, Segment};
 
 /// What rounding may leave of a distance that is computed twice, m. A run of segments is given up only beyond it, so that
