@@ -1,4 +1,4 @@
-//! The style of all tables on the terminal.
+//! The style of all tables: on the terminal and in Markdown.
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, TableComponent, Width, presets};
 
@@ -28,6 +28,17 @@ pub fn with_header(header: &[&str], numbers: &[usize]) -> Table {
         }
     }
     table
+}
+
+/// The table in Markdown, line by line, with a line break at its end.
+///
+/// - `numbers`: columns that are right-aligned
+pub fn markdown(header: &[&str], numbers: &[usize], rows: impl IntoIterator<Item = impl AsRef<[String]>>) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let rule = (0..header.len()).map(|column| if numbers.contains(&column) { "---:|" } else { "---|" });
+    let head = line(&header.iter().map(ToString::to_string).collect::<Vec<_>>());
+    let body = rows.into_iter().map(|cells| line(cells.as_ref()));
+    [head, format!("|{}\n", rule.collect::<String>())].into_iter().chain(body).collect()
 }
 
 /// The text with lines that are longer than the terminal broken between words and indented; unchanged elsewhere.

@@ -22,13 +22,17 @@ const HEADER: [&str; 13] = [
 
 const MEANS: [&str; 5] = ["mission", "solver", "mean flight s", "mean planning s", "speed"];
 
+/// Columns of numbers.
+const NUMBERS: [usize; 10] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12];
+const MEANS_NUMBERS: [usize; 3] = [2, 3, 4];
+
 /// The tables on the terminal, with notes.
 pub fn text(results: &Results) -> String {
-    let mut rows = table::with_header(&HEADER, &[1, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    let mut rows = table::with_header(&HEADER, &NUMBERS);
     results.rows.iter().for_each(|row| {
         rows.add_row(cells(row));
     });
-    let mut means = table::with_header(&MEANS, &[2, 3, 4]);
+    let mut means = table::with_header(&MEANS, &MEANS_NUMBERS);
     results.means.iter().for_each(|mean| {
         means.add_row(mean_cells(mean));
     });
@@ -38,22 +42,12 @@ pub fn text(results: &Results) -> String {
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
     let mut page = String::from("# Fleets of one to seven\n\n");
-    page.push_str(&grid(
-        &HEADER,
-        "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        results.rows.iter().map(cells),
-    ));
+    page.push_str(&table::markdown(&HEADER, &NUMBERS, results.rows.iter().map(cells)));
     page.push('\n');
-    page.push_str(&grid(&MEANS, "|---|---|---:|---:|---:|", results.means.iter().map(mean_cells)));
+    page.push_str(&table::markdown(&MEANS, &MEANS_NUMBERS, results.means.iter().map(mean_cells)));
     page.push('\n');
     notes(results).iter().for_each(|note| page.push_str(&format!("- {note}\n")));
     page
-}
-
-fn grid<const N: usize>(header: &[&str; N], rule: &str, rows: impl Iterator<Item = [String; N]>) -> String {
-    let line = |cells: &[String; N]| format!("| {} |\n", cells.join(" | "));
-    let body: String = rows.map(|cells| line(&cells)).collect();
-    format!("{}{rule}\n{body}", line(&header.map(str::to_owned)))
 }
 
 fn cells(row: &Row) -> [String; HEADER.len()] {

@@ -24,17 +24,22 @@ const MEANS: [&str; 9] = ["scenario", "N", "planner", "solved", "passed", "its",
 const GROWTH: [&str; 7] =
     ["scenario", "N", "verdict", "its", "planning s", "µs per vehicle and iteration", "flight and verdict s"];
 
+/// Columns of numbers.
+const NUMBERS: [usize; 10] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12];
+const MEANS_NUMBERS: [usize; 7] = [1, 3, 4, 5, 6, 7, 8];
+const GROWTH_NUMBERS: [usize; 5] = [1, 3, 4, 5, 6];
+
 /// The tables on the terminal, with notes.
 pub fn text(results: &Results) -> String {
-    let mut fleets = table::with_header(&HEADER, &[1, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    let mut fleets = table::with_header(&HEADER, &NUMBERS);
     results.rows.iter().for_each(|row| {
         fleets.add_row(cells(row));
     });
-    let mut growth = table::with_header(&GROWTH, &[1, 3, 4, 5, 6]);
+    let mut growth = table::with_header(&GROWTH, &GROWTH_NUMBERS);
     results.growth.iter().for_each(|row| {
         growth.add_row(growth_cells(row));
     });
-    let mut means = table::with_header(&MEANS, &[1, 3, 4, 5, 6, 7, 8]);
+    let mut means = table::with_header(&MEANS, &MEANS_NUMBERS);
     results.means.iter().for_each(|mean| {
         means.add_row(mean_cells(mean));
     });
@@ -47,32 +52,18 @@ pub fn text(results: &Results) -> String {
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
     let mut page = String::from("# Ways to decouple a fleet\n\n");
-    page.push_str(&grid(
-        &HEADER,
-        "|---|---:|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        results.rows.iter().map(cells),
-    ));
+    page.push_str(&table::markdown(&HEADER, &NUMBERS, results.rows.iter().map(cells)));
     if has_geometries(results) {
         page.push_str("\n## Means over the geometries\n\n");
-        page.push_str(&grid(
-            &MEANS,
-            "|---|---:|---|---:|---:|---:|---:|---:|---:|",
-            results.means.iter().map(mean_cells),
-        ));
+        page.push_str(&table::markdown(&MEANS, &MEANS_NUMBERS, results.means.iter().map(mean_cells)));
     }
     if !results.growth.is_empty() {
         page.push_str("\n## Growth at constant density\n\n");
-        page.push_str(&grid(&GROWTH, "|---|---:|---|---:|---:|---:|---:|", results.growth.iter().map(growth_cells)));
+        page.push_str(&table::markdown(&GROWTH, &GROWTH_NUMBERS, results.growth.iter().map(growth_cells)));
     }
     page.push('\n');
     notes(results).iter().for_each(|note| page.push_str(&format!("- {note}\n")));
     page
-}
-
-fn grid<const N: usize>(header: &[&str; N], rule: &str, rows: impl Iterator<Item = [String; N]>) -> String {
-    let line = |cells: &[String; N]| format!("| {} |\n", cells.join(" | "));
-    let body: String = rows.map(|cells| line(&cells)).collect();
-    format!("{}{rule}\n{body}", line(&header.map(str::to_owned)))
 }
 
 fn cells(row: &Row) -> [String; HEADER.len()] {

@@ -22,9 +22,12 @@ const HEADER: [&str; 15] = [
     "Stab m/s²",
 ];
 
+/// Columns of numbers.
+const NUMBERS: [usize; 12] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14];
+
 /// The table on the terminal, with notes.
 pub fn text(results: &Results) -> String {
-    let mut table = table::with_header(&HEADER, &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]);
+    let mut table = table::with_header(&HEADER, &NUMBERS);
     for row in &results.rows {
         table.add_row(cells(row, results.seeds));
     }
@@ -33,11 +36,9 @@ pub fn text(results: &Results) -> String {
 
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let mut page = String::from("# Receding horizon\n\n");
-    page.push_str(&line(&HEADER.map(str::to_owned)));
-    page.push_str(&format!("|---|---|---|{}\n", "---:|".repeat(HEADER.len() - 3)));
-    results.rows.iter().for_each(|row| page.push_str(&line(&cells(row, results.seeds))));
+    let rows = results.rows.iter().map(|row| cells(row, results.seeds));
+    page.push_str(&table::markdown(&HEADER, &NUMBERS, rows));
     page.push('\n');
     notes(results).iter().for_each(|note| page.push_str(&format!("- {note}\n")));
     page

@@ -7,7 +7,7 @@ use crate::output::report::table;
 const HEADER: [&str; 10] =
     ["subproblem", "rows", "solver", "its", "µs/it", "ms", "objective", "speed", "paper Gflop/it", "remark"];
 
-/// Columns of numbers, for the terminal.
+/// Columns of numbers.
 const NUMBERS: [usize; 7] = [1, 3, 4, 5, 6, 7, 8];
 
 /// The table on the terminal, with notes.
@@ -21,15 +21,9 @@ pub fn text(results: &Results) -> String {
 
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
-    let line = |cells: &[String]| format!("| {} |", cells.join(" | "));
-    let mut lines = vec![format!("# Interior point on subproblems of {}", results.scenario), String::new()];
-    lines.push(line(&HEADER.map(str::to_owned)));
-    lines.push("|---|---:|---|---:|---:|---:|---:|---:|---:|---|".into());
-    lines.extend(rows(results).map(|cells| line(&cells)));
-    lines.push(String::new());
-    lines.extend(notes(results).into_iter().map(|note| format!("- {note}")));
-    lines.push(String::new());
-    lines.join("\n")
+    let grid = table::markdown(&HEADER, &NUMBERS, rows(results));
+    let notes: String = notes(results).iter().map(|note| format!("- {note}\n")).collect();
+    format!("# Interior point on subproblems of {}\n\n{grid}\n{notes}", results.scenario)
 }
 
 fn rows(results: &Results) -> impl Iterator<Item = [String; HEADER.len()]> + '_ {

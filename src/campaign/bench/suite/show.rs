@@ -23,7 +23,7 @@ const HEADER: [&str; 15] = [
 
 const COLUMNS: usize = HEADER.len();
 
-/// Columns of numbers, for the terminal.
+/// Columns of numbers.
 const NUMBERS: [usize; 13] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];
 
 /// Failures that are listed on the terminal.
@@ -47,12 +47,9 @@ pub fn text(results: &Results) -> String {
 
 /// The same as a page in Markdown.
 pub fn markdown(results: &Results) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let mut page = String::from("# Random scenarios\n\n");
-    page.push_str(&line(&HEADER.map(str::to_owned)));
-    page.push_str(&format!("|---|{}---|\n", "---:|".repeat(COLUMNS - 2)));
-    results.rows.iter().for_each(|row| page.push_str(&line(&cells(row))));
-    page.push_str(&line(&total(results)));
+    let rows = results.rows.iter().map(cells).chain([total(results)]);
+    page.push_str(&table::markdown(&HEADER, &NUMBERS, rows));
     page.push('\n');
     notes(results).iter().for_each(|note| page.push_str(&format!("- {note}\n")));
     page
