@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod comparison;
 pub mod failure_threshold;
+pub mod falsification;
 pub mod figures;
 #[cfg(feature = "parquet")]
 pub mod first_difference;
@@ -10,5 +11,8 @@ pub mod generate;
 pub mod margin_budget;
 #[cfg(feature = "parquet")]
 pub mod monte_carlo;
+pub mod scenario_document;
 pub mod selftest;
+pub mod shrinking;
+pub mod trial;
 pub mod typical_disturbances;

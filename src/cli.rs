@@ -7,6 +7,7 @@ mod compare;
 mod completions;
 #[cfg(feature = "parquet")]
 mod diverge;
+mod falsify;
 mod figures;
 mod generate;
 mod list;
@@ -21,6 +22,7 @@ mod schema;
 mod selection;
 mod selftest;
 mod session;
+mod shrink;
 mod stress;
 #[cfg(feature = "parquet")]
 mod sweep;
@@ -82,6 +84,10 @@ enum Command {
     Merge(merge::Merge),
     #[command(name = "stress")]
     Stress(stress::StressCommand),
+    #[command(name = "falsify")]
+    Falsify(falsify::FalsifyCommand),
+    #[command(name = "shrink")]
+    Shrink(shrink::ShrinkCommand),
     #[command(name = "selftest")]
     Selftest(selftest::SelftestCommand),
     Schema(schema::Schema),
@@ -121,6 +127,8 @@ impl Cli {
             #[cfg(feature = "parquet")]
             Command::Merge(merge) => merge.execute(),
             Command::Stress(stress) => stress.execute(),
+            Command::Falsify(falsify) => falsify.execute(),
+            Command::Shrink(shrink) => shrink.execute(),
             Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),
             Command::Completions(completions) => completions.execute(),

@@ -146,6 +146,18 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// A field of the command line is not in the file.
+    #[error("{}: {field}: found no number, expected one that the file gives", file.display())]
+    #[diagnostic(help(
+        "give the field in the file, or correct its path; elements of lists go by index or by name: \
+        world.cylinders[0].radius_m, world.cylinders.tree-1.radius_m"
+    ))]
+    NoNumber {
+        /// The scenario's file.
+        file: PathBuf,
+        /// The field.
+        field: String,
+    },
     /// A disturbance from the command line cannot act on the vehicles.
     #[error("{}: {option} has no effect: found {}, expected {}", file.display(), issue.found, issue.expected)]
     #[diagnostic(help("add the drag area to the model, or vary another disturbance"))]

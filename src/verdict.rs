@@ -9,7 +9,7 @@ mod broad_phase;
 pub mod case;
 mod closest;
 mod collision;
-mod compare;
+pub mod compare;
 mod conditions;
 mod curve_as_cubics;
 mod evidence;

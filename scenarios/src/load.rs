@@ -77,6 +77,11 @@ impl ScenarioFile {
         &self.name
     }
 
+    /// Its text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Line of the value of `field`, from 1; `None` if the file does not give it.
     pub fn line_of(&self, field: &str) -> Option<usize> {
         let tree = DeTable::parse(&self.text).ok()?;

@@ -5,6 +5,7 @@ mod checking;
 mod comparing;
 mod edge_cases;
 mod external;
+mod falsifying;
 mod generating;
 mod in_ci;
 mod listing;

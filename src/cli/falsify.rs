@@ -1,0 +1,179 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::run::PlannerArgs;
+use super::session::start_threads;
+use super::shrink;
+use crate::campaign::falsification::{self, Falsification, FoundFailure, Method, SearchOptions, Space, VariedField};
+use crate::campaign::scenario_document::ScenarioDocument;
+use crate::campaign::trial::TestSystem;
+use crate::console;
+use crate::error::{Error, Exit};
+use crate::jobs::{self, Job};
+use crate::number_format::signed_quantity;
+use crate::output;
+use crate::progress::Progress;
+
+/// Search for scenarios in which a planner fails
+///
+/// Fields of the scenario vary within given ranges: positions and sizes of obstacles, starts, goals, wind, masses, noise, delays,
+/// or any other number. The search goes to where the margin of the check shrinks (without --check the smallest of separation,
+/// clearance and tracking, as fractions of their limits); every candidate is planned, flown and judged. Of
+/// each kind of failure (a check, and the bodies it names) the worst one is written as a scenario file, which fails again to
+/// the bit. Candidates that are not valid scenarios cost no flight. The exit code is 1 if a failure was found.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct FalsifyCommand {
+    /// The scenario file
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    /// A field and its range; may be repeated. Elements of lists go by index or by name
+    #[arg(long = "vary", value_name = "FIELD=LOW..HIGH", required = true)]
+    fields: Vec<VariedField>,
+    /// The check to fail, as `flight.clearance` [default: any]
+    #[arg(long, value_name = "CHECK", value_parser = shrink::check_name)]
+    check: Option<String>,
+    /// Number of flights
+    #[arg(short = 'n', long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
+    flights: u32,
+    /// How candidates are chosen
+    #[arg(long, value_enum, default_value_t = Method::CmaEs)]
+    method: Method,
+    /// Seed of the search; that of the flights is the scenario's
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Shrink every failure, with as many flights again at most; see `harness shrink`
+    #[arg(long)]
+    shrink: bool,
+    #[command(flatten)]
+    planners: PlannerArgs,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Number of worker threads [default: one per core]; results do not depend on it
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Print errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  harness falsify scenarios/multirotor/pop-up.toml -p rhc-fpso --vary vehicles[0].start.y_m=-3..3 --vary vehicles[0].goal.y_m=-3..3
+  harness falsify scenarios/fixed-wing/rendezvous-1.toml -p parallel-scp --check plan.clearance \\
+      --vary world.cylinders.threat-1.radius_m=20..120 --vary vehicles.uav-1.goal.y_m=-500..500 -n 200 --shrink
+
+Results:
+  out/<scenario>/<planner>/falsify.json                        the search, and one failure of each kind
+  out/<scenario>/<planner>/failures/<scenario>-failure-1.toml  the scenario of the first kind of failure
+  out/<scenario>/<planner>/failures/<scenario>-failure-1-small.toml  with --shrink: the smallest that still fails
+
+`harness run out/<scenario>/<planner>/failures/*.toml` repeats and records them.";
+
+impl FalsifyCommand {
+    /// Searches, writes and prints.
+    pub fn execute(&self) -> Result<Exit, Error> {
+        start_threads(self.jobs)?;
+        let job = &jobs::load_one(&self.scenario, &self.planners.sources()?, None)?;
+        let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
+        let space = Space::new(&document, &self.fields)
+            .map_err(|field| Error::NoNumber { file: self.scenario.clone(), field: field.to_string() })?;
+        let system = TestSystem { source: &job.plan_source, seed: job.seed, check: self.check.as_deref() };
+        let found = self.search(job, &space, &system);
+        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
+        output::create_folder(&folder)?;
+        output::write_json(&folder.join("falsify.json"), &found)?;
+        self.write_failures(job, &space, &system, &found, &folder.join("failures"))?;
+        if !self.quiet {
+            console::print(&self.text(&found))?;
+            console::print(&format!("results in {}", folder.display()))?;
+        }
+        Ok(if found.failures.is_empty() { Exit::Passed } else { Exit::Failed })
+    }
+
+    fn search(&self, job: &Job, space: &Space<'_>, system: &TestSystem<'_>) -> Falsification {
+        let flights = self.flights as usize;
+        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let options = SearchOptions { flights, method: self.method, seed: self.seed };
+        let mut flown = 0;
+        let found = falsification::search(space, system, options, &mut |done| {
+            (flown + 1..=done.min(flights)).for_each(|flight| progress.swept(flight, flights));
+            flown = done;
+        });
+        progress.finish();
+        Falsification {
+            scenario: job.scenario.name.clone(),
+            planner: job.plan_source.name().to_owned(),
+            fields: self.fields.iter().map(|field| field.path.to_string()).collect(),
+            ..found
+        }
+    }
+
+    /// Writes the scenarios of the failures; those of an earlier search are removed.
+    fn write_failures(
+        &self,
+        job: &Job,
+        space: &Space<'_>,
+        system: &TestSystem<'_>,
+        found: &Falsification,
+        folder: &Path,
+    ) -> Result<(), Error> {
+        remove_earlier(folder, &job.scenario.name)?;
+        for (index, failure) in found.failures.iter().enumerate() {
+            let name = format!("{}-failure-{}", job.scenario.name, index + 1);
+            let document = space.document(&failure.values);
+            shrink::write(&document.renamed(&name), &name, &headline(failure), folder)?;
+            if self.shrink {
+                let mut progress = Progress::new(job, index + 1, found.failures.len(), self.quiet);
+                let shrunk = shrink::shrunk(&document, &failure.finding, system, self.flights, &mut progress);
+                progress.finish();
+                let name = format!("{name}-small");
+                shrink::write(&shrunk.document.renamed(&name), &name, &shrink::headline(&shrunk), folder)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn text(&self, found: &Falsification) -> String {
+        let Falsification { flights, rejected, no_plan, failed, .. } = found;
+        let mut lines: Vec<String> = found
+            .failures
+            .iter()
+            .enumerate()
+            .map(|(index, failure)| format!("failure {}: {}; {}", index + 1, headline(failure), self.place(failure)))
+            .collect();
+        if let Some(worst) = found.worst.as_ref().filter(|_| found.failures.is_empty()) {
+            lines.push(format!("nearest to a failure: {}; {}", headline(worst), self.place(worst)));
+        }
+        lines.push(format!(
+            "{failed} of {flights} flights failed, {} kinds of failures; no plan for {no_plan}; {rejected} candidates were not valid scenarios",
+            found.failures.len()
+        ));
+        lines.join("\n")
+    }
+
+    fn place(&self, found: &FoundFailure) -> String {
+        let fields = self.fields.iter().zip(&found.values);
+        fields.map(|(field, value)| format!("{} = {value:.6}", field.path)).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Removes the failures of an earlier search.
+fn remove_earlier(folder: &Path, scenario: &str) -> Result<(), Error> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    let is_ours = |name: &str| name.starts_with(&format!("{scenario}-failure-")) && name.ends_with(".toml");
+    let paths = entries.flatten().filter(|entry| entry.file_name().to_str().is_some_and(is_ours));
+    paths.map(|entry| entry.path()).try_for_each(|path| output::remove_stale(&path))
+}
+
+/// The check, its margin and whom it names: `flight.clearance -0.12 m at 3.25 s (uav-1, threat-3)`.
+fn headline(found: &FoundFailure) -> String {
+    let finding = &found.finding;
+    let margin =
+        finding.margin.map_or_else(String::new, |margin| format!(" {}", signed_quantity(margin, &finding.unit)));
+    let when = finding.at_s.map_or_else(String::new, |at_s| format!(" at {at_s:.2} s"));
+    let who = if finding.between.is_empty() { String::new() } else { format!(" ({})", finding.between.join(", ")) };
+    format!("{}{margin}{when}{who}", finding.check)
+}
