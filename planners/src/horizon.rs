@@ -34,4 +34,5 @@ pub use planner::RHC;
 use crate::planner::Planner;
 
 /// The planners of this family.
-pub(crate) const PLANNERS: &[Planner] = &[RHC, planner::RHC_PSO, planner::RHC_FPSO, planner::RHC_APF];
+pub(crate) const PLANNERS: &[Planner] =
+    &[RHC, planner::RHC_PSO, planner::RHC_FPSO, planner::RHC_FPSO_PLAIN, planner::RHC_APF];

@@ -1,12 +1,13 @@
 //! Roadmaps: graphs of collision-free paths to one goal, with the cost-to-go of every node.
 //!
-//! [`visibility`] and [`voronoi`] build the graph, [`CostMap`] keeps it up to date with the known obstacles, and
+//! [`visibility`], [`voronoi`] and [`voronoi_vertices`] build the graph, [`CostMap`] keeps it up to date with the known obstacles, and
 //! [`CostToGoQuery`] answers many cost-to-go queries near one position.
 
 mod cost_map;
 mod cost_to_go_query;
 pub mod visibility;
 pub mod voronoi;
+pub mod voronoi_vertices;
 
 pub use cost_map::{CostMap, RoadmapKind};
 pub use cost_to_go_query::{CostToGoQuery, OccluderHints};

@@ -3,8 +3,8 @@
 use planners::nlp::Settings;
 use planners::pseudospectral::{Duration, MultiphaseSystem, Tolerances, Transcription};
 use planners::slung::{
-    CableMode, Candidate, Gate, InitialCondition, Limits, Options, Phase, Problem, SlungLoadSystem, Weights,
-    candidate_routes, optimise,
+    Avoidance, CableMode, Candidate, Gate, InitialCondition, Limits, Options, Phase, Problem, SlungLoadSystem,
+    TorqueModel, Weights, candidate_routes, optimise,
 };
 
 /// An optimum: J and, for a motion with an impact, its instant and impulse.
@@ -72,6 +72,43 @@ fn refined_meshes_reach_the_optimum_of_the_paper_case() {
     let [right, left] = objectives(&Problem::paper(), &Options::default());
     assert!((right - 2433.73).abs() < 0.05, "{right}");
     assert!((left - 2433.82).abs() < 0.05, "{left}");
+}
+
+/// The paper's R-functions describe the same circle: where they are solved, the optimum is the same.
+#[test]
+fn r_functions_find_the_optimum_of_the_smooth_constraints() {
+    let problem = Problem { avoidance: Avoidance::RFunction, ..Problem::paper() };
+    let [right, left] = objectives(&problem, &fixed(20, 3));
+    assert!((right - 2432.138).abs() < 0.01, "{right}");
+    assert!((left - 2432.449).abs() < 0.01, "{left}");
+}
+
+/// Body, cable and load need less room than the circle around them, and cost no more.
+#[test]
+fn parts_cost_no_more_than_the_envelope_circle() {
+    let problem = Problem { avoidance: Avoidance::Parts, ..Problem::paper() };
+    let [right, left] = objectives(&problem, &Options::default());
+    assert!(right < 2433.73 + 0.05 && right > 2400.0, "{right}");
+    assert!(left < 2433.82 + 0.05 && left > 2400.0, "{left}");
+}
+
+/// A wall that ends below the quadrotor's altitude is flown over by parts, not by the circle at every altitude.
+#[test]
+fn parts_fly_over_a_low_obstacle() {
+    let low = Problem { obstacle_altitudes_m: vec![[-1.0, 0.2]], avoidance: Avoidance::Parts, ..Problem::paper() };
+    let [right, left] = objectives(&low, &Options::default());
+    let straight = 2432.0;
+    assert!(right < straight && left < straight, "{right} {left}");
+}
+
+/// The paper's generalised torques are the body's to first order in the angles: the optimum moves little, and does move.
+#[test]
+fn generalised_torques_change_the_optimum_little() {
+    let problem = Problem { torques: TorqueModel::Generalised, ..Problem::paper() };
+    let generalised = objectives(&problem, &Options::default());
+    for (generalised, body) in generalised.into_iter().zip(objectives(&Problem::paper(), &Options::default())) {
+        assert!((generalised - body).abs() > 1e-4 && (generalised - body).abs() < 1.0, "{generalised} for {body}");
+    }
 }
 
 /// The paper's complementarity with a small constant ε finds the same motion: the cable stays taut.

@@ -234,6 +234,9 @@ pub struct ReplanDiagnostics {
     pub feasible_fraction: Option<f64>,
     /// Cost of the result, in the planner's unit.
     pub cost: Option<f64>,
+    /// Lowest cost after every iteration, in the planner's unit; absent while there is no feasible candidate.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub convergence: Vec<Option<f64>>,
     /// Paths of some of the best candidates, m.
     pub candidates: Vec<Vec<[f64; 3]>>,
     /// Path from the end of the reference to the goal, m.

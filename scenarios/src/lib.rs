@@ -43,8 +43,9 @@ pub use issue::Issue;
 pub use load::{InvalidScenario, LoadError, LocatedIssue, ScenarioFile, load, parse};
 pub use plan::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent};
 pub use planner_settings::{
-    Collocation, Convergence, Coordination, CostMap, Formulation, Horizon, Objective, PlannerSettings, PotentialField,
-    PotentialFieldForm, RepulsionForm, Sampler, Shape, Solver, SolverStart, Transcription, TrustRegion,
+    AttractionAlong, Collocation, Convergence, Coordination, CostMap, Formulation, Horizon, Objective, PathTiming,
+    PlannerSettings, PotentialField, PotentialFieldForm, RepelledBy, RepulsionForm, Sampler, Search, Shape, Solver,
+    SolverStart, Swarm, Torques, Transcription, TrustRegion, ViolationWeights,
 };
 pub use random::stream;
 pub use range::Range;

@@ -1,15 +1,20 @@
 mod collocation;
 mod coordination;
 mod horizon;
+mod search;
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use collocation::{Collocation, Formulation, Objective, Shape};
+pub use collocation::{Collocation, Formulation, Objective, Shape, Torques};
 pub use coordination::Coordination;
-pub use horizon::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler};
+pub use horizon::{
+    AttractionAlong, CostMap, Horizon, PotentialField, PotentialFieldForm, RepelledBy, RepulsionForm, Sampler, Swarm,
+    ViolationWeights,
+};
+pub use search::{PathTiming, Search};
 
 /// The planner and its options. The default of an option depends on the planner, and is mostly the value of its paper
 /// (`harness list` shows the planners).
@@ -74,6 +79,9 @@ pub struct PlannerSettings {
     /// Options of receding-horizon planners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub horizon: Option<Horizon>,
+    /// Options of planners that search for a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub search: Option<Search>,
 }
 
 /// Transcription of the equations of motion.

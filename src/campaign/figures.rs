@@ -1,28 +1,24 @@
 //! `harness figures`: the figures of the four papers, from our plans and flights.
 //!
-//! `FLIGHTS` lists the figures of single flights, `STUDIES` those over fleet sizes and methods; operation counts and replan
-//! times have functions of their own. The papers' positions are ours where they print none, so a figure is to be compared
+//! `FLIGHTS` lists the figures of single flights, `STUDIES` those over fleet sizes and methods; operation counts have a
+//! function and `swarms` a file of their own. The papers' positions are ours where they print none, so a figure is to be compared
 //! in its shape; where a paper prints a number, it stands beside ours.
 
 mod chart;
 mod flights;
 mod papers;
 mod studies;
+mod swarms;
 
 use std::path::PathBuf;
 
-use self::chart::{Chart, Curve};
-use self::flights::registered;
 use super::bench::ipm;
 use crate::error::Error;
-use crate::plan_source::PlanSource;
 pub use papers::page;
 use papers::{FLIGHTS, STUDIES};
 
 /// Name of the figure of operation counts.
 const OPERATION_COUNTS: &str = "1-operation-counts";
-/// Name of the figure of replan times.
-const REPLAN_TIMES: &str = "3-replan-times";
 
 /// What to draw.
 #[derive(Clone, Debug)]
@@ -52,8 +48,10 @@ pub struct Figure {
 pub fn names() -> Vec<String> {
     let flights = FLIGHTS.iter().flat_map(|flight| flight.names());
     let studies = STUDIES.iter().flat_map(studies::Study::names);
-    let mut names: Vec<String> =
-        flights.chain(studies).chain([OPERATION_COUNTS, REPLAN_TIMES].map(str::to_owned)).collect();
+    let mut names: Vec<String> = flights
+        .chain(studies)
+        .chain([OPERATION_COUNTS, swarms::REPLAN_TIMES, swarms::CONVERGENCE].map(str::to_owned))
+        .collect();
     names.sort();
     names
 }
@@ -81,8 +79,8 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Vec<Figu
         figures.push(operation_counts(options)?);
     }
     if is_wanted(3) {
-        progress(REPLAN_TIMES);
-        figures.push(replan_times(options)?);
+        progress("3-swarms");
+        figures.extend(swarms::draw(options)?);
     }
     figures.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(figures)
@@ -98,28 +96,6 @@ fn operation_counts(options: &Options) -> Result<Figure, Error> {
     let caption =
         "Operation counts of the paper's methods I, II and III (its figure 4) and measured times, with ours".into();
     Ok(Figure { paper: 1, name: OPERATION_COUNTS.into(), caption, svg })
-}
-
-/// Time of every replan of the two swarms, on the same map with the same seed.
-fn replan_times(options: &Options) -> Result<Figure, Error> {
-    let scenario = scenarios::load(&options.scenarios.join("multirotor/paper-map.toml"))?;
-    let mut means = Vec::new();
-    let mut curve = |planner: &'static str, label: &str, colour| {
-        let flown = PlanSource::Registered(registered(planner)).fly(&scenario, scenario.simulation.seed);
-        let replans = flown.flight.and_then(|flight| flight.planning).map(|planning| planning.replans);
-        let points: Vec<(f64, f64)> =
-            replans.unwrap_or_default().iter().map(|replan| (replan.asked_s, 1e3 * replan.wall_s)).collect();
-        means.push(points.iter().map(|point| point.1).sum::<f64>() / points.len().max(1) as f64);
-        Curve::line(label, colour, points)
-    };
-    let curves = vec![curve("rhc-pso", "PSO", [214, 120, 20]), curve("rhc-fpso", "FPSO", [29, 99, 196])];
-    let labels = ["time of the flight [s]".to_owned(), "time of a replan [ms]".to_owned()];
-    let svg = Chart { labels, curves, ..Chart::default() }.svg().unwrap_or_default();
-    let caption = format!(
-        "Time of each replan: mean {:.2} ms with PSO, {:.2} ms with FPSO (the paper: 641.9 ms and 369.5 ms, Matlab)",
-        means[0], means[1]
-    );
-    Ok(Figure { paper: 3, name: REPLAN_TIMES.into(), caption, svg })
 }
 
 #[cfg(test)]

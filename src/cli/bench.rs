@@ -65,7 +65,7 @@ Examples:
   harness bench fleets         takes several minutes: some entries reach their time limit
   harness bench fleets --geometries 10
                                the same for ten geometries of each fleet, with means
-  harness bench slung          takes about ten seconds
+  harness bench slung          takes about a minute
   harness bench horizon        takes several minutes
   harness bench suite          takes about half an hour
   harness bench suite --family multirotor --seeds 5

@@ -61,13 +61,14 @@ Columns for multirotors:
                                               velocities. Reconstructed if absent; then the vehicle may have done anything
                                               within its acceleration limit between two rows
 
-Columns for slung loads, all required except the last:
+Columns for slung loads, all required except at_node:
   vehicle, t_s, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps
   roll_rad, pitch_rad, yaw_rad, rate_x_radps, rate_y_radps, rate_z_radps
   load_x_m, load_y_m, load_z_m, load_vx_mps, load_vy_mps, load_vz_mps
   thrust_1_n, thrust_2_n, thrust_3_n, thrust_4_n
   cable                                       taut or slack, from this row to the next
   at_node                                     yes where the planner imposed its constraints, no at samples between
+  Euler rates and cable angles, which plan.csv has too, follow from these and are not read.
 
 In a table every row counts as a node of the planner in the checks nodes.*, unless the column at_node says `no`;
 plan.json names the planner's own nodes. Common names (t, time, px, pos_x, vel_x, ...) and units in brackets (px[ft],

@@ -16,8 +16,12 @@ use crate::verdict::{FlownMotions as Tracked, largest_tracking_error, root_mean_
 pub struct SlungLoadMetrics {
     /// Duration of the plan, s.
     pub flight_time_s: Option<f64>,
-    /// When the planned envelope circle changes between the body's radius and the load's horizontal reach, s.
+    /// When the planned envelope circle changes between the body's radius and the load's horizontal distance, s (Kang, Huang,
+    /// Wen 2020, eq. 14).
     pub envelope_switches_s: Vec<f64>,
+    /// The same with the load's distance bounded by R-functions, s (eq. 19): what the planner `slung-lgr` keeps clear.
+    #[serde(default)]
+    pub r_function_switches_s: Vec<f64>,
     /// Lowest and highest planned thrust of a rotor, N.
     pub planned_thrust_n: Option<[f64; 2]>,
     /// Lowest and highest planned tension while the cable is taut, impacts aside, N.
@@ -70,19 +74,25 @@ fn slung_load(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Slun
 
 fn of_plan(scenario: &Scenario, planned: &PlannedMotion, metrics: &mut SlungLoadMetrics) {
     let parts = Parts::new(scenario.slung_load_model(&scenario.vehicles[0]));
-    let reach_m = |body: &SlungLoadState| body.cable_m().xy().norm() - parts.body_radius_m();
-    for pair in planned.knots.windows(2) {
-        let (before, after) = (reach_m(&pair[0].state), reach_m(&pair[1].state));
-        if (before > 0.0) != (after > 0.0) && pair[1].t_s > pair[0].t_s {
-            metrics.envelope_switches_s.push(pair[0].t_s + (pair[1].t_s - pair[0].t_s) * before / (before - after));
-        }
-    }
+    metrics.envelope_switches_s = crossings_s(planned, |body| body.cable_m().xy().norm() - parts.body_radius_m());
+    metrics.r_function_switches_s =
+        crossings_s(planned, |body| std::f64::consts::SQRT_2 * body.cable_m().xy().amax() - parts.body_radius_m());
     metrics.planned_thrust_n = extremes(planned.knots.iter().flat_map(|knot| knot.thrust_n.iter().copied()));
     metrics.planned_tension_n =
         extremes(planned.knots.iter().map(|knot| knot.tension_n).filter(|tension| *tension != 0.0));
     metrics.planned_swing_deg = largest(planned.knots.iter().map(|knot| swing_deg(&knot.state)));
     let impact = |(t_s, impulse_ns): &(f64, f64)| switch(*t_s, Cable::Taut, Some(*impulse_ns));
     metrics.planned_impacts = planned.impacts.iter().map(impact).collect();
+}
+
+/// When a function of the planned state changes its sign, s; linear between the rows.
+fn crossings_s(planned: &PlannedMotion, value: impl Fn(&SlungLoadState) -> f64) -> Vec<f64> {
+    let crossing_s = |[(from_s, before), (to_s, after)]: [(f64, f64); 2]| {
+        let is_crossed = (before > 0.0) != (after > 0.0) && to_s > from_s;
+        is_crossed.then(|| from_s + (to_s - from_s) * before / (before - after))
+    };
+    let ends = |at: usize| (planned.knots[at].t_s, value(&planned.knots[at].state));
+    (1..planned.knots.len()).filter_map(|at| crossing_s([ends(at - 1), ends(at)])).collect()
 }
 
 fn of_flight(scenario: &Scenario, plan: &Plan, flight: &Flight, metrics: &mut SlungLoadMetrics) {

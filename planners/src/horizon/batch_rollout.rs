@@ -1,7 +1,7 @@
 //! Rollout of four particles at once over the horizon, with their violations.
 
 use super::particle_batch::{ParticleBatch, PerParticle};
-use super::problem::{EvaluationContext, HorizonProblem, Repulsion, VIOLATION_WEIGHTS};
+use super::problem::{EvaluationContext, HorizonProblem, Repulsion};
 use crate::free_space::Point;
 use crate::free_space::simd_distance::distance_lower_bound_m;
 use crate::simd::{Lanes, Simd4};
@@ -43,9 +43,13 @@ pub fn roll_out<S: Simd4>(
         }
         let distance = step_distance(problem, context, &position, &next, step);
         let required = context.required_clearance_m[step];
-        violation += splat(VIOLATION_WEIGHTS[0]) * (splat(required) - distance).max(zero);
+        violation += splat(problem.violation_weights[0]) * (splat(required) - distance).max(zero);
         if let Some(field) = problem.cost.repulsion() {
-            repulsion += repulsive_potential(field, distance - splat(problem.clearance_m));
+            repulsion += if field.is_by_all {
+                repulsion_by_all(problem, context, field, [&position, &next], step)
+            } else {
+                repulsive_potential(field, distance - splat(problem.clearance_m))
+            };
         }
         (position, velocity, previous) = (next, next_velocity, acceleration);
         store(&mut batch.path[step + 1], &position);
@@ -94,7 +98,7 @@ fn accelerate<S: Simd4>(
         }
     } else {
         advance(&mut next_velocity, &acceleration, step_s);
-        let [_, speed_weight, acceleration_weight] = VIOLATION_WEIGHTS.map(|weight| zero.like(weight));
+        let [_, speed_weight, acceleration_weight] = problem.violation_weights.map(|weight| zero.like(weight));
         *violation += speed_weight * norm_excess(&next_velocity, problem.limits.speed_mps);
         *violation += acceleration_weight * norm_excess(&acceleration, problem.limits.acceleration_mps2);
     }
@@ -137,7 +141,7 @@ fn stop<S: Simd4>(
         }
         from = to;
     }
-    (zero.like(VIOLATION_WEIGHTS[0]) * (required - distance).max(zero), end)
+    (zero.like(problem.violation_weights[0]) * (required - distance).max(zero), end)
 }
 
 /// Lower bound of the distance to obstacles and bounds along a step, m.
@@ -165,15 +169,44 @@ fn static_distance<S: Simd4>(
     from: &Point4<S>,
     to: &Point4<S>,
 ) -> Lanes<S> {
+    let mut distance = frame_distance(problem, from, to);
+    for obstacle in &context.static_obstacles {
+        distance = distance.min(distance_lower_bound_m(obstacle, from, to, problem.influence_distance_m()));
+    }
+    distance
+}
+
+/// Distance to the bounds along a segment, m.
+#[inline(always)]
+fn frame_distance<S: Simd4>(problem: &HorizonProblem<'_>, from: &Point4<S>, to: &Point4<S>) -> Lanes<S> {
     let mut distance = from[0].like(f64::INFINITY);
     for axis in 0..3 {
         let [low, high] = problem.space.bounds_m[axis].map(|bound| from[axis].like(bound));
         distance = distance.min(from[axis].min(to[axis]) - low).min(high - from[axis].max(to[axis]));
     }
-    for obstacle in &context.static_obstacles {
-        distance = distance.min(distance_lower_bound_m(obstacle, from, to, problem.influence_distance_m()));
-    }
     distance
+}
+
+/// Sum of U_rep along a step over all obstacles and the frame.
+#[inline(always)]
+fn repulsion_by_all<S: Simd4>(
+    problem: &HorizonProblem<'_>,
+    context: &EvaluationContext<'_>,
+    field: Repulsion,
+    [from, to]: [&Point4<S>; 2],
+    step: usize,
+) -> Lanes<S> {
+    let clearance = from[0].like(problem.clearance_m);
+    let mut sum = repulsive_potential(field, frame_distance(problem, from, to) - clearance);
+    let reach_m = problem.influence_distance_m();
+    for obstacle in &context.static_obstacles {
+        sum += repulsive_potential(field, distance_lower_bound_m(obstacle, from, to, reach_m) - clearance);
+    }
+    for (obstacle, displacements) in &context.moving_obstacles {
+        let (p, q) = (relative(from, displacements[step]), relative(to, displacements[step + 1]));
+        sum += repulsive_potential(field, distance_lower_bound_m(&obstacle.shape, &p, &q, reach_m) - clearance);
+    }
+    sum
 }
 
 /// U_rep (eq. 3) at a distance beyond the clearance:

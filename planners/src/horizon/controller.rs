@@ -5,7 +5,7 @@ use rand::Rng;
 use super::counter_rng::CounterRng;
 use super::evaluate::SimdLevel;
 use super::optimiser::{Budget, Solution, optimise};
-use super::problem::{ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion};
+use super::problem::{Attraction, ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion};
 use super::sampler::SamplerKind;
 use crate::free_space::{FreeSpace, Point};
 use crate::multirotor::{PlanningLimits, PointMassMotion, PointMassState, sagitta_m};
@@ -31,6 +31,8 @@ pub struct ControllerSettings {
     pub limits: PlanningLimits,
     /// Required distance from obstacles and bounds, m.
     pub clearance_m: f64,
+    /// Weights w_1, w_2, w_3 of the violations of distance, speed and acceleration (eq. 12).
+    pub violation_weights: [f64; 3],
     /// Weight of the squared changes of acceleration, m per (m/s²)².
     pub smoothness_weight: f64,
     /// Weight of the mean cost-to-go over the horizon, -.
@@ -41,6 +43,8 @@ pub struct ControllerSettings {
     pub projects_controls: bool,
     /// Every horizon ends with a stop in known free space.
     pub requires_stop: bool,
+    /// Without a required stop: the stopping distance at the end of a horizon that can reach the goal is part of the cost.
+    pub brakes_at_goal: bool,
     /// The cost of infeasible particles is computed too.
     pub costs_infeasible: bool,
     /// Distance within which all static obstacles are known, m; infinite for a known map.
@@ -59,8 +63,8 @@ pub enum CostModel {
     },
     /// A potential field without a map (eq. 17).
     PotentialField {
-        /// k_att, 1/m.
-        attraction: f64,
+        /// U_att.
+        attraction: Attraction,
         /// U_rep.
         repulsion: Repulsion,
     },
@@ -155,6 +159,7 @@ impl<R: Rng> RecedingHorizonController<R> {
             step_s: settings.step_s,
             clearance_m: settings.clearance_m,
             cost,
+            violation_weights: settings.violation_weights,
             smoothness_weight: settings.smoothness_weight,
             stage_weight: settings.stage_weight,
             costs_final_speed: false,
@@ -164,7 +169,8 @@ impl<R: Rng> RecedingHorizonController<R> {
                 costs_infeasible: settings.costs_infeasible,
             },
         };
-        problem.costs_final_speed = !settings.requires_stop && problem.is_goal_within_reach();
+        problem.costs_final_speed =
+            !settings.requires_stop && settings.brakes_at_goal && problem.is_goal_within_reach();
         problem
     }
 

@@ -2,7 +2,7 @@
 
 use super::batch_rollout::roll_out;
 use super::particle_batch::{Fitness, ParticleBatch};
-use super::problem::{Cost, EvaluationContext, HorizonProblem};
+use super::problem::{Attraction, Cost, EvaluationContext, HorizonProblem};
 use crate::free_space::Point;
 use crate::roadmap::CostMap;
 use crate::simd::{Simd4, WIDTH};
@@ -93,10 +93,27 @@ fn cost(problem: &HorizonProblem<'_>, context: &EvaluationContext<'_>, batch: &m
                 map_cost(problem, context, map, batch, lane) + repulsion
             }
             Cost::PotentialField { attraction, .. } => {
-                let to_goal_m = (final_position(problem, batch, lane) - problem.goal).norm();
-                0.5 * attraction * to_goal_m * to_goal_m + batch.repulsion[lane]
+                attractive_potential(problem, attraction, batch, lane) + batch.repulsion[lane]
             }
         }
+}
+
+/// U_att (eq. 2) at the end of the horizon, or its mean over the steps.
+fn attractive_potential(
+    problem: &HorizonProblem<'_>,
+    Attraction { gain, is_along_horizon }: Attraction,
+    batch: &ParticleBatch,
+    lane: usize,
+) -> f64 {
+    let potential = |position: Point| {
+        let to_goal_m = (position - problem.goal).norm();
+        0.5 * gain * to_goal_m * to_goal_m
+    };
+    if !is_along_horizon {
+        return potential(final_position(problem, batch, lane));
+    }
+    let steps = problem.grid.steps;
+    (1..=steps).map(|sample| potential(batch.position(sample, lane))).sum::<f64>() / steps as f64
 }
 
 /// Cost-to-go of the final position, and the mean over the horizon of the cost-to-go by the same node (eq. 10), m.

@@ -43,6 +43,8 @@ pub struct Solution {
     pub first_feasible: Option<usize>,
     /// Fraction of the evaluated particles that were feasible.
     pub feasible_fraction: f64,
+    /// Lowest cost so far after every iteration, m; absent while no particle is feasible.
+    pub convergence: Vec<Option<f64>>,
     /// Paths of the best particles of the last iteration, m.
     pub paths: Vec<Vec<Point>>,
 }
@@ -69,6 +71,7 @@ pub fn optimise(
         bound_mps2: problem.limits.acceleration_mps2,
     };
     let context = problem.evaluation_context();
+    let keeps_best = sampler.keeps_best();
     let mut sampler = sampler.create(dimensions, seeds.first().map(Vec::as_slice));
     let mut batches = vec![ParticleBatch::new(problem.grid); particles / WIDTH];
     let mut incumbent = Incumbent::new(problem.grid.unknowns());
@@ -76,7 +79,7 @@ pub fn optimise(
         sampler.propose(iteration, rng, &mut batches);
         if iteration == 0 {
             insert_seeds(seeds, &mut batches);
-        } else {
+        } else if keeps_best {
             incumbent.reinsert(&mut batches);
         }
         evaluate_all(problem, &context, &mut batches, simd_level);
@@ -119,7 +122,7 @@ struct Incumbent {
     first_feasible: Option<usize>,
     feasible: usize,
     evaluated: usize,
-    iterations: usize,
+    convergence: Vec<Option<f64>>,
 }
 
 impl Incumbent {
@@ -131,7 +134,7 @@ impl Incumbent {
             first_feasible: None,
             feasible: 0,
             evaluated: 0,
-            iterations: 0,
+            convergence: Vec::new(),
         }
     }
 
@@ -142,7 +145,6 @@ impl Incumbent {
     }
 
     fn update(&mut self, iteration: usize, batches: &[ParticleBatch]) {
-        self.iterations = iteration + 1;
         for batch in batches {
             for lane in 0..WIDTH {
                 let fitness = batch.fitness[lane];
@@ -154,6 +156,7 @@ impl Incumbent {
                 }
             }
         }
+        self.convergence.push(self.fitness.is_feasible().then_some(self.fitness.cost));
         if self.feasible > 0 {
             self.first_feasible.get_or_insert(iteration);
         }
@@ -175,9 +178,10 @@ impl Incumbent {
         Solution {
             controls: self.controls,
             fitness: self.fitness,
-            iterations: self.iterations,
+            iterations: self.convergence.len(),
             first_feasible: self.first_feasible,
             feasible_fraction: self.feasible as f64 / self.evaluated.max(1) as f64,
+            convergence: self.convergence,
             paths: ranking(batches).iter().take(REPORTED_PATHS).map(path).collect(),
         }
     }

@@ -35,6 +35,13 @@ pub const RHC_FPSO: Planner = planner(
     |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::Fpso),
 );
 
+/// RHC-FPSO with the paper's update alone.
+pub const RHC_FPSO_PLAIN: Planner = planner(
+    "rhc-fpso-plain",
+    "rhc-fpso without our additions: the best particle is not put back, and nothing brakes near the goal",
+    |scenario, vehicle, seed| create(scenario, vehicle, seed, Variant::PlainFpso),
+);
+
 /// RHC-APF.
 pub const RHC_APF: Planner = planner(
     "rhc-apf",
@@ -150,6 +157,7 @@ impl<R: Rng> HorizonPlanner<R> {
             first_feasible: solution.first_feasible,
             feasible_fraction: Some(solution.feasible_fraction),
             cost: solution.fitness.is_feasible().then_some(solution.fitness.cost),
+            convergence: solution.convergence,
             candidates: solution.paths.into_iter().map(to_arrays).collect(),
             route: to_arrays(route),
             graph,

@@ -32,6 +32,8 @@ pub struct Repulsion {
     pub reach_m: f64,
     /// Squares the bracket, as is usual (Khatib 1986); the paper prints it without the square.
     pub is_squared: bool,
+    /// Every obstacle within range repels, and the frame; otherwise the nearest of them alone.
+    pub is_by_all: bool,
 }
 
 /// Cost of a feasible particle.
@@ -46,11 +48,20 @@ pub enum Cost<'a> {
     },
     /// Potential field without a map (eq. 17): attraction by the goal (eq. 2) and repulsion.
     PotentialField {
-        /// k_att, 1/m.
-        attraction: f64,
+        /// U_att.
+        attraction: Attraction,
         /// U_rep.
         repulsion: Repulsion,
     },
+}
+
+/// Attractive potential U_att of the goal (eq. 2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attraction {
+    /// k_att, 1/m.
+    pub gain: f64,
+    /// The mean over the horizon's steps counts; otherwise the value at its end.
+    pub is_along_horizon: bool,
 }
 
 impl Cost<'_> {
@@ -63,7 +74,7 @@ impl Cost<'_> {
     }
 }
 
-/// Weights of the violations of distance, speed and acceleration (eq. 12).
+/// Default weights w_1, w_2, w_3 of the violations of distance, speed and acceleration (eq. 12).
 pub const VIOLATION_WEIGHTS: [f64; 3] = [1.0, 0.3, 0.1];
 
 /// How particles are evaluated.
@@ -98,6 +109,8 @@ pub struct HorizonProblem<'a> {
     pub clearance_m: f64,
     /// Cost of a feasible particle.
     pub cost: Cost<'a>,
+    /// Weights w_1, w_2, w_3 of the violations of distance, speed and acceleration (eq. 12).
+    pub violation_weights: [f64; 3],
     /// Weight of the squared changes of acceleration, m per (m/s²)².
     pub smoothness_weight: f64,
     /// Weight of the mean over the horizon relative to the value at its end, -.

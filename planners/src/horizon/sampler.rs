@@ -74,6 +74,14 @@ impl SamplerDimensions {
 }
 
 impl SamplerKind {
+    /// Whether the best particle so far takes the place of the last one.
+    pub fn keeps_best(self) -> bool {
+        match self {
+            Self::ParticleSwarm(settings) => settings.keeps_best,
+            Self::CrossEntropy | Self::PathIntegral | Self::CmaEs => true,
+        }
+    }
+
     /// A sampler that starts around `guess`, or around zero without one.
     pub fn create(self, dimensions: SamplerDimensions, guess: Option<&[f64]>) -> Box<dyn Sampler> {
         let mean = guess.map_or_else(|| vec![0.0; dimensions.grid.unknowns()], <[f64]>::to_vec);

@@ -1,11 +1,13 @@
 //! Controller settings from a scenario.
 
-use scenarios::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler, Scenario};
+use scenarios::{
+    AttractionAlong, CostMap, Horizon, PotentialField, PotentialFieldForm, RepelledBy, RepulsionForm, Sampler, Scenario,
+};
 
 use super::controller::{ControllerSettings, CostModel};
 use super::optimiser::Budget;
-use super::problem::{ControlGrid, Repulsion};
-use super::sampler::{SamplerKind, SwarmSettings};
+use super::problem::{Attraction, ControlGrid, Repulsion, VIOLATION_WEIGHTS};
+use super::sampler::{Inertia, SamplerKind, SwarmSettings};
 use crate::multirotor::{self, PlanningLimits};
 use crate::roadmap::RoadmapKind;
 
@@ -21,6 +23,8 @@ pub enum Variant {
     Pso,
     /// RHC-FPSO.
     Fpso,
+    /// RHC-FPSO with the paper's update alone.
+    PlainFpso,
     /// RHC-APF: FPSO with a potential field.
     Apf,
 }
@@ -57,11 +61,13 @@ pub fn controller_settings(scenario: &Scenario, vehicle: usize, variant: Variant
         step_s: horizon.step_s.unwrap_or(0.25),
         limits: PlanningLimits::of_vehicle(scenario, vehicle),
         clearance_m: multirotor::clearance_m(scenario, vehicle),
+        violation_weights: violation_weights(&horizon),
         smoothness_weight: if is_default { 1e-2 } else { 0.0 },
-        stage_weight: 1.0,
+        stage_weight: horizon.stage_weight.unwrap_or(1.0),
         starts_warm: is_default,
         projects_controls: is_default,
         requires_stop: is_default,
+        brakes_at_goal: horizon.brakes_at_goal.unwrap_or(variant != Variant::PlainFpso),
         costs_infeasible: horizon.costs_infeasible.unwrap_or(false),
         known_radius_m: known_radius_m(scenario, vehicle),
     }
@@ -77,13 +83,14 @@ fn sampler(horizon: &Horizon, variant: Variant) -> SamplerKind {
     let sampler = match variant {
         Variant::Default => horizon.sampler.unwrap_or(Sampler::Fpso),
         Variant::Pso => Sampler::Pso,
-        Variant::Fpso | Variant::Apf => Sampler::Fpso,
+        Variant::Fpso | Variant::PlainFpso | Variant::Apf => Sampler::Fpso,
     };
-    let moves_as_printed = horizon.moves_as_printed.unwrap_or(false);
     match sampler {
-        Sampler::Pso => SamplerKind::ParticleSwarm(SwarmSettings { moves_as_printed, ..SwarmSettings::STANDARD }),
+        Sampler::Pso => SamplerKind::ParticleSwarm(swarm(horizon, SwarmSettings::STANDARD)),
         Sampler::Fpso => {
-            SamplerKind::ParticleSwarm(SwarmSettings { moves_as_printed, ..SwarmSettings::FEASIBILITY_DRIVEN })
+            let keeps_best = variant != Variant::PlainFpso;
+            let defaults = SwarmSettings { keeps_best, ..SwarmSettings::FEASIBILITY_DRIVEN };
+            SamplerKind::ParticleSwarm(swarm(horizon, defaults))
         }
         Sampler::Cem => SamplerKind::CrossEntropy,
         Sampler::Mppi => SamplerKind::PathIntegral,
@@ -91,15 +98,43 @@ fn sampler(horizon: &Horizon, variant: Variant) -> SamplerKind {
     }
 }
 
+/// The swarm of the scenario, by default that of `defaults`.
+fn swarm(horizon: &Horizon, defaults: SwarmSettings) -> SwarmSettings {
+    let own = horizon.swarm.clone().unwrap_or_default();
+    SwarmSettings {
+        cognitive: own.cognitive.unwrap_or(defaults.cognitive),
+        social: own.social.unwrap_or(defaults.social),
+        inertia: Inertia {
+            first: own.inertia_max.unwrap_or(defaults.inertia.first),
+            last: own.inertia_min.unwrap_or(defaults.inertia.last),
+            ..defaults.inertia
+        },
+        velocity_fraction: own.velocity_fraction.unwrap_or(defaults.velocity_fraction),
+        moves_as_printed: horizon.moves_as_printed.unwrap_or(defaults.moves_as_printed),
+        keeps_best: own.keeps_best.unwrap_or(defaults.keeps_best),
+    }
+}
+
+fn violation_weights(horizon: &Horizon) -> [f64; 3] {
+    let own = horizon.violation_weights.clone().unwrap_or_default();
+    let [distance, speed, acceleration] = VIOLATION_WEIGHTS;
+    [own.distance.unwrap_or(distance), own.speed.unwrap_or(speed), own.acceleration.unwrap_or(acceleration)]
+}
+
 fn cost_model(horizon: &Horizon, variant: Variant) -> CostModel {
     let roadmap = match horizon.cost_map {
         Some(CostMap::Voronoi) => RoadmapKind::Voronoi,
+        Some(CostMap::VoronoiVertices) => RoadmapKind::VoronoiVertices,
         Some(CostMap::Visibility) | None => RoadmapKind::Visibility,
     };
     let field = horizon.field.clone().unwrap_or_default();
     match (variant, field.form) {
         (Variant::Apf, Some(PotentialFieldForm::Alone)) => {
-            CostModel::PotentialField { attraction: field.attraction.unwrap_or(0.1), repulsion: repulsion(&field) }
+            let attraction = Attraction {
+                gain: field.attraction.unwrap_or(0.1),
+                is_along_horizon: field.attraction_along == Some(AttractionAlong::Horizon),
+            };
+            CostModel::PotentialField { attraction, repulsion: repulsion(&field) }
         }
         (Variant::Apf, _) => CostModel::CostMap { roadmap, repulsion: Some(repulsion(&field)) },
         _ => CostModel::CostMap { roadmap, repulsion: None },
@@ -111,5 +146,6 @@ fn repulsion(field: &PotentialField) -> Repulsion {
         gain: field.gain.unwrap_or(0.05),
         reach_m: field.reach_m.unwrap_or(1.0),
         is_squared: field.repulsion != Some(RepulsionForm::Printed),
+        is_by_all: field.repelled_by == Some(RepelledBy::All),
     }
 }

@@ -1,4 +1,4 @@
-use super::{CostToGo, CostToGoQuery, LinkLimits, Roadmap, visibility, voronoi};
+use super::{CostToGo, CostToGoQuery, LinkLimits, Roadmap, visibility, voronoi, voronoi_vertices};
 use crate::free_space::{FreeSpace, Point};
 
 /// How the roadmap is built.
@@ -8,6 +8,8 @@ pub enum RoadmapKind {
     Visibility,
     /// Voronoi graph: longer paths with maximum clearance.
     Voronoi,
+    /// The paper's: a visibility graph over the Voronoi vertices of the obstacles' corners.
+    VoronoiVertices,
 }
 
 /// The cost-to-go over the whole map, the terminal cost of a horizon (eq. 10): a roadmap to one goal that is kept up to
@@ -44,6 +46,9 @@ impl CostMap {
                 visibility::extend(&mut self.roadmap, space, self.known_obstacles, self.clearance_m, altitudes_m);
             }
             RoadmapKind::Voronoi => self.roadmap = voronoi::build(self.goal, space, self.clearance_m, altitudes_m),
+            RoadmapKind::VoronoiVertices => {
+                self.roadmap = voronoi_vertices::build(self.goal, space, self.clearance_m, altitudes_m);
+            }
         }
         self.known_obstacles = space.static_obstacles.len();
         self.roadmap.update_costs();
@@ -72,7 +77,7 @@ impl CostMap {
 
     fn link_limits(&self) -> LinkLimits {
         let preferred_length_m = match self.kind {
-            RoadmapKind::Visibility => f64::INFINITY,
+            RoadmapKind::Visibility | RoadmapKind::VoronoiVertices => f64::INFINITY,
             // a long link to a Voronoi edge may pass close to corners
             RoadmapKind::Voronoi => voronoi::PREFERRED_LINK_M,
         };

@@ -33,7 +33,7 @@ pub fn extend(roadmap: &mut Roadmap, space: &FreeSpace, known: usize, clearance_
 }
 
 /// Adds a node and connects it with all nodes that are visible from it.
-fn add_node(roadmap: &mut Roadmap, node: Point, space: &FreeSpace, clearance_m: f64) {
+pub(super) fn add_node(roadmap: &mut Roadmap, node: Point, space: &FreeSpace, clearance_m: f64) {
     let index = roadmap.add_node(node);
     for other in 0..index {
         if space.is_clear(roadmap.nodes()[other], node, clearance_m) {

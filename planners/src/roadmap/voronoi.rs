@@ -132,7 +132,7 @@ fn sites(space: &FreeSpace, z_m: f64, clearance_m: f64) -> Vec<Site> {
 }
 
 /// Corners of the obstacle's boundary; of a cylinder points on its circle.
-fn boundary(obstacle: &Obstacle) -> Vec<[f64; 2]> {
+pub(super) fn boundary(obstacle: &Obstacle) -> Vec<[f64; 2]> {
     if !obstacle.is_cylinder() {
         return obstacle.edges().iter().map(|edge| edge.corner).collect();
     }

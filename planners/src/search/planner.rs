@@ -3,14 +3,14 @@
 use std::time::Instant;
 
 use scenarios::multirotor::Trajectory;
-use scenarios::{Plan, PlanTimings, Scenario, stream};
+use scenarios::{PathTiming, Plan, PlanTimings, Scenario, stream};
 
 use super::rrt::{self, RrtSettings};
 use super::sparse_astar::{self, SparseAstarSettings};
 use super::{PathProblem, timing};
 use crate::free_space::{FreeSpace, Point, path_length_m};
 use crate::multirotor::reference::nodes_from_motion;
-use crate::multirotor::{self, PlanningLimits};
+use crate::multirotor::{self, PlanningLimits, PointMassMotion};
 use crate::planner::{Planner, PlanningMode, Progress};
 
 /// Sparse A*.
@@ -64,8 +64,7 @@ fn plan(scenario: &Scenario, seed: u64, name: &str, find_path: impl Fn(&PathProb
     };
     let path = find_path(&problem);
     let trajectory = path.as_ref().map(|path| {
-        let corner_deviation_m = CORNER_MARGIN_FRACTION * multirotor::margin_m(scenario);
-        let motion = timing::timed_motion(path, PlanningLimits::of_vehicle(scenario, 0), corner_deviation_m);
+        let motion = motion_along(scenario, path);
         Trajectory::through(&vehicle.name, &nodes_from_motion(&motion, 0.0))
     });
     let timings = PlanTimings { wall_s: begin.elapsed().as_secs_f64(), distributed_s: 0.0 };
@@ -74,6 +73,16 @@ fn plan(scenario: &Scenario, seed: u64, name: &str, find_path: impl Fn(&PathProb
         None => Plan::no_plan(&scenario.name, name, seed, "no path was found from start to goal"),
     };
     Plan { objective: path.map(|path| path_length_m(&path)), timings, ..plan }
+}
+
+fn motion_along(scenario: &Scenario, path: &[Point]) -> PointMassMotion {
+    let limits = PlanningLimits::of_vehicle(scenario, 0);
+    match scenario.planner.search.as_ref().and_then(|search| search.timing).unwrap_or(PathTiming::WithinLimits) {
+        PathTiming::WithinLimits => {
+            timing::timed_motion(path, limits, CORNER_MARGIN_FRACTION * multirotor::margin_m(scenario))
+        }
+        PathTiming::ConstantSpeed => timing::motion_at_constant_speed(path, limits),
+    }
 }
 
 fn sparse_astar_path(problem: &PathProblem) -> Option<Vec<Point>> {

@@ -22,6 +22,9 @@ const STANDSTILL_MPS: f64 = 1e-6;
 /// Cosine from which on two legs count as parallel.
 const COS_PARALLEL: f64 = 1.0 - 1e-12;
 
+/// Duration of a jump of the velocity, s.
+const JUMP_S: f64 = 0.01;
+
 /// Phases of a leg shorter than this are left out, s.
 const MIN_PHASE_S: f64 = 1e-9;
 
@@ -45,6 +48,33 @@ pub fn timed_motion(path: &[Point], limits: PlanningLimits, deviation_m: f64) ->
         if let Some(&next) = directions.get(leg + 1) {
             add_corner_arc(&mut motion, next - along, to_mps, limits);
         }
+    }
+    motion.end_at_rest(path[path.len() - 1]);
+    motion
+}
+
+/// The path as planned: at the largest speed along the legs, from start to goal. The velocity turns at each corner, and
+/// changes from and to rest at the ends, within [`JUMP_S`], half before and half after the corner; the accelerations of these
+/// jumps are far beyond any limit.
+///
+/// # Panics
+///
+/// If the path is empty.
+pub fn motion_at_constant_speed(path: &[Point], limits: PlanningLimits) -> PointMassMotion {
+    let path = &without_straight_corners(path);
+    let speed_mps = limits.speed_mps;
+    let directions: Vec<Point> = path.windows(2).map(|ends| direction(ends[0], ends[1])).collect();
+    let mut motion = PointMassMotion::from(PointMassState::at_rest(path[0]));
+    let jump = |motion: &mut PointMassMotion, change: Point| motion.accelerate(change * (1.0 / JUMP_S), JUMP_S);
+    for (leg, &along) in directions.iter().enumerate() {
+        let previous = leg.checked_sub(1).map_or_else(Point::zeros, |leg| directions[leg]);
+        jump(&mut motion, (along - previous) * speed_mps);
+        // a jump covers v JUMP_S/2 of either leg
+        let length_m = (path[leg] - path[leg + 1]).norm() - speed_mps * JUMP_S;
+        motion.accelerate(Point::zeros(), (length_m / speed_mps).max(MIN_PHASE_S));
+    }
+    if let Some(&along) = directions.last() {
+        jump(&mut motion, along * -speed_mps);
     }
     motion.end_at_rest(path[path.len() - 1]);
     motion

@@ -1,6 +1,6 @@
 //! Derivatives of the slung-load system against central differences.
 
-use super::problem::{CableMode, Gate, InitialCondition, Limits, Phase, Problem};
+use super::problem::{Avoidance, CableMode, Gate, InitialCondition, Limits, Phase, Problem, TorqueModel};
 use super::system::{LENGTH, SlungLoadSystem};
 use crate::pseudospectral::{
     Duration, MultiphaseSystem, NodeDerivatives, NodeWeights, TerminalDerivatives, TerminalValues, TerminalWeights,
@@ -35,7 +35,14 @@ pub fn problems() -> Vec<Problem> {
         phase(CableMode::Taut),
     ];
     let through_gates = Problem { phases, ..paper.clone() };
-    vec![paper, switching, complementary, through_gates]
+    let by_r_function = Problem { avoidance: Avoidance::RFunction, ..complementary.clone() };
+    let parts = Problem {
+        avoidance: Avoidance::Parts,
+        obstacle_altitudes_m: vec![[-0.5, 0.3]],
+        torques: TorqueModel::Generalised,
+        ..complementary.clone()
+    };
+    vec![paper, switching, complementary, through_gates, by_r_function, parts]
 }
 
 pub fn noise(seed: usize, i: usize) -> f64 {

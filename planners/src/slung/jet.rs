@@ -75,6 +75,12 @@ impl<const N: usize> Jet<N> {
         self.chain(r, -r * r, 2.0 * r * r * r)
     }
 
+    /// Absolute value; the derivatives at zero are those of positive values.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self * self.value.signum()
+    }
+
     /// Square.
     #[inline(always)]
     pub fn square(self) -> Self {

@@ -1,22 +1,12 @@
 //! Path constraints, each to be >= 0: the tension or the complementarity of slack and taut (Kang, Huang, Wen 2020, eq.
-//! 2 to 4), the floor, and the clearance of the envelope circle.
-//!
-//! The circle's radius is the largest of r_2, `√2 ρ |cos α sin β|` and `√2 ρ |sin α|` (eq. 19, 20). The paper's
-//! R-functions have kinks; five smooth constraints per obstacle are equivalent, with the signed distance δ from the
-//! obstacle:
-//!
-//! ```text
-//! δ - r' - r_2 >= 0,    δ - r' ± √2 ρ d_x >= 0,    δ - r' ± √2 ρ d_y >= 0
-//! ```
+//! 2 to 4), the floor, and the [clearance from the obstacles](super::obstacle_rows).
 
 use super::cable::CableGeometry;
 use super::jet::Jet;
+use super::obstacle_rows;
 use super::problem::CableMode;
 use super::system::{LENGTH, SlungLoadSystem};
 use crate::pseudospectral::NodeDerivatives;
-
-/// Envelope constraints per obstacle.
-const PER_OBSTACLE: usize = 5;
 
 /// Numbers of constraints on the cable and of constraints on the load's altitude.
 fn counts(system: &SlungLoadSystem, mode: CableMode) -> [usize; 2] {
@@ -30,13 +20,7 @@ fn counts(system: &SlungLoadSystem, mode: CableMode) -> [usize; 2] {
 
 /// Number of path constraints.
 pub fn count(system: &SlungLoadSystem, mode: CableMode) -> usize {
-    counts(system, mode).iter().sum::<usize>() + PER_OBSTACLE * system.problem.obstacles.len()
-}
-
-/// `√2 ρ d_x` and `√2 ρ d_y`, m.
-#[inline(always)]
-fn reaches<const N: usize>(cable: &CableGeometry<N>, length: Jet<N>) -> [Jet<N>; 2] {
-    [cable.direction[0], cable.direction[1]].map(|d| d * length * std::f64::consts::SQRT_2)
+    counts(system, mode).iter().sum::<usize>() + obstacle_rows::count(system)
 }
 
 /// Writes the constraints.
@@ -64,15 +48,7 @@ pub fn evaluate(
     if let (Some(floor_m), 1) = (limits.floor_m, on_floor) {
         constraints[on_cable] = node[2] + length_m * cable.direction[2].value - floor_m;
     }
-    let reaches = reaches(cable, Jet::constant(length_m)).map(|reach| reach.value);
-    let by_obstacle = constraints[on_cable + on_floor..].chunks_exact_mut(PER_OBSTACLE);
-    for (constraints, obstacle) in by_obstacle.zip(&system.problem.obstacles) {
-        let gap_m = obstacle.distance([node[0], node[1]]).value - limits.clearance_m;
-        constraints[0] = gap_m - vehicle.radius_m;
-        for (pair, reach) in constraints[1..].chunks_exact_mut(2).zip(reaches) {
-            (pair[0], pair[1]) = (gap_m - reach, gap_m + reach);
-        }
-    }
+    obstacle_rows::evaluate(system, node, cable, length_m, &mut constraints[on_cable + on_floor..]);
 }
 
 /// Writes the Jacobian and adds the weighted Hessian, except those of the taut cable's tension: see
@@ -96,8 +72,7 @@ pub fn differentiate(
         differentiate_floor(system, mode, height, (on_cable, weights[on_cable]), derivatives);
     }
     let first = on_cable + on_floor;
-    let reaches = reaches(&cable, arguments[2]);
-    differentiate_envelope(system, mode, node, reaches, (first, &weights[first..]), derivatives);
+    obstacle_rows::differentiate(system, mode, node, (&cable, arguments[2]), (first, &weights[first..]), derivatives);
 }
 
 /// Derivatives of `ε - λ (l_0 - ρ)`.
@@ -131,40 +106,4 @@ fn differentiate_floor(
         row[index] = slope;
     }
     height.scatter(derivatives.hessian, width, cable_at, count, weight);
-}
-
-/// Derivatives of the envelope constraints, the first of which is number `first`.
-#[inline(always)]
-fn differentiate_envelope(
-    system: &SlungLoadSystem,
-    mode: CableMode,
-    node: &[f64],
-    reaches: [Jet<3>; 2],
-    (first, weights): (usize, &[f64]),
-    derivatives: &mut NodeDerivatives,
-) {
-    let (width, count, cable_at) = (system.width(), system.cable_count(mode), system.cable_indices());
-    let mut reach_weights = [0.0; 2];
-    let rows = derivatives.path_constraints[first * width..].chunks_exact_mut(PER_OBSTACLE * width);
-    for ((rows, weights), obstacle) in rows.zip(weights.chunks_exact(PER_OBSTACLE)).zip(&system.problem.obstacles) {
-        let distance = obstacle.distance([node[0], node[1]]);
-        for row in rows.chunks_exact_mut(width) {
-            row[..2].copy_from_slice(&distance.gradient);
-        }
-        for (k, reach) in reaches.iter().enumerate() {
-            for (index, slope) in cable_at.into_iter().zip(reach.gradient).take(count) {
-                rows[(1 + 2 * k) * width + index] = -slope;
-                rows[(2 + 2 * k) * width + index] = slope;
-            }
-            reach_weights[k] += weights[2 + 2 * k] - weights[1 + 2 * k];
-        }
-        let weight: f64 = weights.iter().sum();
-        let [xx, xy, yy] = distance.hessian;
-        for (at, value) in [(0, xx), (1, xy), (width, xy), (width + 1, yy)] {
-            derivatives.hessian[at] += weight * value;
-        }
-    }
-    for (reach, weight) in reaches.iter().zip(reach_weights) {
-        reach.scatter(derivatives.hessian, width, cable_at, count, weight);
-    }
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use scenarios::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent, Scenario};
 
-use super::envelope::envelope;
+use super::envelope::{Envelope, envelope};
 use super::optimise::{Candidate, MeshIteration, optimise};
 use super::problem::Problem;
 use super::route::{Route, routes};
@@ -62,18 +62,7 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
 
 /// Switches of the envelope and of the cable, and the alternatives that were not chosen.
 fn diagnostics(problem: &Problem, best: &Candidate, candidates: &[Candidate]) -> PlanDiagnostics {
-    let mut events: Vec<PlannedEvent> = envelope(problem, best)
-        .switches
-        .into_iter()
-        .map(|(at_s, is_load)| {
-            let what = if is_load {
-                "the load swings out of the body's circle"
-            } else {
-                "the load is back inside the body's circle"
-            };
-            PlannedEvent { at_s, what: what.to_owned() }
-        })
-        .collect();
+    let mut events = envelope_events(&envelope(problem, best));
     events.extend(solution::events(problem, best));
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
     let others = candidates.iter().filter(|candidate| !std::ptr::eq(*candidate, best));
@@ -84,6 +73,21 @@ fn diagnostics(problem: &Problem, best: &Candidate, candidates: &[Candidate]) ->
         path_m: solution::path_m(problem, candidate),
     };
     PlanDiagnostics { events, alternatives: others.map(alternative).collect() }
+}
+
+/// Switches of the envelope's radius (Kang, Huang, Wen 2020, eq. 14) and of the bound that the constraints use (eq. 19).
+fn envelope_events(envelope: &Envelope) -> Vec<PlannedEvent> {
+    let exact = ["the load is back inside the body's circle", "the load swings out of the body's circle"];
+    let bound = [
+        "the bound of the load's reach by R-functions is back inside the body's circle",
+        "the bound of the load's reach by R-functions exceeds the body's circle",
+    ];
+    let event = |texts: [&str; 2], &(at_s, is_load): &(f64, bool)| PlannedEvent {
+        at_s,
+        what: texts[usize::from(is_load)].to_owned(),
+    };
+    let exact = envelope.switches.iter().map(|switch| event(exact, switch));
+    exact.chain(envelope.r_function_switches.iter().map(|switch| event(bound, switch))).collect()
 }
 
 /// Name of a route by the sides on which it passes the obstacles: `left of block, right of box`.

@@ -22,6 +22,8 @@ pub struct VehicleParameters {
     pub inertia_kgm2: [f64; 3],
     /// Radius r_2 of the body circle, m.
     pub radius_m: f64,
+    /// Radius of the load's ball, m.
+    pub load_radius_m: f64,
 }
 
 /// Limits of the plan, [minimum, maximum] each.
@@ -110,6 +112,28 @@ impl CableMode {
     pub const COMPLEMENTARITY: Self = Self::Complementarity { epsilon: 1e-6 };
 }
 
+/// What keeps clear of the obstacles, and in which form.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Avoidance {
+    /// The envelope circle of eq. 19 and 20 as five smooth constraints per obstacle.
+    #[default]
+    SmoothEnvelope,
+    /// The same circle by the paper's R-functions, one constraint per obstacle with kinks.
+    RFunction,
+    /// Body, cable and load, one constraint each per obstacle.
+    Parts,
+}
+
+/// Meaning of the torques E u of the rotors (eq. 5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TorqueModel {
+    /// Torques about the body's axes, as on the vehicle.
+    #[default]
+    Body,
+    /// Generalised torques of yaw, pitch and roll: the paper's approximation for small angles.
+    Generalised,
+}
+
 /// Windows that quadrotor and load pass at one instant: [minimum, maximum] by coordinate, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gate {
@@ -154,6 +178,12 @@ pub struct Problem {
     pub obstacles: Vec<Polygon>,
     /// Names of the obstacles.
     pub obstacle_names: Vec<String>,
+    /// Lowest and highest altitude of the obstacles, m; only the separate parts of [`Avoidance::Parts`] use them.
+    pub obstacle_altitudes_m: Vec<[f64; 2]>,
+    /// What keeps clear of the obstacles, and in which form.
+    pub avoidance: Avoidance,
+    /// Meaning of the rotors' torques.
+    pub torques: TorqueModel,
     /// Initial state, at rest.
     pub start: InitialCondition,
     /// Goal position of the quadrotor, at rest with the load hanging straight down, m.
@@ -175,6 +205,7 @@ impl Problem {
                 yaw_m: 1.0,
                 inertia_kgm2: [0.01768, 0.01764, 0.026432],
                 radius_m: 0.225 + 0.127,
+                load_radius_m: 0.03,
             },
             limits: Limits {
                 thrust_n: [1.0, 5.0],
@@ -188,6 +219,9 @@ impl Problem {
             weights: Weights::effort(),
             obstacles: vec![Polygon::rectangle([0.0, 0.0], [3.0, 2.0], -half)],
             obstacle_names: vec!["block".to_owned()],
+            obstacle_altitudes_m: vec![[f64::NEG_INFINITY, f64::INFINITY]],
+            avoidance: Avoidance::SmoothEnvelope,
+            torques: TorqueModel::Body,
             start: InitialCondition { position_m: [-2.0, 0.0, 1.3], cable: [0.0, 0.0, 0.65] },
             goal_m: [2.0, 0.0, 1.5],
             phases: vec![Phase {
@@ -197,6 +231,11 @@ impl Problem {
                 gate: None,
             }],
         }
+    }
+
+    /// Lowest and highest altitude of an obstacle, m; unbounded if none is given.
+    pub fn altitudes_m(&self, obstacle: usize) -> [f64; 2] {
+        self.obstacle_altitudes_m.get(obstacle).copied().unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
     }
 
     /// Thrust of each rotor in hover with the load, N.

@@ -1,11 +1,13 @@
 //! Translation of a scenario to a [`Problem`] and its [`Options`].
 
 use scenarios::slung_load::{Cable, Limits as ScenarioLimits, Model, State};
-use scenarios::{Collocation, Family, Formulation, GRAVITY_MPS2, Objective, Range, Scenario, Shape, Window};
+use scenarios::{Collocation, Family, Formulation, GRAVITY_MPS2, Objective, Range, Scenario, Shape, Torques, Window};
 
 use super::optimise::Options;
 use super::polygon::Polygon;
-use super::problem::{CableMode, Gate, InitialCondition, Limits, Phase, Problem, VehicleParameters, Weights};
+use super::problem::{
+    Avoidance, CableMode, Gate, InitialCondition, Limits, Phase, Problem, TorqueModel, VehicleParameters, Weights,
+};
 use crate::planner::ignored_geofence;
 use crate::pseudospectral::{Duration, Tolerances};
 
@@ -35,6 +37,9 @@ const MIN_FALL_S: f64 = 0.1;
 /// Maximum duration of a phase of a minimum-time problem, as a multiple of the guessed flight time.
 const MAX_TIME_RATIO: f64 = 4.0;
 
+/// An interval without ends.
+const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 /// Why this planner cannot handle a scenario; none if it can.
 pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let [vehicle] = scenario.vehicles.as_slice() else {
@@ -51,8 +56,6 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let start = initial_condition(scenario);
     let reason = if !scenario.world.cylinders.is_empty() {
         "it avoids obstacles with flat faces only, not cylinders"
-    } else if settings.shape == Some(Shape::Parts) {
-        "it keeps the envelope circle clear, not body, cable and load separately"
     } else if vehicle.start.speed_mps != 0.0 || vehicle.goal.speed_mps != 0.0 {
         "it plans from rest to rest"
     } else if vehicle.goal.load.is_some() {
@@ -83,6 +86,7 @@ pub fn problem(scenario: &Scenario) -> Problem {
     let model = scenario.slung_load_model(vehicle);
     let settings = scenario.planner.collocation.clone().unwrap_or_default();
     let world = &scenario.world;
+    let prisms = world.prism_obstacles();
     Problem {
         vehicle: vehicle_parameters(model),
         limits: Limits {
@@ -95,8 +99,18 @@ pub fn problem(scenario: &Scenario) -> Problem {
             Objective::Effort => Weights::effort(),
             Objective::Time => Weights::time(),
         },
-        obstacle_names: world.prism_obstacles().into_iter().map(|prism| prism.name).collect(),
-        obstacles: world.prism_obstacles().into_iter().map(|prism| Polygon::new(prism.corners_m)).collect(),
+        obstacle_names: prisms.iter().map(|prism| prism.name.clone()).collect(),
+        obstacle_altitudes_m: prisms.iter().map(|prism| prism.z_m.map_or(UNBOUNDED, interval)).collect(),
+        obstacles: prisms.into_iter().map(|prism| Polygon::new(prism.corners_m)).collect(),
+        avoidance: match settings.shape.unwrap_or(Shape::Envelope) {
+            Shape::Envelope => Avoidance::SmoothEnvelope,
+            Shape::RFunction => Avoidance::RFunction,
+            Shape::Parts => Avoidance::Parts,
+        },
+        torques: match settings.torques.unwrap_or(Torques::Body) {
+            Torques::Body => TorqueModel::Body,
+            Torques::Generalised => TorqueModel::Generalised,
+        },
         start: initial_condition(scenario),
         goal_m: vehicle.goal.position_m(),
         phases: phases(scenario, &settings),
@@ -134,6 +148,7 @@ fn vehicle_parameters(model: &Model) -> VehicleParameters {
         yaw_m: model.torque_per_thrust_m,
         inertia_kgm2: model.inertia_kgm2,
         radius_m: model.body_radius_m(),
+        load_radius_m: model.load_radius_m,
     }
 }
 

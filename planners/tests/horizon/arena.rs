@@ -3,7 +3,7 @@
 use planners::free_space::{FreeSpace, Obstacle, Point};
 use planners::horizon::controller::{ControllerSettings, CostModel, Decision, RecedingHorizonController, Replan};
 use planners::horizon::optimiser::Budget;
-use planners::horizon::problem::ControlGrid;
+use planners::horizon::problem::{ControlGrid, VIOLATION_WEIGHTS};
 use planners::horizon::sampler::{SamplerKind, SwarmSettings};
 use planners::multirotor::{PlanningLimits, PointMassMotion, PointMassState};
 use planners::roadmap::RoadmapKind;
@@ -90,7 +90,9 @@ pub fn default_settings(sampler: SamplerKind, roadmap: RoadmapKind, axes: usize)
         limits: LIMITS,
         clearance_m: 0.4,
         smoothness_weight: 1e-2,
+        violation_weights: VIOLATION_WEIGHTS,
         stage_weight: 1.0,
+        brakes_at_goal: true,
         starts_warm: true,
         projects_controls: true,
         requires_stop: true,

@@ -25,7 +25,7 @@ fn rhc_arrives_through_the_trap() {
 
 #[test]
 fn paper_planners_arrive_through_the_trap() {
-    let field = Repulsion { gain: 0.05, reach_m: 1.0, is_squared: true };
+    let field = Repulsion { gain: 0.05, reach_m: 1.0, is_squared: true, is_by_all: false };
     let visibility = CostModel::CostMap { roadmap: RoadmapKind::Visibility, repulsion: None };
     let voronoi = CostModel::CostMap { roadmap: RoadmapKind::Voronoi, repulsion: Some(field) };
     for cost_model in [visibility, voronoi] {

@@ -1,10 +1,12 @@
-use planners::free_space::{FreeSpace, Point, interpolate, path_length_m};
+use planners::free_space::{FreeSpace, Obstacle, Point, interpolate, path_length_m};
 use planners::roadmap::{CostMap, RoadmapKind};
 use rand::RngExt;
 
 use crate::arena::{Arena, random, trap};
 
 const CLEARANCE_M: f64 = 0.4;
+
+const KINDS: [RoadmapKind; 3] = [RoadmapKind::Visibility, RoadmapKind::Voronoi, RoadmapKind::VoronoiVertices];
 
 fn map(arena: &Arena, kind: RoadmapKind) -> CostMap {
     let mut map = CostMap::new(kind, arena.goal, CLEARANCE_M, arena.node_altitudes_m.clone());
@@ -36,7 +38,7 @@ fn bellman_ford(nodes: &[Point], edges: &[[Point; 2]]) -> Vec<f64> {
 #[test]
 fn costs_agree_with_bellman_ford() {
     for arena in [random(1, false), trap()] {
-        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+        for kind in KINDS {
             let map = map(&arena, kind);
             let roadmap = map.roadmap();
             let expected = bellman_ford(roadmap.nodes(), &roadmap.edges().collect::<Vec<_>>());
@@ -50,7 +52,7 @@ fn costs_agree_with_bellman_ford() {
 #[test]
 fn every_edge_keeps_the_clearance() {
     for arena in arenas() {
-        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+        for kind in KINDS {
             let map = map(&arena, kind);
             assert!(map.roadmap().nodes().len() > 4);
             for [from, to] in map.roadmap().edges() {
@@ -82,7 +84,7 @@ fn an_extended_map_equals_the_map_built_at_once() {
 #[test]
 fn cost_to_go_is_the_best_over_all_nodes() {
     for arena in arenas() {
-        for kind in [RoadmapKind::Visibility, RoadmapKind::Voronoi] {
+        for kind in KINDS {
             let map = map(&arena, kind);
             let (roadmap, space) = (map.roadmap(), &arena.space);
             let query = map.query_near(arena.start, space);
@@ -129,4 +131,25 @@ fn visibility_is_short_and_voronoi_is_clear() {
         (short.0 - map(&arena, RoadmapKind::Visibility).cost_to_go(arena.start, &arena.space).unwrap().length_m).abs()
             < 1e-9
     );
+}
+
+/// Theorem 1 of the paper, with the goal as one more node; and the corners of square rooms are known exactly.
+#[test]
+fn voronoi_vertices_are_linear_in_the_corners_and_equidistant_from_them() {
+    for arena in [random(1, false), random(4, false), trap()] {
+        let corners: usize = arena.space.static_obstacles.iter().map(|obstacle| obstacle.edges().len()).sum();
+        let map = map(&arena, RoadmapKind::VoronoiVertices);
+        assert!(map.roadmap().nodes().len() <= 1 + 2 * (corners + 4) - 5);
+    }
+    let z_m = 1.0;
+    let block = |x: f64| {
+        Obstacle::prism(&[[x, -1.0], [x + 1.0, -1.0], [x + 1.0, 1.0], [x, 1.0]], [f64::NEG_INFINITY, f64::INFINITY])
+    };
+    let mut space = FreeSpace::empty([[-10.0, 10.0], [-10.0, 10.0], [0.0, 2.0]]);
+    space.static_obstacles = vec![block(-3.0), block(2.0)];
+    let mut map = CostMap::new(RoadmapKind::VoronoiVertices, Point::new(0.0, 8.0, z_m), CLEARANCE_M, vec![z_m]);
+    map.update(&space);
+    // the middle of the gap is as far from the four corners that face it
+    let middle = Point::new(0.0, 0.0, z_m);
+    assert!(map.roadmap().nodes().iter().any(|node| (node - middle).norm() < 1e-9), "{:?}", map.roadmap().nodes());
 }

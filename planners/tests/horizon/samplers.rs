@@ -3,12 +3,16 @@ use planners::horizon::counter_rng::CounterRng;
 use planners::horizon::evaluate::SimdLevel;
 use planners::horizon::optimiser::{Budget, Solution, optimise};
 use planners::horizon::particle_batch::Fitness;
-use planners::horizon::problem::{ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion};
+use planners::horizon::problem::{
+    Attraction, ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion, VIOLATION_WEIGHTS,
+};
 use planners::horizon::sampler::{SamplerKind, SwarmSettings};
 use planners::multirotor::PointMassState;
 use planners::roadmap::{CostMap, RoadmapKind};
 
 use crate::arena::{Arena, LIMITS, random, swarm, trap};
+
+const ATTRACTION: Attraction = Attraction { gain: 0.1, is_along_horizon: false };
 
 const SAMPLERS: [(&str, SamplerKind); 5] = [
     ("pso", SamplerKind::ParticleSwarm(SwarmSettings::STANDARD)),
@@ -36,6 +40,7 @@ fn problem<'a>(arena: &'a Arena, cost: Cost<'a>, options: EvaluationOptions) -> 
         clearance_m: 0.4,
         cost,
         smoothness_weight: 1e-3,
+        violation_weights: VIOLATION_WEIGHTS,
         stage_weight: 0.1,
         costs_final_speed: false,
         options,
@@ -95,8 +100,8 @@ fn projected_controls_keep_the_norm_bounds() {
 #[test]
 fn particles_beyond_the_norm_bounds_are_infeasible() {
     let arena = trap();
-    let field = Repulsion { gain: 0.1, reach_m: 1.0, is_squared: true };
-    let cost = Cost::PotentialField { attraction: 0.1, repulsion: field };
+    let field = Repulsion { gain: 0.1, reach_m: 1.0, is_squared: true, is_by_all: false };
+    let cost = Cost::PotentialField { attraction: ATTRACTION, repulsion: field };
     let options = EvaluationOptions { projects_controls: false, stop_after_step: None, costs_infeasible: false };
     let problem = problem(&arena, cost, options);
     let budget = Budget { particles: 4, max_iterations: 1, stall_iterations: None };
@@ -122,9 +127,65 @@ fn feasible_beats_infeasible_and_nan_is_worst() {
 #[test]
 fn a_stalled_search_ends() {
     let arena = trap();
-    let field = Repulsion { gain: 0.1, reach_m: 1.0, is_squared: false };
-    let problem = problem(&arena, Cost::PotentialField { attraction: 0.1, repulsion: field }, OPTIONS);
+    let field = Repulsion { gain: 0.1, reach_m: 1.0, is_squared: false, is_by_all: false };
+    let problem = problem(&arena, Cost::PotentialField { attraction: ATTRACTION, repulsion: field }, OPTIONS);
     let budget = Budget { particles: 40, max_iterations: 2000, stall_iterations: Some(10) };
     let found = optimise(&problem, swarm(true), budget, &[], CounterRng::new(3), SimdLevel::detect());
     assert!(found.iterations < 1000 && found.fitness.is_feasible());
+}
+
+/// The cost of one given particle.
+fn cost_of(arena: &Arena, cost: Cost<'_>, controls: &[f64]) -> f64 {
+    let problem = problem(arena, cost, OPTIONS);
+    let budget = Budget { particles: 4, max_iterations: 1, stall_iterations: None };
+    let seeds = vec![controls.to_vec(); 4];
+    let found = optimise(&problem, swarm(false), budget, &seeds, CounterRng::new(1), SimdLevel::detect());
+    assert!(found.fitness.is_feasible());
+    found.fitness.cost
+}
+
+/// All obstacles within range repel at least as much as the nearest of them; with a short range nothing else is within it.
+#[test]
+fn repulsion_by_all_obstacles_is_at_least_that_of_the_nearest() {
+    let arena = trap();
+    let still = vec![0.0; 24];
+    let cost = |reach_m: f64, is_by_all: bool| {
+        let repulsion = Repulsion { gain: 5.0, reach_m, is_squared: true, is_by_all };
+        cost_of(&arena, Cost::PotentialField { attraction: ATTRACTION, repulsion }, &still)
+    };
+    assert!(cost(30.0, true) > cost(30.0, false) + 1e-3);
+    assert_eq!(cost(1e-3, true).to_bits(), cost(1e-3, false).to_bits());
+}
+
+/// Along the horizon of a vehicle that flies towards the goal, the attraction is larger than at its end.
+#[test]
+fn attraction_along_the_horizon_is_the_mean_over_the_steps() {
+    let arena = trap();
+    let repulsion = Repulsion { gain: 0.0, reach_m: 1.0, is_squared: true, is_by_all: false };
+    let towards: Vec<f64> = (arena.goal - arena.start).normalize().as_slice()[..2].repeat(12);
+    let cost = |is_along_horizon: bool| {
+        let attraction = Attraction { is_along_horizon, ..ATTRACTION };
+        cost_of(&arena, Cost::PotentialField { attraction, repulsion }, &towards)
+    };
+    assert!(cost(true) > cost(false));
+}
+
+/// The history ends with the cost of the result and never increases; without the best particle put back the swarm
+/// searches differently.
+#[test]
+fn convergence_is_monotonic_with_and_without_the_best_particle_put_back() {
+    let arena = trap();
+    let field = Repulsion { gain: 0.1, reach_m: 1.0, is_squared: true, is_by_all: false };
+    let problem = problem(&arena, Cost::PotentialField { attraction: ATTRACTION, repulsion: field }, OPTIONS);
+    let budget = Budget { particles: 40, max_iterations: 30, stall_iterations: None };
+    let costs = [true, false].map(|keeps_best| {
+        let sampler = SamplerKind::ParticleSwarm(SwarmSettings { keeps_best, ..SwarmSettings::STANDARD });
+        let found = optimise(&problem, sampler, budget, &[], CounterRng::new(3), SimdLevel::detect());
+        assert_eq!(found.convergence.len(), 30);
+        let history: Vec<f64> = found.convergence.iter().map(|cost| cost.unwrap_or(f64::INFINITY)).collect();
+        assert!(history.windows(2).all(|pair| pair[1] <= pair[0]));
+        assert_eq!(history[29], found.fitness.cost);
+        found.fitness.cost
+    });
+    assert_ne!(costs[0], costs[1]);
 }

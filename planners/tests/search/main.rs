@@ -115,3 +115,27 @@ fn a_straight_path_has_a_trapezoidal_speed_profile() {
     // 1 s of acceleration and of braking over 1.5 m each, 6 m at 3 m/s
     assert!((motion.last().0 - 4.0).abs() < 1e-9);
 }
+
+/// Flown as planned: the largest speed on every leg, the length of the path over that speed in time, and accelerations that
+/// no vehicle has.
+#[test]
+fn a_path_flown_as_planned_ignores_the_acceleration_limit() {
+    let problem = problem(trap(), 2);
+    let path = sparse_astar::search(&problem, &ASTAR).unwrap().path;
+    let motion = timing::motion_at_constant_speed(&path, LIMITS);
+    let (end_s, end) = *motion.last();
+    assert!((end_s - path_length_m(&path) / LIMITS.speed_mps).abs() < 0.1);
+    assert!((end.position - problem.goal).norm() < 1e-9 && end.velocity.norm() == 0.0);
+    let accelerations = motion.knots().windows(2).map(|ends| {
+        let [(from_s, from), (to_s, to)] = [ends[0], ends[1]];
+        (to.velocity - from.velocity).norm() / (to_s - from_s)
+    });
+    assert!(accelerations.fold(0.0, f64::max) > 50.0 * LIMITS.acceleration_mps2);
+    let speeds = motion.knots().iter().map(|(_, state)| state.velocity.norm());
+    assert!(speeds.fold(0.0, f64::max) <= LIMITS.speed_mps + 1e-9);
+    let continuous = |ends: &[(f64, planners::multirotor::PointMassState)]| {
+        let mean = 0.5 * (ends[0].1.velocity + ends[1].1.velocity);
+        (ends[0].1.position + mean * (ends[1].0 - ends[0].0) - ends[1].1.position).norm() < 1e-6
+    };
+    assert!(motion.knots().windows(2).all(continuous));
+}

@@ -36,6 +36,9 @@ pub struct Collocation {
     /// Shape that avoids the obstacles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
+    /// Meaning of the torques of the rotors in the planner's model. Absent: body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torques: Option<Torques>,
 }
 
 /// Objective of an optimiser.
@@ -63,8 +66,21 @@ pub enum Formulation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
-    /// The envelope circle: radius of the body or horizontal reach of the load, whichever is larger, at every altitude.
+    /// The envelope circle (Kang, Huang, Wen 2020, eq. 19, 20), which holds the circle of the body and the horizontal reach of
+    /// the load, at every altitude; as smooth constraints.
     Envelope,
-    /// Body, cable and load separately.
+    /// The same circle by the paper's R-functions, with their kinks.
+    RFunction,
+    /// Body (as the ball around the rotors), cable and load separately, within the altitudes of the obstacles.
     Parts,
+}
+
+/// Meaning of the torques of the rotors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Torques {
+    /// About the body's axes, as on the vehicle.
+    Body,
+    /// Generalised torques of yaw, pitch and roll (Kang, Huang, Wen 2020, eq. 5): for small angles, the same.
+    Generalised,
 }

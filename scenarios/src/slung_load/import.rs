@@ -1,18 +1,20 @@
 //! The family's plan columns, and what a table of them becomes.
 
+use super::trajectory::DERIVED_FROM;
 use super::{AT_NODE, CSV_COLUMNS, Cable, Control, State, Trajectory};
 use crate::plan_input::columns::{Columns, without_vehicle_and_time};
 use crate::plan_input::{ColumnTable, ImportedTrajectory};
 use crate::{Family, Interpolation};
 
-/// State, control and cable, all required: nothing is reconstructed. Without the column `at_node` every row is a node.
+/// State, control and cable, all required: nothing is reconstructed. Without the column `at_node` every row is a node. The
+/// columns after it follow from the others, and are not used.
 pub(super) const COLUMNS: Columns = Columns {
     family: Family::SlungLoad,
     written: &CSV_COLUMNS,
     required: without_vehicle_and_time(CSV_COLUMNS.split_at(25).0),
     velocity: &[],
     controls: &[],
-    optional: &[AT_NODE],
+    optional: CSV_COLUMNS.split_at(DERIVED_FROM - 1).1,
     converted: &[],
     words: &[("cable", &["slack", "taut"]), (AT_NODE, &["no", "yes"])],
     arrays: &[

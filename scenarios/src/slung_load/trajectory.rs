@@ -5,8 +5,8 @@ use crate::{Family, Interpolation, TrajectoryNodes};
 
 /// Columns of a written slung-load plan: time, state, control and cable, one row per vehicle and node. World frame, SI,
 /// radians. `cable` is `taut` or `slack` from this node to the next; `at_node` is `yes` where the planner imposed its
-/// constraints, `no` at samples between.
-pub const CSV_COLUMNS: [&str; 26] = [
+/// constraints, `no` at samples between. The last six columns follow from the others.
+pub const CSV_COLUMNS: [&str; 32] = [
     "vehicle",
     "t_s",
     "x_m",
@@ -33,7 +33,17 @@ pub const CSV_COLUMNS: [&str; 26] = [
     "thrust_4_n",
     "cable",
     AT_NODE,
+    "yaw_rate_radps",
+    "pitch_rate_radps",
+    "roll_rate_radps",
+    "alpha_rad",
+    "beta_rad",
+    "rho_m",
 ];
+
+/// The first of the columns that follow from the others: Euler rates, and the cable in polar coordinates. They are written
+/// for those who compare with Kang, Huang, Wen (2020), and not read.
+pub(super) const DERIVED_FROM: usize = 26;
 
 /// The column that tells nodes of the planner from samples.
 pub const AT_NODE: &str = "at_node";
@@ -112,7 +122,10 @@ impl TrajectoryNodes for Trajectory {
         };
         let is_node = self.planner_nodes.is_empty() || self.planner_nodes.contains(&node);
         let words = [cable, if is_node { "yes" } else { "no" }].map(str::to_owned);
-        numbers.map(|number| format!("{number:?}")).chain(words).collect()
+        let state = &self.states[node];
+        let derived = state.euler_rates_radps().into_iter().chain(state.polar_cable());
+        let cell = |number: f64| format!("{number:?}");
+        numbers.map(cell).chain(words).chain(derived.map(cell)).collect()
     }
 }
 

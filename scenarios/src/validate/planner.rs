@@ -4,7 +4,7 @@ use super::identifier::entity_name;
 use super::quantity::{above_up_to, not_negative, positive, positive_if_given};
 use crate::{
     Collocation, Convergence, Coordination, Formulation, Horizon, Issue, Objective, PlannerSettings, Scenario, Solver,
-    SolverStart, TrustRegion,
+    SolverStart, Swarm, TrustRegion,
 };
 
 /// Allowed number of intervals between the nodes.
@@ -19,6 +19,10 @@ const PHASES: std::ops::RangeInclusive<usize> = 1..=10;
 const STEPS: std::ops::RangeInclusive<usize> = 1..=100;
 const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
 const ITERATIONS: std::ops::RangeInclusive<usize> = 1..=10_000;
+
+/// Default inertia weights of a swarm.
+const MAX_INERTIA: f64 = 0.9;
+const MIN_INERTIA: f64 = 0.4;
 
 /// A prescribed flight time that the simulation does not allow.
 pub(super) fn flight_time(scenario: &Scenario) -> Option<Issue> {
@@ -173,7 +177,38 @@ fn horizon(options: &Horizon) -> Vec<Issue> {
         field.gain.and_then(|value| not_negative("planner.horizon.field.gain", value)),
         positive_if_given("planner.horizon.field.reach_m", field.reach_m),
     ];
-    out_of_range("horizon", counts).into_iter().chain(quantities.into_iter().flatten()).collect()
+    let weights = options.violation_weights.clone().unwrap_or_default();
+    let not_negative_if_given = |key: &str, value: Option<f64>| value.and_then(|value| not_negative(key, value));
+    let weights = [
+        not_negative_if_given("planner.horizon.stage_weight", options.stage_weight),
+        positive_if_given("planner.horizon.violation_weights.distance", weights.distance),
+        positive_if_given("planner.horizon.violation_weights.speed", weights.speed),
+        positive_if_given("planner.horizon.violation_weights.acceleration", weights.acceleration),
+    ];
+    let quantities = quantities.into_iter().chain(weights).flatten();
+    let swarm = options.swarm.iter().flat_map(swarm);
+    out_of_range("horizon", counts).into_iter().chain(quantities).chain(swarm).collect()
+}
+
+fn swarm(options: &Swarm) -> Vec<Issue> {
+    let fraction = |key: &str, value: Option<f64>| value.and_then(|value| above_up_to(key, value, 0.0, 1.0));
+    let not_negative_if_given = |key: &str, value: Option<f64>| value.and_then(|value| not_negative(key, value));
+    let crossed = match (options.inertia_max.unwrap_or(MAX_INERTIA), options.inertia_min.unwrap_or(MIN_INERTIA)) {
+        (max, min) if max < min => {
+            let expected = format!("{max}, inertia_max, or less");
+            Some(Issue::new("planner.horizon.swarm.inertia_min", min.to_string(), expected))
+        }
+        _ => None,
+    };
+    let issues = [
+        not_negative_if_given("planner.horizon.swarm.cognitive", options.cognitive),
+        not_negative_if_given("planner.horizon.swarm.social", options.social),
+        not_negative_if_given("planner.horizon.swarm.inertia_max", options.inertia_max),
+        not_negative_if_given("planner.horizon.swarm.inertia_min", options.inertia_min),
+        fraction("planner.horizon.swarm.velocity_fraction", options.velocity_fraction),
+        crossed,
+    ];
+    issues.into_iter().flatten().collect()
 }
 
 /// One issue for every count in `planner.TABLE` outside its range.

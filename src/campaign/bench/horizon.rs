@@ -72,6 +72,8 @@ pub struct Row {
 pub struct InLoop {
     /// Time per replan: mean over all flights, smallest and largest mean of a flight, s.
     pub replan_s: [f64; 3],
+    /// Shortest and longest single replan of all flights, s.
+    pub single_replan_s: [f64; 2],
     /// Iterations per replan.
     pub iterations: f64,
     /// First iteration with a feasible particle, from 0.
@@ -176,6 +178,10 @@ fn in_loop_figures(flown: &[CaseFlight]) -> Option<InLoop> {
             mean(replans().map(|replan| replan.wall_s))?,
             of_flights().fold(f64::INFINITY, f64::min),
             of_flights().fold(0.0, f64::max),
+        ],
+        single_replan_s: [
+            replans().map(|replan| replan.wall_s).fold(f64::INFINITY, f64::min),
+            replans().map(|replan| replan.wall_s).fold(0.0, f64::max),
         ],
         iterations: mean(replans().map(|replan| replan.diagnostics.iterations as f64))?,
         first_feasible: mean(

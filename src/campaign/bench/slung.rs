@@ -5,7 +5,7 @@ mod show;
 
 use std::time::Instant;
 
-use planners::slung::{self, CableMode, Candidate, Options, Problem, Route};
+use planners::slung::{self, Avoidance, CableMode, Candidate, Options, Problem, Route, TorqueModel};
 use rayon::prelude::*;
 use scenarios::Scenario;
 use serde::Serialize;
@@ -53,7 +53,8 @@ pub struct Results {
 pub struct Row {
     /// `20 x 3`, or `refined`.
     pub mesh: String,
-    /// `taut`, with the tension in closed form, or `complementarity`.
+    /// `taut`, with the tension in closed form, `complementarity`, or `taut` with one change: `r-function`, `parts`,
+    /// `generalised torques`.
     pub formulation: &'static str,
     /// Time to solve all routes in parallel, ms.
     pub all_ways_ms: f64,
@@ -85,6 +86,10 @@ pub struct RouteResult {
     pub error_between_nodes: f64,
     /// Smallest distance between the envelope circle and the obstacles, between the nodes as well, m.
     pub clearance_m: f64,
+    /// Instants at which the radius of the envelope circle switches, s (Kang, Huang, Wen 2020, eq. 14).
+    pub switches_s: Vec<f64>,
+    /// Instants at which its bound by R-functions switches, s (eq. 19).
+    pub r_function_switches_s: Vec<f64>,
 }
 
 /// Runs the benchmark.
@@ -99,7 +104,7 @@ pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> 
     });
     let meshes: Vec<(String, Options)> = fixed.chain([("refined".to_owned(), usual.clone())]).collect();
     let mut rows = Vec::new();
-    for (formulation, problem) in [("taut", problem.clone()), ("complementarity", free_tension(&problem))] {
+    for (formulation, problem) in formulations(&problem) {
         for (mesh, options) in &meshes {
             progress(&format!("measuring {mesh}, {formulation}"));
             rows.push(row(&problem, options, (mesh, formulation), plan.repetitions));
@@ -107,6 +112,18 @@ pub fn run(scenario: &Scenario, plan: &Plan, progress: &mut dyn FnMut(&str)) -> 
     }
     let (scenario, repetitions) = (scenario.name.clone(), plan.repetitions);
     Results { schema: 1, scenario, repetitions, threads: rayon::current_num_threads(), rows }
+}
+
+/// The problem in every formulation.
+fn formulations(problem: &Problem) -> [(&'static str, Problem); 5] {
+    let avoiding = |avoidance| Problem { avoidance, ..problem.clone() };
+    [
+        ("taut", problem.clone()),
+        ("complementarity", free_tension(problem)),
+        ("r-function", avoiding(Avoidance::RFunction)),
+        ("parts", avoiding(Avoidance::Parts)),
+        ("generalised torques", Problem { torques: TorqueModel::Generalised, ..problem.clone() }),
+    ]
 }
 
 /// The same problem with the tension as a control in all phases.
@@ -133,6 +150,8 @@ fn row(problem: &Problem, options: &Options, (mesh, formulation): (&str, &'stati
 fn route_result(problem: &Problem, route: &Route, options: &Options, repetitions: usize) -> RouteResult {
     let (candidate, time_ms) = fastest(repetitions, || slung::optimise(problem, route, options));
     let last = candidate.last();
+    let envelope = slung::envelope(problem, &candidate);
+    let instants = |switches: &[(f64, bool)]| switches.iter().map(|(at_s, _)| *at_s).collect();
     RouteResult {
         name: slung::route_name(route, problem),
         is_solved: candidate.is_solved() && candidate.is_refined,
@@ -143,7 +162,9 @@ fn route_result(problem: &Problem, route: &Route, options: &Options, repetitions
         time_ms,
         objective: last.objective,
         error_between_nodes: last.quality.error,
-        clearance_m: slung::envelope(problem, &candidate).clearance_m,
+        clearance_m: envelope.clearance_m,
+        switches_s: instants(&envelope.switches),
+        r_function_switches_s: instants(&envelope.r_function_switches),
     }
 }
 

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use planners::Planner;
-use scenarios::{CostMap, Horizon, Iteration, Plan, Scenario};
+use scenarios::slung_load::State;
+use scenarios::{CostMap, Horizon, Iteration, PathTiming, Plan, Scenario, Search};
 use sim::Flight;
 
 use super::chart::{Chart, Curve};
@@ -38,10 +39,34 @@ pub struct FlightFigures {
     pub scenario: &'static str,
     /// Planner.
     pub planner: &'static str,
-    /// Cost map, in place of the scenario's.
-    pub cost_map: Option<CostMap>,
+    /// An option of the planner, in place of the scenario's.
+    pub change: Change,
     /// What to draw.
     pub views: &'static [View],
+}
+
+/// An option of a planner, in place of the scenario's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// None.
+    Nothing,
+    /// The cost map.
+    CostMap(CostMap),
+    /// How a path becomes a motion.
+    Timing(PathTiming),
+}
+
+impl Change {
+    fn apply(self, scenario: &mut Scenario) {
+        match self {
+            Self::Nothing => {}
+            Self::CostMap(cost_map) => {
+                let own = scenario.planner.horizon.take().unwrap_or_default();
+                scenario.planner.horizon = Some(Horizon { cost_map: Some(cost_map), ..own });
+            }
+            Self::Timing(timing) => scenario.planner.search = Some(Search { timing: Some(timing) }),
+        }
+    }
 }
 
 /// What is drawn of a flight.
@@ -59,6 +84,8 @@ pub enum View {
     Convergence,
     /// The smallest separation at the nodes over the planner's iterations.
     Spacing,
+    /// Radius of the envelope circle over time, and what it is switched between.
+    EnvelopeRadius,
 }
 
 impl FlightFigures {
@@ -80,7 +107,7 @@ impl FlightFigures {
             paper: self.paper,
             name: format!("{}-{}", self.name, view.name()),
             caption: format!("{}: `{}` on {}; {}", view.caption(), self.planner, flown.scenario.name, flown.outcome()),
-            svg: view.chart(&scene, &flown.plan).svg().unwrap_or_default(),
+            svg: view.chart(&flown.scenario, &scene, &flown.plan).svg().unwrap_or_default(),
         };
         Ok(self.views.iter().map(figure).collect())
     }
@@ -112,10 +139,7 @@ fn fly(figures: &FlightFigures, folder: &Path, is_quick: bool) -> Result<FlownPl
     if is_quick {
         scenario.vehicles.truncate(QUICK_FLEET);
     }
-    if let Some(cost_map) = figures.cost_map {
-        let own = scenario.planner.horizon.take().unwrap_or_default();
-        scenario.planner.horizon = Some(Horizon { cost_map: Some(cost_map), ..own });
-    }
+    figures.change.apply(&mut scenario);
     let source = PlanSource::Registered(registered(figures.planner));
     let flown = source.fly(&scenario, scenario.simulation.seed);
     let verdict = flown.judge(&scenario);
@@ -134,6 +158,7 @@ impl View {
             Self::Series(name, _, _) => name,
             Self::Convergence => "convergence",
             Self::Spacing => "spacing",
+            Self::EnvelopeRadius => "envelope",
         }
     }
 
@@ -145,10 +170,14 @@ impl View {
             Self::Series(_, _, caption) => caption,
             Self::Convergence => "Change, defect and trust region over the planner's iterations, log10 of m",
             Self::Spacing => "Smallest separation at the nodes over the planner's iterations",
+            Self::EnvelopeRadius => {
+                "Planned reach of the load by eq. 14 and bounded by eq. 19; the larger of it and the body's radius is the \
+                 envelope's"
+            }
         }
     }
 
-    fn chart(self, scene: &Scene<'_>, plan: &Plan) -> Chart {
+    fn chart(self, scenario: &Scenario, scene: &Scene<'_>, plan: &Plan) -> Chart {
         match self {
             Self::FromAbove => map(scene, &[]),
             Self::WithCostMap => map(scene, &["cost_map"]),
@@ -159,6 +188,7 @@ impl View {
                 let spacing = history(plan, |it| it.separation_m.unwrap_or(f64::NAN));
                 iterations("smallest separation at the nodes [m]", vec![Curve::line("", ink(colours::FLEET), spacing)])
             }
+            Self::EnvelopeRadius => envelope_radius(scenario, plan),
         }
     }
 }
@@ -264,6 +294,27 @@ fn convergence(plan: &Plan) -> Chart {
 
 fn iterations(label: &str, curves: Vec<Curve>) -> Chart {
     Chart { labels: ["iteration".to_owned(), label.to_owned()], curves, ..Chart::default() }
+}
+
+/// The load's horizontal distance (Kang, Huang, Wen 2020, eq. 14), its bound by R-functions (eq. 19), and the body's radius.
+fn envelope_radius(scenario: &Scenario, plan: &Plan) -> Chart {
+    let Some(trajectory) = plan.trajectories.first() else { return Chart::default() };
+    let trajectory = trajectory.slung_load();
+    let curve = |label: &str, index: usize, radius_m: fn([f64; 2]) -> f64| {
+        let at = |(time_s, state): (&f64, &State)| (*time_s, radius_m([state.cable_m()[0], state.cable_m()[1]]));
+        Curve::line(
+            label,
+            ink(colours::vehicle(index, 3)),
+            trajectory.times_s.iter().zip(&trajectory.states).map(at).collect(),
+        )
+    };
+    let curves = vec![
+        curve("reach by eq. 14", 0, |[x, y]| x.hypot(y)),
+        curve("bound by eq. 19", 1, |[x, y]| std::f64::consts::SQRT_2 * x.abs().max(y.abs())),
+    ];
+    let body_radius_m = scenario.slung_load_model(&scenario.vehicles[0]).body_radius_m();
+    let limits = vec![(format!("body {body_radius_m:.3} m"), body_radius_m)];
+    Chart { labels: ["time t [s]", "radius [m]"].map(str::to_owned), curves, limits, ..Chart::default() }
 }
 
 fn history(plan: &Plan, value: impl Fn(&Iteration) -> f64) -> Vec<(f64, f64)> {

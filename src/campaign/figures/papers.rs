@@ -1,9 +1,9 @@
 //! The list of all figures, and the page that shows them.
 
-use scenarios::{CostMap, Solver};
+use scenarios::{CostMap, PathTiming, Solver};
 
 use super::Figure;
-use super::flights::{FlightFigures, View};
+use super::flights::{Change, FlightFigures, View};
 use super::studies::{Method, Printed, Study};
 
 const SEPARATION: View = View::Series("separation", "separation_m", "Smallest distance between two vehicles over time");
@@ -18,41 +18,62 @@ const MISSION: &[View] = &[View::FromAbove, ALTITUDE, AIRSPEED, N_X, N_Y, N_Z, S
 const TRACK: &[View] =
     &[View::WithCostMap, View::Series("clearance", "clearance_m", "Distance to the nearest obstacle over time")];
 
+/// Paths flown as planned, at the largest speed and without regard to the acceleration limit.
+const AS_PLANNED: Change = Change::Timing(PathTiming::ConstantSpeed);
+
 const fn flight(
     paper: u8,
     name: &'static str,
     scenario: &'static str,
     planner: &'static str,
-    cost_map: Option<CostMap>,
+    change: Change,
     views: &'static [View],
 ) -> FlightFigures {
-    FlightFigures { paper, name, scenario, planner, cost_map, views }
+    FlightFigures { paper, name, scenario, planner, change, views }
 }
 
 /// Figures of single flights.
-pub const FLIGHTS: [FlightFigures; 8] = [
-    flight(1, "1-rendezvous", "fixed-wing/rendezvous-7.toml", "parallel-scp", None, MISSION),
-    flight(1, "1-reconfiguration", "fixed-wing/reconfiguration-7.toml", "parallel-scp", None, MISSION),
+pub const FLIGHTS: [FlightFigures; 11] = [
+    flight(1, "1-rendezvous", "fixed-wing/rendezvous-7.toml", "parallel-scp", Change::Nothing, MISSION),
+    flight(1, "1-reconfiguration", "fixed-wing/reconfiguration-7.toml", "parallel-scp", Change::Nothing, MISSION),
     flight(
         2,
         "2-rendezvous-15",
         "fixed-wing/rendezvous-15.toml",
         "dpd-scp",
-        None,
+        Change::Nothing,
         &[View::FromAbove, View::Convergence, View::Spacing, SEPARATION],
     ),
-    flight(2, "2-exchange-100", "fixed-wing/exchange-100.toml", "dpd-scp", None, &[View::FromAbove, SEPARATION]),
-    flight(3, "3-visibility", "multirotor/paper-map.toml", "rhc-fpso", Some(CostMap::Visibility), TRACK),
-    flight(3, "3-voronoi", "multirotor/paper-map.toml", "rhc-fpso", Some(CostMap::Voronoi), TRACK),
-    flight(3, "3-pop-up", "multirotor/pop-up.toml", "rhc-fpso", None, &[View::FromAbove, AIRSPEED]),
+    flight(
+        2,
+        "2-exchange-100",
+        "fixed-wing/exchange-100.toml",
+        "dpd-scp",
+        Change::Nothing,
+        &[View::FromAbove, SEPARATION],
+    ),
+    flight(3, "3-visibility", "multirotor/paper-map.toml", "rhc-fpso", Change::CostMap(CostMap::Visibility), TRACK),
+    flight(3, "3-voronoi", "multirotor/paper-map.toml", "rhc-fpso", Change::CostMap(CostMap::Voronoi), TRACK),
+    flight(
+        3,
+        "3-voronoi-vertices",
+        "multirotor/paper-map.toml",
+        "rhc-fpso",
+        Change::CostMap(CostMap::VoronoiVertices),
+        TRACK,
+    ),
+    flight(3, "3-sparse-astar", "multirotor/paper-map.toml", "sparse-astar", AS_PLANNED, &[View::FromAbove]),
+    flight(3, "3-rrt", "multirotor/paper-map.toml", "rrt", AS_PLANNED, &[View::FromAbove]),
+    flight(3, "3-pop-up", "multirotor/pop-up.toml", "rhc-fpso", Change::Nothing, &[View::FromAbove, AIRSPEED]),
     flight(
         4,
         "4-rectangle",
         "slung/rectangle.toml",
         "slung-lgr",
-        None,
+        Change::Nothing,
         &[
             View::WithEnvelopes,
+            View::EnvelopeRadius,
             View::Series("clearance", "clearance_m", "Distance of body, cable, load and envelope to the obstacle"),
             View::Series("swing", "swing_deg", "Angle of the cable from straight down"),
             View::Series("thrust", "thrust_n", "Thrust of each rotor"),
@@ -123,13 +144,17 @@ const PAPERS: [&str; 4] = [
     "A quadrotor with a slung load (Kang, Huang, Wen 2020)",
 ];
 
+/// Every figure, table and claim of the papers with our result beside it.
+const CLAIMS: &str = include_str!("claims.md");
+
 /// The page, from which the drawings are in `figures/`.
 pub fn page(figures: &[Figure]) -> String {
     let mut page = String::from(
         "# The papers' figures\n\nDrawn by `harness figures -o docs` from plans and simulated flights of this version. Where \
          a paper prints no positions, they are ours, so that figures are to be compared in their shape; where it prints \
-         a number, it stands beside ours. Red lines are limits, red areas obstacles.\n",
+         a number, it stands beside ours. Red lines are limits, red areas obstacles.\n\n",
     );
+    page.push_str(CLAIMS);
     for (paper, title) in (1..).zip(PAPERS) {
         let of_paper: Vec<&Figure> = figures.iter().filter(|figure| figure.paper == paper).collect();
         if of_paper.is_empty() {

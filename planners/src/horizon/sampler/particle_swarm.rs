@@ -18,6 +18,8 @@ pub struct SwarmSettings {
     pub velocity_fraction: f64,
     /// The position changes by w v, as eq. 13 is printed; otherwise by v.
     pub moves_as_printed: bool,
+    /// The best particle so far takes the place of the last one in every iteration: not in the paper.
+    pub keeps_best: bool,
 }
 
 /// Inertia weight w(k) = w_max - (w_max - w_min) k/k_max (eq. 14).
@@ -40,6 +42,7 @@ impl SwarmSettings {
         inertia: Inertia { first: 0.9, last: 0.4, by_violation: false },
         velocity_fraction: 0.5,
         moves_as_printed: false,
+        keeps_best: true,
     };
 
     /// The same with eq. 15.

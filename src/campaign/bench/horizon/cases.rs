@@ -1,7 +1,10 @@
 //! The cases of every experiment.
 
 use planners::Planner;
-use scenarios::{CostMap, Horizon, PotentialField, PotentialFieldForm, RepulsionForm, Sampler, Scenario};
+use scenarios::{
+    AttractionAlong, CostMap, Horizon, PathTiming, PotentialField, PotentialFieldForm, RepelledBy, RepulsionForm,
+    Sampler, Scenario, Search,
+};
 use serde::Serialize;
 
 use super::Plan;
@@ -70,13 +73,16 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     let mut add = |experiment, scenario: &Scenario, name, planner: &str, options: Horizon| {
         let planner = planners::find(planner).expect("a planner of the registry");
         let mut scenario = scenario.clone();
-        // Grid and swarm of the scenario, options of the case.
+        // Grid, swarm and weights of the scenario, options of the case.
         let own = scenario.planner.horizon.take().unwrap_or_default();
         scenario.planner.horizon = Some(Horizon {
             step_s: own.step_s,
             steps: own.steps,
             particles: own.particles,
             iterations: own.iterations,
+            swarm: own.swarm,
+            violation_weights: own.violation_weights,
+            stage_weight: options.stage_weight.or(own.stage_weight),
             ..options
         });
         cases.push(Case { experiment, name, scenario, planner });
@@ -85,33 +91,44 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     let map = &plan.paper_map;
     add(Experiment::CostMaps, map, "rhc-fpso, visibility", "rhc-fpso", with_cost_map(CostMap::Visibility));
     add(Experiment::CostMaps, map, "rhc-fpso, voronoi", "rhc-fpso", with_cost_map(CostMap::Voronoi));
+    let vertices = || with_cost_map(CostMap::VoronoiVertices);
+    add(Experiment::CostMaps, map, "rhc-fpso, voronoi-vertices", "rhc-fpso", vertices());
     add(Experiment::CostMaps, map, "rhc, visibility", "rhc", with_cost_map(CostMap::Visibility));
     add(Experiment::CostMaps, map, "rhc, voronoi", "rhc", with_cost_map(CostMap::Voronoi));
     for planner in ["sparse-astar", "rrt", "rrt-star", "rhc-fpso", "rhc"] {
         add(Experiment::Baselines, map, planner, planner, usual());
     }
+    let as_planned = as_planned(map);
+    for (name, planner) in AS_PLANNED {
+        add(Experiment::Baselines, &as_planned, name, planner, usual());
+    }
     for scenario in [map, &plan.trap] {
+        add(Experiment::Swarms, scenario, "FPSO, the paper's update", "rhc-fpso-plain", stalling(false));
         for (name, planner, costs_infeasible) in [
             (PSO_ALL, "rhc-pso", true),
             (PSO_SKIP, "rhc-pso", false),
             (FPSO_ALL, "rhc-fpso", true),
             (FPSO_SKIP, "rhc-fpso", false),
         ] {
-            let options = Horizon {
-                costs_infeasible: Some(costs_infeasible),
-                stall_iterations: Some(STALL),
-                ..Horizon::default()
-            };
-            add(Experiment::Swarms, scenario, name, planner, options);
+            add(Experiment::Swarms, scenario, name, planner, stalling(costs_infeasible));
         }
     }
     add(Experiment::Fields, map, "with cost map, squared", "rhc-apf", field(PotentialFieldForm::WithCostMap, true));
     add(Experiment::Fields, map, "with cost map, printed", "rhc-apf", field(PotentialFieldForm::WithCostMap, false));
     add(Experiment::Fields, map, "alone, squared", "rhc-apf", field(PotentialFieldForm::Alone, true));
     add(Experiment::Fields, map, "alone, printed", "rhc-apf", field(PotentialFieldForm::Alone, false));
+    add(Experiment::Fields, map, "alone, all obstacles", "rhc-apf", variant(None, Some(RepelledBy::All)));
+    let along = Some(AttractionAlong::Horizon);
+    add(Experiment::Fields, map, "alone, whole horizon", "rhc-apf", variant(along, None));
     add(Experiment::DynamicMap, &plan.pop_up, "rhc-fpso", "rhc-fpso", usual());
+    add(Experiment::DynamicMap, &plan.pop_up, "rhc-fpso-plain", "rhc-fpso-plain", usual());
     add(Experiment::DynamicMap, &plan.pop_up, "rhc-apf, alone", "rhc-apf", field(PotentialFieldForm::Alone, true));
     add(Experiment::DynamicMap, &plan.pop_up, "rhc", "rhc", usual());
+    for (name, east_m) in SLOTS {
+        add(Experiment::DynamicMap, &with_slot(&plan.pop_up, east_m), name, "rhc-fpso", usual());
+    }
+    let end_alone = Horizon { stage_weight: Some(0.0), ..Horizon::default() };
+    add(Experiment::DynamicMap, &plan.pop_up, END_ALONE, "rhc-fpso", end_alone);
     for scenario in [map, &plan.trap] {
         for (name, sampler) in [
             ("PSO", Sampler::Pso),
@@ -124,6 +141,45 @@ pub fn all(plan: &Plan) -> Vec<Case> {
         }
     }
     cases
+}
+
+/// The paths of the baselines, flown as planned.
+const AS_PLANNED: [(&str, &str); 3] =
+    [("sparse-astar, as planned", "sparse-astar"), ("rrt, as planned", "rrt"), ("rrt-star, as planned", "rrt-star")];
+
+/// The scenario with paths that are flown as planned, without regard to the acceleration limit.
+fn as_planned(scenario: &Scenario) -> Scenario {
+    let mut scenario = scenario.clone();
+    scenario.planner.search = Some(Search { timing: Some(PathTiming::ConstantSpeed) });
+    scenario
+}
+
+/// The case without the mean cost-to-go over the horizon.
+const END_ALONE: &str = "rhc-fpso, cost-to-go at the end alone";
+
+/// The wall that is sensed first, and its displacements: it leaves a slot of 1.25 m beside block-10, through which the
+/// shortest path of the cost map leads. Closed it is 0.85 m wide, which the clearance does not admit; wide 2.25 m.
+const LOWER_WALL: &str = "popup-lower";
+const SLOTS: [(&str, f64); 2] = [("rhc-fpso, slot closed", -0.4), ("rhc-fpso, slot of 2.25 m", 1.0)];
+
+/// The scenario with its lower wall displaced to the east.
+fn with_slot(scenario: &Scenario, east_m: f64) -> Scenario {
+    let mut scenario = scenario.clone();
+    for wall in scenario.world.boxes.iter_mut().filter(|wall| wall.name == LOWER_WALL) {
+        wall.center_m[0] += east_m;
+    }
+    scenario
+}
+
+fn stalling(costs_infeasible: bool) -> Horizon {
+    Horizon { costs_infeasible: Some(costs_infeasible), stall_iterations: Some(STALL), ..Horizon::default() }
+}
+
+/// A field without a cost map (eq. 17) with variants of eq. 2 and 3.
+fn variant(attraction_along: Option<AttractionAlong>, repelled_by: Option<RepelledBy>) -> Horizon {
+    let usual = field(PotentialFieldForm::Alone, true);
+    let field = usual.field.map(|field| PotentialField { attraction_along, repelled_by, ..field });
+    Horizon { field, ..Horizon::default() }
 }
 
 fn with_cost_map(cost_map: CostMap) -> Horizon {

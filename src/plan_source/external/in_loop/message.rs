@@ -92,6 +92,7 @@ fn remaining(nodes: &[Node], t_s: f64) -> &[Node] {
 
 /// A line of the command's standard output.
 #[derive(Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one line at a time, and most are replies")]
 pub enum Line {
     /// Nothing but white space.
     Blank,
