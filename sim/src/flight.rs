@@ -209,6 +209,6 @@ pub enum EventKind {
         /// One sentence.
         text: String,
     },
-    /// All vehicles rest at their goals.
+    /// All vehicles rest at their goals, and stay there until the end of the flight.
     Arrived,
 }

@@ -14,7 +14,7 @@ use crate::request::{FlightOptions, FlightRequest, ReferenceSource};
 ///   Every vehicle starts in the first state of its trajectory and tracks it, until `coast_s` after the end of the plan
 ///   or until `max_duration_s`.
 /// - in-loop planners, one per vehicle, in the order of the scenario. They replan during the flight, until all vehicles
-///   rest at their goals and `coast_s` more, or until `max_duration_s`.
+///   rest at their goals, with references that lead nowhere else, and have stayed there for `coast_s`; or until `max_duration_s`.
 /// - an earlier flight that was planned in the loop: its references are followed again, for as long as it lasted.
 ///
 /// `seed` determines gusts, sensor noise, start offsets and planning times: the same seed gives the same flight.

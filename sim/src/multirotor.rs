@@ -2,6 +2,7 @@
 //! tracker that follows a reference from measurements; the obstacles around them, moving ones included; and planning in
 //! the loop.
 
+mod arrival;
 mod fleet;
 mod in_loop;
 mod multirotor_sim;

@@ -1,14 +1,16 @@
 //! The references that were followed in an in-loop flight, as a plan.
 
 use scenarios::in_loop::ReplanStatus;
-use scenarios::{Plan, PlanStatus, PlanTimings, Scenario};
+use scenarios::{Plan, PlanStatus, PlanTimings, Scenario, Vehicle};
 use sim::{PlanningLog, Replan};
 
 /// The plan of an in-loop flight: for every vehicle the references that it followed, one after the other.
 ///
-/// There is no plan if a vehicle never received a reference that could be flown. It is not converged if a planner failed.
+/// There is no plan if a vehicle that is not at its goal from the beginning never received a reference that could be flown. It
+/// is not converged if a planner failed.
 pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog) -> Plan {
-    let idle = (0..scenario.vehicles.len()).find(|index| !answers(log, *index).any(|replan| replan.outcome.is_flown()));
+    let is_idle = |index: &usize| !answers(log, *index).any(|replan| replan.outcome.is_flown());
+    let idle = (0..scenario.vehicles.len()).filter(|index| has_to_move(scenario, *index)).find(is_idle);
     let wall_s = |vehicle: usize| answers(log, vehicle).map(|replan| replan.wall_s).sum::<f64>();
     let walls_s: Vec<f64> = (0..scenario.vehicles.len()).map(wall_s).collect();
     let failure = log.replans.iter().find_map(failure_reason);
@@ -26,6 +28,14 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
         },
         ..Plan::new(&scenario.name, planner, seed, log.followed.iter().cloned().map(Into::into).collect())
     }
+}
+
+/// Whether a vehicle does not start within the tolerance of its goal, where it may stay.
+fn has_to_move(scenario: &Scenario, vehicle: usize) -> bool {
+    let Vehicle { start, goal, .. } = &scenario.vehicles[vehicle];
+    let [start_m, goal_m] = [start.position_m(), goal.position_m()];
+    let distance_m = (0..3).map(|axis| (start_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
+    distance_m > scenario.limits().goal_m
 }
 
 fn failure_reason(replan: &Replan) -> Option<String> {

@@ -232,3 +232,93 @@ fn nonsense_is_no_plan_and_never_a_panic() {
         assert_eq!(check(&verdict, "flight.goal").status, Status::Fail, "{index}");
     }
 }
+
+/// Comes to its goal almost at rest, and flies on at once or after 3 s.
+fn through_the_goal(waits_s: f64) -> impl Fn(&Observation<'_>) -> ReplanResult {
+    move |seen| {
+        if seen.in_force.len() > 1 {
+            return ReplanResult::keep("on the way");
+        }
+        let ([x_m, y_m, z_m], t_s) = (seen.position_m, seen.takes_effect_s);
+        let node = |after_s: f64, by_m: f64, speed_mps: f64| Node {
+            t_s: t_s + after_s,
+            position_m: [x_m + by_m, y_m, z_m],
+            velocity_mps: [speed_mps, 0.0, 0.0],
+        };
+        let arrived_s = 8.0 + waits_s;
+        let last = [
+            node(8.0, 6.0, 0.0),
+            node(arrived_s, 6.0, 0.0),
+            node(arrived_s + 2.0, 7.5, 1.0),
+            node(arrived_s + 4.0, 8.5, 0.0),
+        ];
+        let from = if waits_s > 0.0 { 0 } else { 1 };
+        ReplanResult::fly([vec![node(0.0, 0.0, 0.0), node(4.0, 3.0, 1.0)], last[from..].to_vec()].concat())
+    }
+}
+
+struct Replies<F>(F);
+
+impl<F: Fn(&Observation<'_>) -> ReplanResult + Send> InLoopPlanner for Replies<F> {
+    fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
+        (self.0)(observation)
+    }
+}
+
+#[test]
+fn a_reference_that_leads_on_through_the_goal_into_a_wall_is_flown_into_the_wall() {
+    let mut scenario = scenario();
+    scenario.vehicles.truncate(1);
+    scenario.fleet = scenarios::FleetRules::default();
+    scenario.world.moving.clear();
+    for waits_s in [0.0, 3.0] {
+        let mut walled = scenario.clone();
+        walled.world.boxes[0].center_m = [8.0, 0.0];
+        walled.world.boxes[0].size_m = [1.0, 4.0];
+        let fly_on = |scenario: &Scenario| flown(scenario, |_| Box::new(Replies(through_the_goal(waits_s))));
+        let (_, flight, verdict) = fly_on(&walled);
+        let crash = check(&verdict, "flight.crash");
+        assert_eq!((verdict.outcome, crash.status), (Outcome::Fail, Status::Fail), "{waits_s}: {crash:?}");
+        assert!(flight.events.iter().all(|event| event.kind != EventKind::Arrived), "{waits_s}");
+        // Without the wall it ends beyond its goal.
+        let (_, _, verdict) = fly_on(&scenario);
+        assert_eq!(check(&verdict, "flight.goal").status, Status::Fail, "{waits_s}");
+    }
+}
+
+#[test]
+fn a_vehicle_that_is_sent_away_while_it_rests_at_its_goal_has_not_arrived() {
+    let mut scenario = scenario();
+    scenario.vehicles.truncate(1);
+    scenario.fleet = scenarios::FleetRules::default();
+    let goal_m = scenario.vehicles[0].goal.position_m();
+    let away = |seen: &Observation<'_>| {
+        let [x_m, y_m, z_m] = seen.position_m;
+        let from = Node { t_s: seen.takes_effect_s, position_m: [x_m, y_m, z_m], velocity_mps: seen.velocity_mps };
+        ReplanResult::fly(vec![from, Node::at_rest(seen.takes_effect_s + 4.0, [x_m, y_m + 2.0, z_m])])
+    };
+    // Arrival at about 7 s, and one more second to coast.
+    let turn = (7.5 / scenario.simulation.planning.period_s).round() as usize;
+    let planner = |_| -> Box<dyn InLoopPlanner> {
+        let (straight, remarks) = (Straight { goal_m }, PlannerRemarks::default());
+        Box::new(OneFault { straight, turn, faulty: away, remarks })
+    };
+    let (_, flight, verdict) = flown(&scenario, planner);
+    assert_eq!((verdict.outcome, check(&verdict, "flight.goal").status), (Outcome::Fail, Status::Fail));
+    assert!(flight.plan_end_s == scenario.simulation.max_duration_s, "{}", flight.plan_end_s);
+}
+
+#[test]
+fn who_is_at_his_goal_already_has_nothing_to_do_and_passes() {
+    let mut scenario = scenario();
+    scenario.fleet.simultaneous_arrival = false;
+    for off_m in [0.0, 0.4] {
+        for vehicle in &mut scenario.vehicles {
+            vehicle.goal = vehicle.start;
+            vehicle.goal.x_m += off_m;
+        }
+        let (plan, flight, verdict) = flown(&scenario, |_| Box::new(Stubborn(|_| ReplanResult::keep("at the goal"))));
+        assert_eq!((plan.status, verdict.outcome), (PlanStatus::Solved, Outcome::Pass), "{off_m}: {verdict:#?}");
+        assert!((flight.vehicles[0].samples.last().unwrap().t_s - scenario.simulation.coast_s).abs() < 0.02);
+    }
+}

@@ -1,6 +1,4 @@
-use nalgebra::Vector3;
-use scenarios::{AppliedLimits, Scenario};
-
+use super::arrival::Arrival;
 use super::fleet::Fleet;
 use super::in_loop::PlanningLoop;
 use super::recorded::RecordedReferences;
@@ -17,29 +15,29 @@ pub(crate) fn simulate(
 ) -> FleetLog {
     let mut fleet = Fleet::new(request);
     let mut references = References::new(request, source);
-    let (mut last_step, mut arrived_s) = (request.steps, None);
+    let mut arrival = Arrival::new(request.scenario);
     let mut step = 0;
-    while step <= last_step {
+    let last_step = loop {
         let t_s = request.time_s(step);
         let truths = fleet.states();
         let measured = fleet.measure(&truths);
         fleet.events.extend(references.advance(t_s, &truths, || fleet.navigation(&measured)));
         fleet.decide(t_s, &truths, &measured, |index| references.of(index));
-        if references.are_in_loop() && arrived_s.is_none() && have_arrived(request.scenario, &truths) {
-            arrived_s = Some(t_s);
-            fleet.events.push(Event { t_s, kind: EventKind::Arrived, vehicles: fleet.names() });
-            last_step = last_step.min(step + coast_steps(request.scenario));
-        }
-        if truths.iter().all(Option::is_none) {
-            break;
-        }
-        if step < last_step {
-            fleet.advance(t_s);
+        if let References::InLoop(planning) = &references {
+            arrival.update((step, t_s), &truths, |index| planning.accepted(index));
         }
         request.report_second(t_s, progress);
+        let last_step = arrival.last_step().map_or(request.steps, |last_step| last_step.min(request.steps));
+        if step >= last_step || truths.iter().all(Option::is_none) {
+            break step;
+        }
+        fleet.advance(t_s);
         step += 1;
+    };
+    if let Some(step) = arrival.since() {
+        fleet.events.push(Event { t_s: request.time_s(step), kind: EventKind::Arrived, vehicles: fleet.names() });
     }
-    let end_s = arrived_s.unwrap_or(request.time_s(step.min(last_step)));
+    let end_s = request.time_s(arrival.since().unwrap_or(last_step));
     let in_loop = references.into_planning().map(|planning| {
         let (planning, events) = planning.finish(end_s);
         fleet.events.extend(events);
@@ -99,31 +97,10 @@ impl References {
         }
     }
 
-    fn are_in_loop(&self) -> bool {
-        matches!(self, Self::InLoop(_))
-    }
-
     fn into_planning(self) -> Option<PlanningLoop> {
         match self {
             Self::Planned(_) | Self::Recorded(_) => None,
             Self::InLoop(planning) => Some(planning),
         }
     }
-}
-
-/// Do all vehicles rest at their goals?
-fn have_arrived(scenario: &Scenario, truths: &[Option<MultirotorState>]) -> bool {
-    let AppliedLimits { goal_m, rest_mps, .. } = scenario.limits();
-    scenario.vehicles.iter().zip(truths).all(|(vehicle, truth)| {
-        truth.is_some_and(|truth| {
-            let distance_m = (truth.position_m - Vector3::from(vehicle.goal.position_m())).norm();
-            distance_m <= goal_m && truth.velocity_mps.norm() <= rest_mps
-        })
-    })
-}
-
-/// Steps after the arrival: at least one, so that the log extends beyond it.
-fn coast_steps(scenario: &Scenario) -> usize {
-    let settings = &scenario.simulation;
-    ((settings.coast_s / settings.step_s).ceil() as usize).max(1)
 }

@@ -1,5 +1,5 @@
 use nalgebra::Vector3;
-use scenarios::in_loop::{InLoopPlanner, PlannerRemarks, ReplanStatus};
+use scenarios::in_loop::{InLoopPlanner, Node, PlannerRemarks, ReplanStatus};
 use scenarios::{Scenario, Vehicle};
 
 use super::reference_manager::{NavigationInput, ReferenceManager, VehicleSettings};
@@ -70,6 +70,11 @@ impl PlanningLoop {
     /// The reference in force of a vehicle.
     pub fn reference(&self, index: usize) -> &Reference {
         self.vehicles[index].reference_manager.reference()
+    }
+
+    /// Nodes of the reference of a vehicle that was accepted last, whether it is in force already or pending.
+    pub fn accepted(&self, index: usize) -> &[Node] {
+        self.vehicles[index].reference_manager.accepted()
     }
 
     /// Sensing and planning at the beginning of a step. Returns what happened.
