@@ -20,7 +20,7 @@ const EVERY_OBSTACLE: &str = "*";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct World {
-    /// The volume that no vehicle may leave.
+    /// The volume that no body may leave: neither that of a vehicle nor its load.
     pub map: Map,
     /// Vertical cylinders without top and bottom: keep-out zones in the plane, such as threats and pillars.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -37,7 +37,7 @@ pub struct World {
     /// Gates that a quadrotor with a slung load must pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<Gate>,
-    /// Volumes that vehicles may not leave or may not enter.
+    /// Volumes that the bodies of vehicles and loads may not leave or may not enter.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub geofences: Vec<Geofence>,
     /// Moving obstacles, which multirotors must sense.
@@ -121,6 +121,12 @@ impl Map {
     /// The limits in the order x, y, z.
     pub fn axes(&self) -> [Range; 3] {
         [self.x_m, self.y_m, self.z_m]
+    }
+
+    /// The map without a border of this width, m: where the centre of a ball of this radius may be.
+    pub fn inset(&self, radius_m: f64) -> Self {
+        let [x_m, y_m, z_m] = self.axes().map(|range| Range::new(range.min + radius_m, range.max - radius_m));
+        Self { x_m, y_m, z_m }
     }
 }
 

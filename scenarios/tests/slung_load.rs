@@ -191,3 +191,24 @@ fn the_flight_time_is_within_the_simulated_duration() {
         assert_issue("flight_time_s = 4, ", &options, "planner.collocation.flight_time_s", " s", "max_duration_s");
     }
 }
+
+#[test]
+fn a_gate_has_a_face() {
+    let gate = "quadrotor = { x_m = [-1, 1], z_m = [0.5, 1] }\nload = { z_m = [1.2, 2] }";
+    assert_issue(
+        gate,
+        "quadrotor = {}\nload = {}",
+        "world.gates[0]",
+        "without a face",
+        "at least one of x_m, y_m, z_m",
+    );
+}
+
+#[test]
+fn a_start_at_which_a_rotor_or_the_load_touches_an_obstacle_is_refused() {
+    let start = "x_m = -2, y_m = 0, z_m = 0.5, load = { x_m = -2, y_m = 0, z_m = 0.03 }";
+    let beside = "x_m = -0.8, y_m = 0, z_m = 0.5, load = { x_m = -0.8, y_m = 0, z_m = 0.03 }";
+    assert_issue(start, beside, "vehicles[0].start", "0.300 m from `box`", "at least 0.352 m");
+    let swung = "x_m = -0.9, y_m = 0, z_m = 0.5, load = { x_m = -0.52, y_m = 0, z_m = 0.2 }";
+    assert_issue(start, swung, "vehicles[0].start.load", "0.020 m from `box`", "at least 0.03 m");
+}

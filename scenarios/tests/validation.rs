@@ -332,3 +332,16 @@ fn geofences_are_simple_polygons_and_allow_start_and_goal() {
     let found = "50.000 m inside geofence `zone`";
     assert_issue("radius_m = 50", &start, ("vehicles[0].start", 40, 9), found, "a point outside it");
 }
+
+#[test]
+fn a_start_whose_body_reaches_over_the_edge_of_the_map_or_a_geofence_is_refused() {
+    let (axis, fence) = ("vehicles[0].start.x_m", "vehicles[0].start");
+    let found = issues("x_m = [-1000, 1000]", "x_m = [-900.5, 1000]");
+    let fields: Vec<&str> = found.iter().map(|issue| issue.issue.field.as_str()).collect();
+    assert_eq!(fields, [axis, "vehicles[1].start.x_m"]);
+    assert!(found[0].issue.expected.contains("at least 1 m, the body radius, from both ends"), "{}", found[0]);
+    let with = "radius_m = 50\n\n[[world.geofences]]\nname = \"zone\"\nkind = \"keep-out\"\n\
+                polygon_m = [[-950, -250], [-900.5, -250], [-900.5, -150], [-950, -150]]";
+    assert_issue("radius_m = 50", with, (fence, 40, 9), "0.500 m from the boundary of geofence `zone`", "outside it");
+    assert!(load_changed("radius_m = 50", &with.replace("-900.5", "-901")).is_ok());
+}

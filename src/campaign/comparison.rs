@@ -135,7 +135,9 @@ fn differences(old: &Entry, new: &Entry) -> Vec<Difference> {
         differences.push(new.differs(rating, "verdict", &old.verdict.to_string(), &new.verdict.to_string()));
     }
     for (name, before) in &old.checks {
-        match new.checks.get(name) {
+        let after = new.checks.get(name);
+        differences.extend(after.and_then(|after| advisory_difference(new, name, before, after)));
+        match after {
             Some(after) if before.status != after.status => {
                 let rating = status_severity(before, after);
                 differences.push(new.differs(rating, name, &before.status.to_string(), &after.status.to_string()));
@@ -172,6 +174,13 @@ fn figure(old: &Entry, new: &Entry, name: &str, before: f64, after: f64) -> Opti
     let by = format!("{} (tolerance {})", signed_quantity(change, unit), quantity(tolerance, unit));
     let (before, after) = (quantity(before, unit), quantity(after, unit));
     Some(Difference { change: by, ..new.differs(rating, name, &before, &after) })
+}
+
+/// A check that no longer decides is a weaker judge, whatever its status.
+fn advisory_difference(new: &Entry, name: &str, before: &CheckEntry, after: &CheckEntry) -> Option<Difference> {
+    let in_words = |check: &CheckEntry| if check.advisory { "advisory" } else { "decides" };
+    let rating = if after.advisory { Severity::Worse } else { Severity::Better };
+    (before.advisory != after.advisory).then(|| new.differs(rating, name, in_words(before), in_words(after)))
 }
 
 fn status_severity(old: &CheckEntry, new: &CheckEntry) -> Severity {

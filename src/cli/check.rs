@@ -6,6 +6,7 @@ use scenarios::plan_input::names::ColumnMap;
 
 use super::run::plain_name;
 use super::session::Session;
+use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job, Jobs};
 use crate::plan_source::PlanSource;
@@ -91,6 +92,11 @@ impl Check {
             jobs::load_file(&self.scenario, self.seed).inspect_err(|_| self.session.retract(None))?;
         let stem = self.plan.file_stem().unwrap_or_default().to_string_lossy();
         let name = plain_name(self.name.as_deref().unwrap_or(&stem));
+        if let Some(given) = self.name.as_deref().filter(|given| *given != name) {
+            console::eprint(&format!(
+                "note: `{given}` cannot name a folder of results, or is a planner: it is `{name}` here"
+            ));
+        }
         let (header, tracks) = plan_input::read_with(&self.plan, &scenario, &self.columns)
             .inspect_err(|_| self.session.retract(Some([scenario.name.as_str(), name.as_str()])))?;
         let seed = scenario.simulation.seed;

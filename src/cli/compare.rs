@@ -3,12 +3,13 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::session::Format;
-use crate::campaign::comparison::{self, Baseline, Scope, Snapshot};
+use crate::campaign::comparison::{self, Baseline, Entry, Scope, Snapshot};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::output::page;
 use crate::output::report::comparison_table;
 use crate::output::report::json_lines::{self, Event};
+use crate::verdict::Outcome;
 
 /// Show what got worse from one run to another
 ///
@@ -97,6 +98,10 @@ impl Accept {
         if let Some(earlier) = &earlier {
             let compared = comparison::compare(&earlier.results, &results, Scope::NewRunOnly);
             console::print(&comparison_table::text(&compared))?;
+        }
+        for entry in results.entries.iter().filter(|entry| entry.verdict != Outcome::Pass) {
+            let Entry { scenario, planner, verdict, .. } = entry;
+            console::eprint(&format!("note: {scenario} · {planner} is accepted although its verdict is {verdict}"));
         }
         let count = results.entries.len();
         Baseline::accept(earlier, results, &self.reason).write(&self.file)?;

@@ -31,7 +31,7 @@ pub struct Generate {
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
     /// Number of scenarios of each kind, with successive seeds
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     count: u64,
     /// Fixed wings: they need not arrive at the same time
     #[arg(long, conflicts_with = "hidden")]

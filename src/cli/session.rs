@@ -1,4 +1,5 @@
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -6,7 +7,7 @@ use crate::campaign::comparison::{self, Comparison, Scope, Snapshot};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::interrupt;
-use crate::jobs::{Job, Jobs};
+use crate::jobs::{Job, Jobs, RejectedJob};
 use crate::output;
 use crate::output::page;
 use crate::output::recording::Recorder;
@@ -119,6 +120,19 @@ impl Session {
         }
     }
 
+    /// Removes the reports of earlier runs of a scenario whose file, or whose planner, is now refused. A scenario has the name
+    /// of its file.
+    fn retract_file(&self, refused: &RejectedJob) {
+        let folder = self.out.join(refused.file.file_stem().unwrap_or_default());
+        let planners = match &refused.error {
+            Error::Unfit { planner, .. } => vec![folder.join(planner)],
+            _ => folders_in(&folder),
+        };
+        for planner in planners {
+            let _ = output::remove_stale(&planner.join("report.json"));
+        }
+    }
+
     /// Runs all valid jobs, reports the others, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         let outputs = Outputs {
@@ -132,6 +146,7 @@ impl Session {
         start_threads(self.jobs)?;
         let mut done = Completed::default();
         for refusal in jobs.rejected {
+            self.retract_file(&refusal);
             let refused = done.summary.refuse(&refusal);
             self.event(&Event::Refused { file: refused })?;
             done.annotations.extend(github::load_error_annotations(&refusal.error));
@@ -231,6 +246,12 @@ impl Session {
     fn event(&self, event: &Event<'_>) -> Result<(), Error> {
         if self.quiet || self.format != Format::JsonLines { Ok(()) } else { json_lines::print(event) }
     }
+}
+
+/// The folders in a folder; none if it cannot be read.
+fn folders_in(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).filter(|path| path.is_dir()).collect()
 }
 
 /// Starts the given number of worker threads; without one, the default applies.

@@ -56,6 +56,7 @@ pub fn complete(
     let mut trajectories = Vec::with_capacity(tracks.len());
     for (vehicle, track) in scenario.vehicles.iter().zip(tracks) {
         let (trajectory, own) = completed(scenario, vehicle, track);
+        provenance.remarks.extend(own_nodes(&trajectory));
         trajectories.push(trajectory);
         provenance.add(own);
     }
@@ -69,6 +70,13 @@ pub fn complete(
         ..Plan::new(&scenario.name, planner, seed, trajectories)
     };
     CompletedPlan { plan, provenance }
+}
+
+/// What the checks at the nodes rest on, if it is not every row.
+fn own_nodes(trajectory: &AnyTrajectory) -> Option<String> {
+    let AnyTrajectory::SlungLoad(trajectory) = trajectory else { return None };
+    let (nodes, rows) = (trajectory.planner_nodes().len(), trajectory.times_s.len());
+    (nodes < rows).then(|| format!("the checks nodes.* rest on {nodes} of {rows} rows, the planner's own nodes"))
 }
 
 /// The trajectory of one vehicle, without the rows that are noise, and what of it was given.

@@ -31,6 +31,15 @@ pub struct ClosestApproach {
     pub who: [usize; 2],
 }
 
+impl ClosestApproach {
+    /// The smallest distance of two searches.
+    pub fn closer(self, other: Self) -> Self {
+        let upper_m = self.upper_m.min(other.upper_m);
+        let closer = if other.lower_m < self.lower_m { other } else { self };
+        Self { upper_m, ..closer }
+    }
+}
+
 /// Smallest distance between any two of `motions` while both last. `None` with fewer than two.
 pub fn between_vehicles(motions: &[Motion], shape: SeparationShape) -> Option<ClosestApproach> {
     let seen = match shape {

@@ -2,6 +2,7 @@
 
 mod between_rows;
 mod clearance;
+mod coast;
 mod dynamics;
 mod limits;
 mod physics;
@@ -40,6 +41,9 @@ struct FleetCase<'a> {
     tubes: Vec<RowTube>,
     /// The flown motions in their tubes; `None` if nothing was reconstructed.
     flown_in_tubes: Option<Vec<Motion>>,
+    /// The motions after the first arrival, until the last.
+    planned_coast: Vec<Motion>,
+    flown_coast: Vec<Motion>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
@@ -53,7 +57,8 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         goal::check_nodes(spec, it.scenario, it.flyable()?, |index, end| it.end_error(index, end))
     }),
     ("plan.separation", |spec, it| {
-        separation::check(spec, it.scenario, it.planned_motions(), SeparationShape::Horizontal)
+        let shape = SeparationShape::Horizontal;
+        separation::check_with_coast(spec, it.scenario, it.planned_motions(), &it.planned_coast, shape)
     }),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
@@ -71,7 +76,8 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
-        separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Horizontal)
+        let shape = SeparationShape::Horizontal;
+        separation::check_with_coast(spec, it.scenario, it.flown_motions(), &it.flown_coast, shape)
     }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
     ("flight.state_limits", |spec, it| {
@@ -93,7 +99,34 @@ impl<'a> FleetCase<'a> {
         let flown = shared.flown_motions().ok().filter(|_| tubes.iter().any(|tube| tube.tube.has_width()));
         let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
         let planned = planned.map(|planned| PlannedMotions { motions: surround(planned.motions, &tubes), ..planned });
-        Self { shared, planned, tubes, flown_in_tubes }
+        let mut case =
+            Self { shared, planned, tubes, flown_in_tubes, planned_coast: Vec::new(), flown_coast: Vec::new() };
+        if shared.scenario.fleet.separation_m.is_some() {
+            case.planned_coast = case.coast_of_plan();
+            case.flown_coast = case.coast_of_flight();
+        }
+        case
+    }
+
+    fn coast_of_plan(&self) -> Vec<Motion> {
+        let motions = self.planned_motions().unwrap_or_default();
+        coast::planned(motions, |index| self.planned_end_error(index))
+    }
+
+    fn coast_of_flight(&self) -> Vec<Motion> {
+        let (Ok(flight), Ok(flown)) = (self.shared.flight(), self.shared.flown()) else { return Vec::new() };
+        coast::flown(flight, flown, |index, motion| self.in_tube(index, motion))
+    }
+
+    /// The end of a flown motion in the tube in which it would have been flown: beyond the plan's end, the error of the last
+    /// velocity accumulates.
+    fn in_tube(&self, index: usize, motion: Motion) -> Motion {
+        let Some(tube) = self.tubes.get(index).map(|tube| &tube.tube).filter(|tube| tube.has_width()) else {
+            return motion;
+        };
+        let planned_end_s = self.planned_motions().map_or(f64::INFINITY, |motions| motions[index].end_s());
+        let drift_mps = self.planned_end_error(index).velocity_mps;
+        motion.within(|segment| tube.distance_m(segment.t_s) + drift_mps * (segment.t_s[1] - planned_end_s).max(0.0))
     }
 
     fn planned(&self) -> Evidence<'_, PlannedMotions> {

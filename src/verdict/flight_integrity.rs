@@ -35,7 +35,7 @@ pub fn check_finite(spec: &CheckSpec, flight: &Flight) -> Check {
 
 /// Number of vehicles whose log is missing, misnamed or empty, has gaps or decreasing times, does not begin at the vehicle's
 /// start, ends before the plan, or has another reference than the plan; and of logs without a vehicle. A start may be off
-/// by the tracking limit: the simulation may disturb it.
+/// by the tracking limit, or by the radius within which the scenario draws it if that is larger.
 ///
 /// - `plan`: flyable
 /// - `reference_defect`: the family's comparison of logged and planned references
@@ -164,6 +164,6 @@ fn log_defect(scenario: &Scenario, vehicle: &Vehicle, planned_end_s: f64, log: &
     if exceeds(planned_end_s, last.t_s + step_s) {
         return Some(format!("the log ends at {:.3} s, before the plan ends at {planned_end_s:.3} s", last.t_s));
     }
-    let tolerance_m = scenario.limits().tracking_max_m;
+    let tolerance_m = scenario.limits().tracking_max_m.max(scenario.simulation.mismatch.start_radius_m);
     start_defect("m", first.position_m, vehicle.start.position_m(), tolerance_m).map(|defect| defect.to_string())
 }

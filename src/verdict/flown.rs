@@ -128,6 +128,7 @@ fn until(samples: &[Sample], t_s: f64) -> &[Sample] {
     &samples[..(beyond + 1).min(samples.len())]
 }
 
-fn knot(sample: &Sample) -> Knot {
+/// A sample of a log as a knot.
+pub fn knot(sample: &Sample) -> Knot {
     Knot { t_s: sample.t_s, position_m: sample.position_m, velocity_mps: sample.velocity_mps }
 }

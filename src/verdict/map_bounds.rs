@@ -10,21 +10,24 @@ use crate::verdict::worst::{Quantity, Worst};
 /// Distance between the bounds of an extreme position that counts as close enough, m.
 const RESOLUTION_M: f64 = 1e-9;
 
-/// A vehicle, the map that it has to stay on and the geofences that it has to respect.
+/// A vehicle or its load, a ball, the map that it has to stay on and the geofences that it has to respect, with its whole body.
 #[derive(Clone, Copy)]
 pub struct MapBounds<'a> {
     vehicle: &'a str,
+    /// Where its centre may be, m.
     axes: [Range; 3],
+    radius_m: f64,
     geofences: &'a [Geofence],
 }
 
 impl<'a> MapBounds<'a> {
-    /// The vehicle of this name.
-    pub fn new(scenario: &'a Scenario, vehicle: &'a str) -> Self {
-        Self { vehicle, axes: scenario.world.map.axes(), geofences: &scenario.world.geofences }
+    /// The body or the load, of this radius, of the vehicle of this name.
+    pub fn new(scenario: &'a Scenario, vehicle: &'a str, radius_m: f64) -> Self {
+        let axes = scenario.world.map.inset(radius_m).axes();
+        Self { vehicle, axes, radius_m, geofences: &scenario.world.geofences }
     }
 
-    /// Considers a place.
+    /// Considers a place of the centre.
     pub fn place(&self, worst: &mut Worst<'a>, position_m: [f64; 3], t_s: f64) {
         for (axis, value) in position_m.into_iter().enumerate() {
             worst.consider(self.vehicle, self.quantity(axis), value, t_s);
@@ -34,7 +37,7 @@ impl<'a> MapBounds<'a> {
         }
     }
 
-    /// Considers a motion over continuous time. Returns its lowest and highest altitude, m.
+    /// Considers a motion of the centre over continuous time. Returns its lowest and highest altitude, m.
     pub fn path(&self, worst: &mut Worst<'a>, motion: &Motion) -> [Extreme; 2] {
         let extremes_m = [0, 1, 2].map(|axis| extremes_m(motion, axis));
         for (axis, of_axis) in extremes_m.iter().enumerate() {
@@ -54,12 +57,13 @@ impl<'a> MapBounds<'a> {
         let range = Range::new(0.0, width_m);
         let quantity = Quantity { name: "geofence", unit: "m", range, key: LimitKey::Geofence };
         let Extreme { value, error, t_s } = margin;
+        let value = value - self.radius_m;
         let value = if value > width_m / 2.0 { width_m / 2.0 } else { value };
         worst.consider_geofence([self.vehicle, &fence.name], quantity, (value, error), t_s);
     }
 
     fn quantity(&self, axis: usize) -> Quantity {
-        let (name, key) = [("x", "x_m"), ("y", "y_m"), ("z", "z_m")][axis];
+        let (name, key) = [("x of the centre", "x_m"), ("y of the centre", "y_m"), ("z of the centre", "z_m")][axis];
         Quantity { name, unit: "m", range: self.axes[axis], key: LimitKey::Map(key) }
     }
 }

@@ -1,65 +1,14 @@
 //! The motion of a vehicle as a continuous curve.
 
-use std::fmt;
+mod knots;
+
+pub use knots::{Knot, KnotDefect};
 
 use crate::verdict::bernstein;
 use crate::verdict::missing_evidence::MissingEvidence;
 
-/// Largest magnitude of a coordinate that is judged, m and m/s: up to here squares and products are accurate.
-const MAX_MAGNITUDE: f64 = 1e9;
 /// An interval shorter than this, relative to the median one, has no differences but rounding.
 const SHORT_INTERVAL: f64 = 1e-3;
-
-/// Position and velocity at one instant, world frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Knot {
-    /// Time, s.
-    pub t_s: f64,
-    /// Position, m.
-    pub position_m: [f64; 3],
-    /// Velocity, m/s.
-    pub velocity_mps: [f64; 3],
-}
-
-/// Why knots are no motion that can be judged.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum KnotDefect {
-    /// Fewer than two; how many.
-    TooFew(usize),
-    /// A number is not finite or larger than 1e9, at this time, s.
-    OutOfRange(f64),
-    /// Time decreases after this time, s.
-    DecreasingTime(f64),
-}
-
-impl fmt::Display for KnotDefect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.of("the candidate").fmt(f)
-    }
-}
-
-impl KnotDefect {
-    fn find(knots: &[Knot]) -> Option<Self> {
-        if knots.len() < 2 {
-            return Some(Self::TooFew(knots.len()));
-        }
-        if let Some(knot) = knots.iter().find(|knot| !is_judgeable(knot)) {
-            return Some(Self::OutOfRange(knot.t_s));
-        }
-        let backwards = knots.windows(2).find(|pair| pair[1].t_s < pair[0].t_s);
-        backwards.map(|pair| Self::DecreasingTime(pair[0].t_s))
-    }
-
-    /// The same, with the name of the vehicle.
-    fn of(self, vehicle: &str) -> MissingEvidence {
-        let body = vehicle.to_owned();
-        match self {
-            Self::TooFew(knots) => MissingEvidence::TooFewKnots { body, knots },
-            Self::OutOfRange(t_s) => MissingEvidence::OutOfRange { body, t_s },
-            Self::DecreasingTime(t_s) => MissingEvidence::DecreasingTime { body, t_s },
-        }
-    }
-}
 
 /// A curve through knots: between two of them the cubic Hermite of their positions and velocities.
 ///
@@ -213,6 +162,31 @@ impl Motion {
         self
     }
 
+    /// The end of the motion, from the last knot before `from_s` on, followed by straight flight at its last velocity until
+    /// `to_s`, s.
+    ///
+    /// - `velocity_error_mps`: how far the true last velocity may be from that one
+    pub fn coasting(&self, from_s: f64, to_s: f64, velocity_error_mps: f64) -> Self {
+        let before = self.knots.partition_point(|knot| knot.t_s < from_s);
+        let first = before.saturating_sub(1).min(self.knots.len() - 2);
+        let mut coasting = Self {
+            vehicle: self.vehicle.clone(),
+            knots: self.knots[first..].to_vec(),
+            deviation_m: self.deviation_m,
+            tube_m: self.tube_m.get(first..).unwrap_or_default().to_vec(),
+        };
+        let last = self.knots[self.knots.len() - 1];
+        if last.t_s < to_s {
+            let after_s = to_s - last.t_s;
+            let ahead_m = |axis: usize| last.position_m[axis] + last.velocity_mps[axis] * after_s;
+            coasting.knots.push(Knot { t_s: to_s, position_m: [0, 1, 2].map(ahead_m), ..last });
+            if self.is_reconstructed() {
+                coasting.tube_m.push(self.tube_m(self.knots.len()) + velocity_error_mps * after_s);
+            }
+        }
+        coasting
+    }
+
     /// Drops the knots after the first one at or beyond `t_s`.
     pub fn end_at(&mut self, t_s: f64) {
         let kept = self.knots.partition_point(|knot| knot.t_s < t_s) + 1;
@@ -235,10 +209,6 @@ impl Motion {
     pub fn segments(&self) -> impl Iterator<Item = Segment> + '_ {
         (0..self.segment_count()).map(|index| self.segment(index))
     }
-}
-
-fn is_judgeable(knot: &Knot) -> bool {
-    knot.t_s.is_finite() && knot.position_m.iter().chain(&knot.velocity_mps).all(|value| value.abs() <= MAX_MAGNITUDE)
 }
 
 /// A cubic in Bernstein form over an interval of time.

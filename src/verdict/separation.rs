@@ -1,7 +1,7 @@
 //! Separation: the smallest distance between any two vehicles, over continuous time.
 //!
-//! Of fixed wings it is horizontal, as in their papers, and an aircraft counts until it has arrived. Of multirotors it is in
-//! space, and one that has arrived hovers at its goal and counts until the mission ends for all.
+//! Of fixed wings it is horizontal, as in their papers, of multirotors in space. A vehicle that has arrived counts until the
+//! mission ends for all: a multirotor hovers at its goal, a fixed wing flies straight on.
 
 use scenarios::{CheckSpec, Plan, Scenario};
 
@@ -22,7 +22,23 @@ pub fn check(
     motions: Evidence<'_, [Motion]>,
     shape: SeparationShape,
 ) -> CheckResult {
-    against_rule(spec, scenario, motions, |motions| closest::between_vehicles(motions, shape))
+    check_with_coast(spec, scenario, motions, &[], shape)
+}
+
+/// Over continuous time.
+///
+/// - `coast`: the motions from the first arrival until the last, if `motions` end at the arrivals
+pub fn check_with_coast(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: Evidence<'_, [Motion]>,
+    coast: &[Motion],
+    shape: SeparationShape,
+) -> CheckResult {
+    against_rule(spec, scenario, motions, |motions| {
+        let parts = [motions, coast].into_iter().filter_map(|part| closest::between_vehicles(part, shape));
+        parts.reduce(ClosestApproach::closer)
+    })
 }
 
 /// At the planner's nodes. Skipped if the vehicles do not share their node times.

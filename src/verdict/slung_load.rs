@@ -106,7 +106,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.plan, it.flight()?)),
     ("flight.goal", |spec, it| it.end.check_flown_goal(spec, it.flown()?, it.planned_end_s())),
     ("flight.rest", |spec, it| it.end.check_flown_rest(spec, it.flown()?, it.planned_end_s())),
-    ("flight.tension", |spec, it| cable::check_flown_tension(spec, it.model, it.flown()?.log)),
+    ("flight.tension", |spec, it| cable::check_flown_tension(spec, it.model, it.flown()?.log, &it.flight()?.events)),
     ("flight.slack", |spec, it| {
         cable::check_flown_cable(spec, it.trajectory()?, it.flight()?, it.scenario.limits().switch_s)
     }),

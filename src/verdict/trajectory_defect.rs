@@ -74,12 +74,16 @@ pub enum TrajectoryDefect {
         after_s: f64,
     },
     /// It begins elsewhere than the vehicle.
-    #[error("it begins {distance:.3} {unit} away from the vehicle's start")]
+    #[error(
+        "it begins {distance:.3} {unit} away from the vehicle's start, where at most {tolerance} {unit} are allowed"
+    )]
     Start {
         /// Distance between the first node and the start, in `unit`.
         distance: f64,
         /// Unit, with the load named if it is meant.
         unit: &'static str,
+        /// Largest distance that is allowed, in `unit`.
+        tolerance: f64,
     },
     /// It holds NaN or an infinity.
     #[error("the trajectory has a value that is not finite")]
@@ -134,7 +138,11 @@ fn load_start_defect(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajec
 fn start_attitude_defect(first: &State, start: &State) -> Option<TrajectoryDefect> {
     let [first, start] = [first, start].map(|state| SlungLoadState::from(state).attitude);
     let distance = first.angle_to(&start);
-    exceeds(distance, START_TOLERANCE).then_some(TrajectoryDefect::Start { distance, unit: "rad" })
+    exceeds(distance, START_TOLERANCE).then_some(TrajectoryDefect::Start {
+        distance,
+        unit: "rad",
+        tolerance: START_TOLERANCE,
+    })
 }
 
 /// Times begin at 0 and increase; where the family allows a discontinuity, two nodes may share one time.
@@ -155,5 +163,5 @@ fn time_defect(trajectory: &Trajectory) -> Option<TrajectoryDefect> {
 /// The defect of a motion that begins at `first` instead of `start`, both in `unit`, if they are more than `tolerance` apart.
 pub fn start_defect(unit: &'static str, first: [f64; 3], start: [f64; 3], tolerance: f64) -> Option<TrajectoryDefect> {
     let distance = (0..3).map(|axis| (first[axis] - start[axis]).powi(2)).sum::<f64>().sqrt();
-    exceeds(distance, tolerance).then_some(TrajectoryDefect::Start { distance, unit })
+    exceeds(distance, tolerance).then_some(TrajectoryDefect::Start { distance, unit, tolerance })
 }

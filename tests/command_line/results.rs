@@ -129,3 +129,16 @@ fn the_summary_leads_to_every_report() {
         assert!(page.contains(&format!("| PASS | [{name}]({link}) | parallel-scp | 0 |")), "{page}");
     }
 }
+
+#[test]
+fn reports_of_a_file_that_is_now_refused_are_removed() {
+    let workplace = Workplace::new(&[("pair.toml", "name = ")]);
+    let reports = ["out/pair/fleet-scp/report.json", "out/pair/other/report.json", "out/other/rhc/report.json"];
+    for report in reports {
+        fs::create_dir_all(workplace.path(report).parent().unwrap()).unwrap();
+        fs::write(workplace.path(report), "{}").unwrap();
+    }
+    let output = workplace.harness(&["run", "pair.toml", "-q"]);
+    assert_eq!(code(&output), 2, "{}", stderr(&output));
+    assert_eq!(reports.map(|report| workplace.path(report).exists()), [false, false, true]);
+}

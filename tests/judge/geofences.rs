@@ -15,9 +15,12 @@ fn rectangle(kind: GeofenceKind, x: [f64; 2], y: [f64; 2]) -> Geofence {
     fence(kind, &[[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]])
 }
 
-/// The fleet flies east at y = 0, 200 and 400 m from x = 0, at 400 m.
+/// The fleet flies east at y = 0, 200 and 400 m from x = 0, at 400 m; bodies have a radius of 1 m.
 fn assert_status(fence: &Geofence, checks: &[&str], status: Status) {
-    let mut case = Case::good();
+    assert_status_of(Case::good(), fence, checks, status);
+}
+
+fn assert_status_of(mut case: Case, fence: &Geofence, checks: &[&str], status: Status) {
     case.scenario.world.geofences.push(fence.clone());
     let verdict = case.judge();
     for name in checks {
@@ -33,23 +36,25 @@ fn assert_status(fence: &Geofence, checks: &[&str], status: Status) {
 #[test]
 fn a_fleet_that_leaves_a_stay_in_zone_fails() {
     let up_to = |y_m: f64| rectangle(GeofenceKind::StayIn, [-500.0, 2000.0], [-100.0, y_m]);
-    assert_status(&up_to(399.9), &CHECKS, Status::Fail);
-    assert_status(&up_to(400.1), &CHECKS, Status::Pass);
+    assert_status(&up_to(400.9), &CHECKS, Status::Fail);
+    assert_status(&up_to(401.1), &CHECKS, Status::Pass);
 }
 
 #[test]
 fn a_fleet_that_enters_a_keep_out_zone_fails() {
     let from = |y_m: f64| rectangle(GeofenceKind::KeepOut, [100.0, 600.0], [y_m, 900.0]);
-    assert_status(&from(399.9), &CHECKS, Status::Fail);
-    assert_status(&from(400.1), &CHECKS, Status::Pass);
+    assert_status(&from(400.9), &CHECKS, Status::Fail);
+    assert_status(&from(401.1), &CHECKS, Status::Pass);
 }
 
-/// 0.2 m wide: 6 ms of flight, between two nodes of the plan and two samples of the flight.
+/// 0.2 m wide: 6 ms of flight of a small body, between two nodes of the plan and two samples of the flight.
 #[test]
 fn a_zone_crossed_between_samples_is_found() {
     let strip = rectangle(GeofenceKind::KeepOut, [105.05, 105.25], [-50.0, 50.0]);
-    assert_status(&strip, &["nodes.state_limits"], Status::Pass);
-    assert_status(&strip, &["plan.state_limits", "flight.state_limits"], Status::Fail);
+    let mut case = Case::good();
+    case.scenario.models.fixed_wing.get_mut("paper").unwrap().body_radius_m = 0.01;
+    assert_status_of(case.clone(), &strip, &["nodes.state_limits"], Status::Pass);
+    assert_status_of(case, &strip, &["plan.state_limits", "flight.state_limits"], Status::Fail);
 }
 
 #[test]
@@ -58,8 +63,8 @@ fn altitude_bands_count() {
         z_m: Some(Range::new(0.0, z_m)),
         ..rectangle(GeofenceKind::KeepOut, [100.0, 600.0], [-50.0, 50.0])
     };
-    assert_status(&below(400.1), &CHECKS, Status::Fail);
-    assert_status(&below(399.9), &CHECKS, Status::Pass);
+    assert_status(&below(399.1), &CHECKS, Status::Fail);
+    assert_status(&below(398.9), &CHECKS, Status::Pass);
 }
 
 /// A U open to the west around the first aircraft's path: its convex hull is entered, the zone is not.
@@ -72,4 +77,18 @@ fn the_hollow_of_a_zone_is_not_the_zone() {
     };
     assert_status(&u(880.0), &CHECKS, Status::Pass);
     assert_status(&u(600.0), &CHECKS, Status::Fail);
+}
+
+/// The map is for bodies, too: the one farthest north is at y = 400 m, all are at 400 m.
+#[test]
+fn a_wing_tip_beyond_the_edge_or_the_ceiling_of_the_map_has_left_it() {
+    let statuses = |change: &dyn Fn(&mut scenarios::Map)| {
+        let mut case = Case::good();
+        change(&mut case.scenario.world.map);
+        CHECKS.map(|name| case.status(name))
+    };
+    assert_eq!(statuses(&|map| map.y_m.max = 400.9), [Status::Fail; 3]);
+    assert_eq!(statuses(&|map| map.y_m.max = 401.1), [Status::Pass; 3]);
+    assert_eq!(statuses(&|map| map.z_m.max = 400.9), [Status::Fail; 3]);
+    assert_eq!(statuses(&|map| map.z_m.max = 401.1), [Status::Pass; 3]);
 }

@@ -5,7 +5,7 @@ use harness::metrics::{Metrics, measure};
 use harness::verdict::{FlownMotions, Outcome, SeparationShape, Status, Verdict};
 use scenarios::{CHECKS, PlanStatus};
 
-use crate::fleet::{Case, check, factors};
+use crate::fleet::{Case, SPEED_MPS, check, factors};
 
 #[test]
 fn what_does_not_apply_is_skipped_with_the_reason() {
@@ -116,10 +116,11 @@ fn the_planning_limits_bind_the_nodes_and_the_physical_ones_the_rest() {
 #[test]
 fn the_map_is_a_state_limit_of_nodes_plan_and_flight() {
     let mut case = Case::good();
+    // The body has a radius of 1 m.
     case.scenario.world.map.y_m.max = 399.0;
     for name in ["nodes.state_limits", "plan.state_limits", "flight.state_limits"] {
         let check = case.check(name);
-        assert_eq!((check.status, check.value, check.limit), (Status::Fail, Some(400.0), Some(399.0)));
+        assert_eq!((check.status, check.value, check.limit), (Status::Fail, Some(400.0), Some(398.0)));
         assert_eq!(check.between, ["uav-3"]);
     }
 }
@@ -251,4 +252,40 @@ fn distances_over_time_agree_with_the_verdict() {
     let clearance = clearance_over_time(&case.scenario, &flown.motions, 0.5);
     let smallest = clearance.iter().map(|nearest| nearest.distance_m).fold(f64::INFINITY, f64::min);
     assert!((smallest - case.check("flight.clearance").value.unwrap()).abs() < 1e-6);
+}
+
+/// The first aircraft arrives after 10 s, 20° to the north of its course, and would fly on towards the second one, which is
+/// under way for 10 s more.
+#[test]
+fn an_aircraft_that_has_arrived_counts_for_the_separation_until_all_have() {
+    let arriving = |heading_deg: f64| {
+        let mut case = Case::good();
+        case.scenario.fleet.simultaneous_arrival = false;
+        case.scenario.vehicles[0].goal.x_m = 350.0;
+        let trajectory = case.trajectory(0);
+        trajectory.times_s.truncate(6);
+        trajectory.states.truncate(6);
+        trajectory.controls.truncate(6);
+        trajectory.states[4].heading_rad = heading_deg.to_radians();
+        let north_mps = SPEED_MPS * heading_deg.to_radians().tan();
+        for sample in case.samples(0).iter_mut().filter(|sample| sample.t_s > 10.0) {
+            sample.position_m[1] += north_mps * (sample.t_s - 10.0);
+            sample.velocity_mps[1] += north_mps;
+        }
+        case
+    };
+    let (straight, turned) = (arriving(0.0), arriving(20.0));
+    for (name, after_s) in [("plan.separation", 12.0), ("flight.separation", 10.0)] {
+        assert_eq!(straight.check(name).status, Status::Pass, "{name}");
+        let check = turned.check(name);
+        assert_eq!(check.status, Status::Fail, "{check:#?}");
+        assert!((check.at_s.unwrap() - 20.0).abs() < 0.02, "{check:#?}");
+        let (north_m, behind_m) = match name {
+            "plan.separation" => {
+                (35.0 * 20_f64.to_radians().sin() * after_s, 35.0 * (1.0 - 20_f64.to_radians().cos()) * after_s)
+            }
+            _ => (35.0 * 20_f64.to_radians().tan() * after_s, 0.0),
+        };
+        assert!((check.value.unwrap() - (200.0 - north_m).hypot(behind_m)).abs() < 0.3, "{check:#?}");
+    }
 }

@@ -191,3 +191,44 @@ fn damaged_plans_that_pass_still_lead_to_the_goal() {
     }
     assert!(judged_count > 5 && passed > 2 && passed < judged_count, "{judged_count} judged, {passed} passed");
 }
+
+#[test]
+fn a_start_that_the_scenario_draws_is_no_incomplete_flight() {
+    let mut case = case::Case::good();
+    case.scenario.simulation.mismatch.start_radius_m = 3.0;
+    case.fly();
+    let start_m = case.scenario.vehicles[0].start.position_m();
+    let first_m = case.samples(0)[0].position_m;
+    let off_m = (first_m[0] - start_m[0]).hypot(first_m[1] - start_m[1]);
+    assert!(off_m > case.scenario.limits().tracking_max_m, "the draw is too near to show anything: {off_m}");
+    assert_eq!(case.status("flight.complete"), Status::Pass);
+    case.samples(0)[0].position_m[0] += 3.1 + off_m;
+    assert_eq!(case.status("flight.complete"), Status::Fail);
+}
+
+/// Rows every 0.1 s, and 8 s at a door between two rows.
+#[test]
+fn a_hover_may_be_two_rows() {
+    let scenario = scenario();
+    let mut text = "t_s,x_m,y_m,z_m,vx_mps,vy_mps,vz_mps\n".to_owned();
+    let half = |from_m: f64, begin_s: f64| {
+        let row = move |k: u32| {
+            let u = f64::from(k) / 40.0;
+            let (x_m, mps) = (from_m + 3.0 * u * u * (3.0 - 2.0 * u), 18.0 * u * (1.0 - u) / 4.0);
+            format!("{},{x_m},0,2,{mps},0,0\n", begin_s + 4.0 * u)
+        };
+        (0..=40).map(row).collect::<String>()
+    };
+    text.push_str(&half(0.0, 0.0));
+    text.push_str(&half(3.0, 12.0));
+    let verdict = judged(&text, &scenario).expect("a hover is no gap");
+    assert_eq!(
+        verdict.outcome,
+        Outcome::Pass,
+        "{:#?}",
+        verdict.checks.iter().filter(|it| it.is_bad()).collect::<Vec<_>>()
+    );
+    // At another place after the gap, rows are missing.
+    let lost = text.replace("12,3,0,2", "12,3.5,0,2");
+    assert!(parse_csv("plan.csv", &lost, &scenario).is_err());
+}

@@ -1,6 +1,6 @@
 //! Every check on slung loads, on both sides of its limit.
 
-use harness::verdict::Verdict;
+use harness::verdict::{Status, Verdict};
 use scenarios::slung_load::Cable;
 use scenarios::{Family, Gate, Range, Window};
 use sim::{Event, EventKind};
@@ -20,6 +20,9 @@ impl PassingCase for Case {
 
 /// Distances in flight stay farther from their limits than the difference between the integrators, 0.24 mm, within which
 /// they are undecided.
+/// Radius of the body, the arm's and a propeller's, m.
+const BODY_M: f64 = 0.225 + 0.127;
+
 const EDGES: &[Edge<Case>] = &[
     edge("nodes.clearance", |case, y_m| grow_wall(case, "nodes.clearance", y_m), -0.001, 0.001),
     edge("nodes.envelope", |case, y_m| grow_wall(case, "nodes.envelope", y_m), 0.049, 0.051),
@@ -38,7 +41,7 @@ const EDGES: &[Edge<Case>] = &[
     edge("plan.clearance", |case, y_m| grow_wall(case, "plan.clearance", y_m), -0.001, 0.001),
     edge("plan.envelope", |case, y_m| grow_wall(case, "plan.envelope", y_m), 0.049, 0.051),
     edge("plan.rotor_clearance", |case, m| enlarge_load(case, "plan.rotor_clearance", m), -0.001, 0.001),
-    edge("plan.state_limits", |case, x_m| case.scenario.world.map.x_m.max = 2.0 + x_m, -0.001, 0.001),
+    edge("plan.state_limits", |case, x_m| case.scenario.world.map.x_m.max = 2.0 + BODY_M + x_m, -0.001, 0.001),
     edge("plan.control_limits", |case, n| case.trajectory().controls[9].thrust_n[1] = n, 0.199, 0.201),
     edge("plan.dynamics", |case, x_m| case.trajectory().states[300].load_position_m[0] += x_m, 0.0102, 0.0097),
     edge("plan.goal", |case, x_m| case.scenario.vehicles[0].goal.x_m = 2.0 + x_m, 0.0501, 0.0499),
@@ -59,7 +62,7 @@ const EDGES: &[Edge<Case>] = &[
     edge("flight.clearance", |case, y_m| shift_to(case, "flight.clearance", y_m), -0.001, 0.001),
     edge("flight.envelope", |case, y_m| shift_to(case, "flight.envelope", y_m), -0.001, 0.001),
     edge("flight.rotor_clearance", |case, m| enlarge_load(case, "flight.rotor_clearance", m), -0.001, 0.001),
-    edge("flight.state_limits", |case, x_m| case.scenario.world.map.x_m.min = -2.0 - x_m, -0.001, 0.001),
+    edge("flight.state_limits", |case, x_m| case.scenario.world.map.x_m.min = -2.0 - BODY_M - x_m, -0.001, 0.001),
     edge("flight.control_limits", |case, n| thrusts(&mut case.samples()[400]).control.thrust_n[3] = n, 7.001, 6.999),
     edge("flight.conditions", |case, mps| case.samples()[400].wind_mps[1] = mps, 1.1e-6, 0.9e-6),
     edge("flight.dynamics", |case, y_m| case.loads()[777].position_m[1] += y_m, 0.0011, 0.0009),
@@ -169,4 +172,36 @@ const SKIPPED: [&str; 6] =
 #[test]
 fn every_check_has_a_row_in_the_table() {
     assert_complete(EDGES, Family::SlungLoad, &SKIPPED);
+}
+
+/// The floor of the map is for the load, which hangs lowest, and of a geofence for both.
+#[test]
+fn the_load_counts_with_its_radius_on_the_map_and_at_geofences() {
+    let case = Case::good();
+    let flight = case.flight.as_ref().unwrap();
+    let lowest_m = flight.vehicles[0].loads.iter().map(|load| load.position_m[2]).fold(f64::INFINITY, f64::min);
+    let radius_m = case.scenario.models.slung_load["quad"].load_radius_m;
+    for (above_m, status) in [(0.9 * radius_m, Status::Fail), (1.1 * radius_m, Status::Pass)] {
+        let mut on_map = case.clone();
+        on_map.scenario.world.map.z_m.min = lowest_m - above_m;
+        let mut fenced = case.clone();
+        let polygon_m = vec![[-50.0, -50.0], [50.0, -50.0], [50.0, 50.0], [-50.0, 50.0]];
+        let z_m = Some(scenarios::Range::new(lowest_m - above_m, 50.0));
+        let kind = scenarios::GeofenceKind::StayIn;
+        fenced.scenario.world.geofences = vec![scenarios::Geofence { name: "site".into(), kind, polygon_m, z_m }];
+        for case in [on_map, fenced] {
+            assert_eq!(case.check("flight.state_limits").status, status, "{above_m}");
+        }
+    }
+}
+
+#[test]
+fn a_planned_phase_that_is_too_short_to_be_detected_has_no_counterpart() {
+    for rows in [1, 2] {
+        let mut case = Case::good();
+        case.trajectory().cable[300..300 + rows].fill(Cable::Slack);
+        let check = case.check("flight.slack");
+        assert_eq!(check.status, Status::Fail, "{rows}");
+        assert!(check.reason.unwrap().contains("flown: no switch"));
+    }
 }

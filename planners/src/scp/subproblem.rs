@@ -32,7 +32,7 @@ pub struct Context<'a> {
 /// Half-width of the trust region of the controls that cannot bind.
 pub const FREE_CONTROL_CHANGE: f64 = 4.0;
 
-/// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map, SI. Heading is
+/// Bounds of (x, y, h, V, χ, γ, n_x, n_y, n_z) from the vehicle's planning limits and the map of its centre, SI. Heading is
 /// free.
 pub fn node_bounds(limits: &Limits, map: &scenarios::Map) -> [Range; STAGE_LEN] {
     let free = Range::new(f64::MIN, f64::MAX);

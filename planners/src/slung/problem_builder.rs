@@ -92,7 +92,7 @@ pub fn problem(scenario: &Scenario) -> Problem {
         limits: Limits {
             clearance_m: scenario.planner.margin_m.unwrap_or(PAPER_CLEARANCE_M),
             floor_m: world.ground_m.map(|ground_m| ground_m + model.load_radius_m - FLOOR_OFFSET_M),
-            position_m: world.map.axes().map(interval),
+            position_m: world.map.inset(model.body_radius_m()).axes().map(interval),
             ..limits(&model.planning_limits)
         },
         weights: match settings.objective.unwrap_or(Objective::Effort) {

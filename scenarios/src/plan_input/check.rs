@@ -242,20 +242,29 @@ fn time_issue(table: &ColumnTable, columns: &Columns) -> Option<PlanIssue> {
             _ => return issue(row + 1, found, "rows in the order of time", "sort the rows of each vehicle by t_s"),
         }
     }
-    if columns.refuses_gaps { gap_issue(table, &intervals_s) } else { None }
+    if columns.refuses_gaps { gap_issue(table, columns, &intervals_s) } else { None }
 }
 
-/// The first interval that is much longer than the others.
-fn gap_issue(table: &ColumnTable, intervals_s: &[f64]) -> Option<PlanIssue> {
+/// The first interval that is much longer than the others, and not a hover.
+fn gap_issue(table: &ColumnTable, columns: &Columns, intervals_s: &[f64]) -> Option<PlanIssue> {
     let mut sorted: Vec<f64> = intervals_s.iter().copied().filter(|interval_s| *interval_s > 0.0).collect();
     sorted.sort_by(f64::total_cmp);
     let median_s = *sorted.get(sorted.len() / 2)?;
-    let gap = intervals_s.iter().position(|interval_s| *interval_s > MAX_INTERVALS * median_s)?;
+    let is_gap = |row: &usize| intervals_s[*row] > MAX_INTERVALS * median_s && !is_hover(table, columns, *row);
+    let gap = (0..intervals_s.len()).find(is_gap)?;
     let [from_s, to_s] = [table.times_s[gap], table.times_s[gap + 1]];
     let found = format!("a gap from {from_s} s to {to_s} s, where rows are {median_s} s apart");
     let issue = Issue::new("t_s", found, "no interval longer than 20 times the median");
-    let issue = issue.remedy("add the missing rows, or resample the plan");
+    let issue = issue.remedy("add the missing rows, or resample the plan; two rows at rest at one place are a hover");
     Some(PlanIssue::new(table.locations.of(gap + 1), of_vehicle(table, issue)))
+}
+
+/// Whether a row and the next say that the vehicle stays: at one place, and at rest.
+fn is_hover(table: &ColumnTable, columns: &Columns, row: usize) -> bool {
+    let values = |meant: &str| table.columns.iter().find(|(name, _)| columns.meaning(name).0 == meant).map(|it| it.1);
+    let stays = |name: &&str| values(name).is_some_and(|values| values[row] == values[row + 1]);
+    let rests = |name: &&str| values(name).is_some_and(|values| values[row] == 0.0 && values[row + 1] == 0.0);
+    ["x_m", "y_m", "z_m"].iter().all(stays) && ["vx_mps", "vy_mps", "vz_mps"].iter().all(rests)
 }
 
 /// An end so late that the times must be in another unit.

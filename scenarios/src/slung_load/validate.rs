@@ -1,9 +1,10 @@
 //! Validation of models of quadrotors with slung loads, and of where the load begins and ends.
 
 use super::{Limits, Model, State};
+use crate::validate::body::{beyond_geofences, too_near, too_near_edges};
 use crate::validate::quantity::{not_negative, ordered, positive, positive_if_given};
 use crate::validate::{inside_obstacle, outside_map, planning_inside_physical};
-use crate::{Issue, Range, Waypoint, World};
+use crate::{Issue, Prism, Range, Waypoint, World};
 
 /// Excess over the cable's length that is attributed to the decimals of a file, m.
 const LENGTH_TOLERANCE_M: f64 = 1e-6;
@@ -71,12 +72,15 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
     let load = format!("{field}.load");
     let mut issues = outside_map(world, &load, state.load_position_m);
     issues.extend(inside_obstacle(world, &load, state.load_position_m));
+    issues.extend(too_near_edges(model.load_radius_m, world, &load, state.load_position_m));
+    issues.extend(beyond_geofences(model.load_radius_m, world, &load, state.load_position_m));
     if state.cable_length_m() > model.cable_length_m + LENGTH_TOLERANCE_M {
         let found = format!("a load {:.4} m from the quadrotor", state.cable_length_m());
         let expected = format!("at most {} m, the length of the cable", model.cable_length_m);
         issues.push(Issue::new(load.clone(), found, expected).remedy("move the load or the quadrotor"));
     }
     issues.extend(inside_body(model, &load, &state));
+    issues.extend(touched(model, world, [field, &load], &state));
     let min_z_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
     if let Some(min_z_m) = min_z_m.filter(|min_z_m| state.load_position_m[2] < min_z_m - LENGTH_TOLERANCE_M) {
         let found = format!("a load whose centre is at {} m", state.load_position_m[2]);
@@ -84,6 +88,24 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
         issues.push(Issue::new(load, found, expected).remedy("raise the load, or lower world.ground_m"));
     }
     issues
+}
+
+/// Obstacles that the disc of the level body or the ball of the load touches while its centre is outside.
+fn touched(model: &Model, world: &World, [body, load]: [&str; 2], state: &State) -> Vec<Issue> {
+    let [x_m, y_m, z_m] = state.position_m;
+    let of_prism = |prism: Prism| {
+        let is_level = prism.z_m.is_none_or(|range| range.contains(z_m));
+        let to_body_m = if is_level { prism.signed_distance_m([x_m, y_m]) } else { f64::INFINITY };
+        let to_load_m = prism.signed_distance_in_space_m(state.load_position_m);
+        let parts = [(body, to_body_m, model.body_radius_m()), (load, to_load_m, model.load_radius_m)];
+        // A box without a width, which is refused itself, is at distance 0 of every point beside it.
+        let is_near = |(_, distance_m, radius_m): &(&str, f64, f64)| 0.0 < *distance_m && distance_m < radius_m;
+        let touching = parts.into_iter().filter(is_near);
+        touching
+            .map(|(field, distance_m, radius_m)| too_near(radius_m, field, &prism.name, distance_m))
+            .collect::<Vec<_>>()
+    };
+    world.prism_obstacles().into_iter().flat_map(of_prism).collect()
 }
 
 /// A load that overlaps the disc of the level body.

@@ -1,8 +1,9 @@
 //! Single vehicles: name, model, and start and goal against map, obstacles and limits.
 
+use super::body::{beyond_geofences, too_near_edges};
 use super::identifier::entity_names;
 use super::quantity::inside;
-use crate::{Geofence, GeofenceKind, Issue, Scenario, Vehicle, World, closest_name};
+use crate::{Issue, Scenario, Vehicle, World, closest_name};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     if scenario.vehicles.is_empty() {
@@ -16,8 +17,10 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
             let field = format!("vehicles[{index}].{end}");
             issues.extend(outside_map(&scenario.world, &field, waypoint.position_m()));
             issues.extend(inside_obstacle(&scenario.world, &field, waypoint.position_m()));
-            issues.extend(beyond_geofence(&scenario.world, &field, waypoint.position_m()));
             let model = scenario.models.get(&vehicle.model);
+            let (world, radius_m) = (&scenario.world, model.map_or(0.0, |model| model.body_radius_m()));
+            issues.extend(too_near_edges(radius_m, world, &field, waypoint.position_m()));
+            issues.extend(beyond_geofences(radius_m, world, &field, waypoint.position_m()));
             issues.extend(model.iter().flat_map(|model| model.waypoint_issues(&scenario.world, &field, waypoint)));
         }
     }
@@ -63,21 +66,6 @@ fn unknown_model(scenario: &Scenario, index: usize, vehicle: &Vehicle) -> Option
 pub(crate) fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Issue> {
     let axes = ["x_m", "y_m", "z_m"].into_iter().zip(position_m).zip(world.map.axes());
     axes.filter_map(|((axis, value), range)| inside(&format!("{field}.{axis}"), value, range, "the map")).collect()
-}
-
-fn beyond_geofence(world: &World, field: &str, position_m: [f64; 3]) -> Vec<Issue> {
-    let simple = world.geofences.iter().filter(|fence| fence.is_simple());
-    let margins = simple.map(|fence| (fence, fence.margin_m(position_m)));
-    let issue = |(fence, margin_m): (&Geofence, f64)| {
-        let [x_m, y_m, z_m] = position_m;
-        let (side, allowed) = match fence.kind {
-            GeofenceKind::StayIn => ("outside", "inside"),
-            GeofenceKind::KeepOut => ("inside", "outside"),
-        };
-        let found = format!("({x_m}, {y_m}, {z_m}) m, {:.3} m {side} geofence `{}`", -margin_m, fence.name);
-        Issue::new(field, found, format!("a point {allowed} it")).remedy("move the point or the geofence")
-    };
-    margins.filter(|(_, margin_m)| *margin_m < 0.0).map(issue).collect()
 }
 
 pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Issue> {

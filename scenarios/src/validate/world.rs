@@ -70,7 +70,13 @@ fn gate_issues(index: usize, gate: &Gate) -> Vec<Issue> {
         let named = ["x_m", "y_m", "z_m"].into_iter().zip(window.axes());
         named.filter_map(move |(axis, range)| ordered(&format!("world.gates[{index}].{whose}.{axis}"), range?))
     });
-    faces.collect()
+    let is_unbounded = windows.iter().all(|(_, window)| window.axes().iter().all(Option::is_none));
+    let unbounded = is_unbounded.then(|| {
+        let expected = "at least one of x_m, y_m, z_m in `quadrotor` or `load`";
+        Issue::new(format!("world.gates[{index}]"), "two windows without a face", expected)
+            .remedy("bound a window, or remove the gate: every motion passes it")
+    });
+    faces.chain(unbounded).collect()
 }
 
 fn geofence_issues(index: usize, fence: &Geofence) -> Vec<Issue> {

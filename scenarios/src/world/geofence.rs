@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::prism::{cross, extruded_by};
 use crate::Range;
 
-/// A volume over a polygon that the centres of vehicles and loads may not leave, or may not enter.
+/// A volume over a polygon that the bodies of vehicles and loads may not leave, or may not enter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Geofence {

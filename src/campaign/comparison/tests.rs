@@ -102,12 +102,26 @@ fn statuses_and_verdicts_have_an_order() {
 
 #[test]
 fn differences_of_advisory_checks_are_notes() {
-    let advisory = |entry: &mut Entry| {
-        let check = entry.checks.get_mut("flight.separation").unwrap();
-        (check.advisory, check.status) = (true, Status::Fail);
+    let advisory = |entry: &mut Entry| entry.checks.get_mut("flight.separation").unwrap().advisory = true;
+    let failed = |entry: &mut Entry| {
+        advisory(entry);
+        entry.checks.get_mut("flight.separation").unwrap().status = Status::Fail;
         *entry.figures.get_mut("margin of flight.separation").unwrap() = -1.0;
     };
-    assert!(found(advisory).iter().all(|(rating, _)| *rating == Severity::Note));
+    let comparison = compare(&snapshot(advisory), &snapshot(failed), Scope::Everything);
+    assert_eq!(comparison.differences.len(), 2);
+    assert!(comparison.differences.iter().all(|difference| difference.rating == Severity::Note));
+}
+
+/// A judge that was weakened is a regression, although every status is as it was.
+#[test]
+fn a_check_that_became_advisory_is_worse() {
+    let advisory = |entry: &mut Entry| entry.checks.get_mut("flight.separation").unwrap().advisory = true;
+    assert_eq!(found(advisory), [(Severity::Worse, "flight.separation".to_owned())]);
+    let back = compare(&snapshot(advisory), &snapshot(|_| {}), Scope::Everything);
+    assert_eq!(back.differences.len(), 1);
+    assert_eq!(back.differences[0].sentence(), "flight.separation: advisory before, decides now");
+    assert_eq!(back.differences[0].rating, Severity::Better);
 }
 
 #[test]

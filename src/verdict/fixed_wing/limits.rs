@@ -145,7 +145,7 @@ fn limited_vehicles<'a>(
 ) -> impl Iterator<Item = Limited<'a>> {
     scenario.vehicles.iter().map(move |vehicle| Limited {
         vehicle: &vehicle.name,
-        map: MapBounds::new(scenario, &vehicle.name),
+        map: MapBounds::new(scenario, &vehicle.name, scenario.fixed_wing_model(vehicle).body_radius_m),
         limits: limits(scenario.fixed_wing_model(vehicle)),
     })
 }

@@ -147,7 +147,8 @@ impl<'a> Limited<'a> {
         let widened = |value: f64| value * (1.0 + SOLVER_TOLERANCE);
         let Limits { speed_mps, acceleration_mps2 } = model.planning_limits;
         let promised = Limits { speed_mps: widened(speed_mps), acceleration_mps2: widened(acceleration_mps2) };
-        Self { vehicle: &vehicle.name, map: MapBounds::new(scenario, &vehicle.name), model, promised }
+        let map = MapBounds::new(scenario, &vehicle.name, model.body_radius_m);
+        Self { vehicle: &vehicle.name, map, model, promised }
     }
 
     /// Considers position and speed of a planned motion over continuous time, against the physical limits.

@@ -3,9 +3,10 @@
 use scenarios::CheckSpec;
 use scenarios::slung_load::{Cable, Model, Trajectory};
 use sim::slung_load::MIN_PHASE_S;
-use sim::{EventKind, Flight, VehicleLog};
+use sim::{Event, EventKind, Flight, VehicleLog};
 
 use super::planned::PlannedMotion;
+use crate::number_format::quantity;
 use crate::verdict::compare::{exceeds, is_larger, is_smaller};
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
@@ -13,6 +14,10 @@ use crate::verdict::{Check, LimitKey};
 
 /// The tension is averaged over this time, s: at an impact a stiff cable has an impulse and no finite peak.
 pub const TENSION_WINDOW_S: f64 = 0.02;
+/// Largest number of switches that a reason names.
+const MAX_NAMED: usize = 8;
+/// Times that differ by less than this, s, are equal up to rounding.
+const SAME_TIME_S: f64 = 1e-9;
 /// A planned tension may be this far below 0, N: the tolerance of a solver.
 const PUSH_TOLERANCE_N: f64 = 1e-3;
 
@@ -28,18 +33,35 @@ pub fn check_planned_tension(spec: &CheckSpec, model: &Model, vehicle: &str, pla
         let mean_n = f64::midpoint(pair[0].tension_n, pair[1].tension_n);
         (pair[1].t_s, mean_n * (pair[1].t_s - pair[0].t_s))
     }));
-    highest_mean(spec, vehicle, impulses, model.limits.tension_n)
+    highest_mean(spec, vehicle, impulses, model.limits.tension_n).map(|check| with_impact(check, &planned.impacts))
 }
 
 /// The flown tension: at least 0, and its mean at most the cable's limit.
-pub fn check_flown_tension(spec: &CheckSpec, model: &Model, log: &VehicleLog) -> CheckResult {
+pub fn check_flown_tension(spec: &CheckSpec, model: &Model, log: &VehicleLog, events: &[Event]) -> CheckResult {
     let tensions = log.samples.iter().zip(&log.loads).map(|(sample, load)| (sample.t_s, load.tension_n));
     if let Some(push) = push(spec, &log.vehicle, tensions) {
         return Ok(push);
     }
     let steps = log.samples.windows(2).zip(log.loads.iter().skip(1));
     let impulses = steps.map(|(pair, load)| (pair[1].t_s, load.tension_n * (pair[1].t_s - pair[0].t_s)));
+    let impacts = events.iter().filter_map(|event| match event.kind {
+        EventKind::CableTaut { impulse_ns } => Some((event.t_s, impulse_ns)),
+        _ => None,
+    });
     highest_mean(spec, &log.vehicle, impulses.collect(), model.limits.tension_n)
+        .map(|check| with_impact(check, &impacts.collect::<Vec<_>>()))
+}
+
+/// The check with a remark on the largest impact, whose peak is not known.
+///
+/// - `impacts`: times, s, and impulses, N s
+fn with_impact(check: Check, impacts: &[(f64, f64)]) -> Check {
+    let largest = impacts.iter().reduce(|a, b| if is_larger(b.1, a.1) { b } else { a });
+    let remark = largest.map(|(t_s, impulse_ns)| {
+        let impulse = quantity(*impulse_ns, "N s");
+        format!("impact of {impulse} at {t_s:.2} s: its peak depends on the cable's stiffness, and is not judged")
+    });
+    Check { reason: remark.or(check.reason.clone()), ..check }
 }
 
 /// The failed check of a taut cable with a negative tension; `None` if there is none.
@@ -96,8 +118,8 @@ pub fn check_planned_cable(
     Ok(spec.at_most(Measurement::value(beyond_m).at(at_s).with(&trajectory.vehicle), limit_m))
 }
 
-/// Largest difference between the times at which the planned and the flown cable become taut or slack. Phases shorter than
-/// 10 ms do not count. A phase without a counterpart fails.
+/// Largest difference between the times at which the planned and the flown cable become taut or slack. A switch without a
+/// counterpart fails; that of a planned phase shorter than 10 ms has none, since no such phase is detected in flight.
 pub fn check_flown_cable(spec: &CheckSpec, trajectory: &Trajectory, flight: &Flight, limit_s: f64) -> CheckResult {
     if let Some(contradiction) = flight.vehicles.iter().find_map(contradiction) {
         return Err(MissingEvidence::Contradiction(contradiction));
@@ -107,7 +129,11 @@ pub fn check_flown_cable(spec: &CheckSpec, trajectory: &Trajectory, flight: &Fli
         flight.events.iter().filter_map(|event| Some((event.t_s, switch(&event.kind)?))).collect();
     let kinds = |switches: &[(f64, Cable)]| switches.iter().map(|(_, cable)| *cable).collect::<Vec<_>>();
     if kinds(&planned) != kinds(&flown) {
-        return Ok(spec.fail(format!("planned: {}; flown: {}", in_words(&planned), in_words(&flown))));
+        let short = planned.windows(2).find(|pair| pair[1].0 - pair[0].0 < MIN_PHASE_S);
+        let remark = short.map_or_else(String::new, |pair| {
+            format!("; planned phases shorter than {MIN_PHASE_S} s, as the one at {:.3} s, are not detected", pair[0].0)
+        });
+        return Ok(spec.fail(format!("planned: {}; flown: {}{remark}", in_words(&planned), in_words(&flown))));
     }
     let differences =
         planned.iter().zip(&flown).map(|((planned_s, _), (flown_s, _))| (*planned_s, (planned_s - flown_s).abs()));
@@ -144,7 +170,7 @@ fn switch(kind: &EventKind) -> Option<Cable> {
     }
 }
 
-/// Times at which the planned cable becomes taut or slack, without phases that are too short to count.
+/// Times at which the planned cable becomes taut or slack, without phases that last no time.
 fn planned_switches(trajectory: &Trajectory) -> Vec<(f64, Cable)> {
     let mut switches: Vec<(f64, Cable)> = Vec::new();
     for (node, pair) in trajectory.cable.windows(2).enumerate() {
@@ -153,7 +179,7 @@ fn planned_switches(trajectory: &Trajectory) -> Vec<(f64, Cable)> {
         }
         let t_s = trajectory.times_s[node + 1];
         match switches.last() {
-            Some((began_s, _)) if t_s - began_s < MIN_PHASE_S => {
+            Some((began_s, _)) if t_s - began_s < SAME_TIME_S => {
                 switches.pop();
             }
             _ => switches.push((t_s, pair[1])),
@@ -170,6 +196,11 @@ fn in_words(switches: &[(f64, Cable)]) -> String {
         Cable::Taut => format!("taut at {t_s:.3} s"),
         Cable::Slack => format!("slack at {t_s:.3} s"),
     });
-    let words: Vec<String> = words.collect();
-    if words.is_empty() { "no switch".to_owned() } else { words.join(", ") }
+    let words: Vec<String> = words.take(MAX_NAMED).collect();
+    let more = switches.len() - words.len();
+    match (words.is_empty(), more) {
+        (true, _) => "no switch".to_owned(),
+        (false, 0) => words.join(", "),
+        (false, more) => format!("{} and {more} more", words.join(", ")),
+    }
 }

@@ -21,7 +21,8 @@ use crate::verdict::worst::{Quantity, Worst, check_limits};
 /// A vehicle and what it has to stay inside.
 pub struct LimitChecks<'a> {
     vehicle: &'a str,
-    map: MapBounds<'a>,
+    /// Of the quadrotor and of the load.
+    maps: [MapBounds<'a>; 2],
     promised: Limits,
     physical: Limits,
 }
@@ -37,7 +38,8 @@ impl<'a> LimitChecks<'a> {
         let Limits { thrust_n, attitude_deg, cable_deg, tension_n } = model.planning_limits;
         Self {
             vehicle: &vehicle.name,
-            map: MapBounds::new(scenario, &vehicle.name),
+            maps: [model.body_radius_m(), model.load_radius_m]
+                .map(|radius_m| MapBounds::new(scenario, &vehicle.name, radius_m)),
             promised: Limits {
                 thrust_n: widened(thrust_n),
                 attitude_deg: widened(attitude_deg),
@@ -53,8 +55,8 @@ impl<'a> LimitChecks<'a> {
         check_limits(spec, |worst| {
             for node in trajectory.planner_nodes() {
                 let (state, t_s) = (&trajectory.states[node], trajectory.times_s[node]);
-                for position_m in [state.position_m, state.load_position_m] {
-                    self.map.place(worst, position_m, t_s);
+                for (map, position_m) in self.maps.iter().zip([state.position_m, state.load_position_m]) {
+                    map.place(worst, position_m, t_s);
                 }
                 self.attitude(worst, &SlungLoadState::from(state).attitude, self.promised.attitude_deg, t_s);
                 self.cable(worst, &SlungLoadState::from(state), self.promised.cable_deg, t_s);
@@ -65,8 +67,8 @@ impl<'a> LimitChecks<'a> {
     /// States of the continuous plan against the physical limits.
     pub fn check_planned_states(&self, spec: &CheckSpec, planned: &PlannedMotion) -> CheckResult {
         check_limits(spec, |worst| {
-            for motion in &planned.motions {
-                self.map.path(worst, motion);
+            for (map, motion) in self.maps.iter().zip(&planned.motions) {
+                map.path(worst, motion);
             }
             for knot in &planned.knots {
                 self.attitude(worst, &knot.state.attitude, self.physical.attitude_deg, knot.t_s);
@@ -77,8 +79,8 @@ impl<'a> LimitChecks<'a> {
     /// Flown states against the physical limits.
     pub fn check_flown_states(&self, spec: &CheckSpec, flown: &FlownMotion<'_>) -> CheckResult {
         check_limits(spec, |worst| {
-            for motion in &flown.motions {
-                self.map.path(worst, motion);
+            for (map, motion) in self.maps.iter().zip(&flown.motions) {
+                map.path(worst, motion);
             }
             for sample in &flown.log.samples {
                 let attitude = UnitQuaternion::from_quaternion(Quaternion::from(sample.world_from_body));

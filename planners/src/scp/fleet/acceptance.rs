@@ -236,7 +236,7 @@ impl Limits<'_> {
 
     fn physical(&self, vehicle: usize) -> [Range; STAGE_LEN] {
         let model = self.scenario.fixed_wing_model(&self.scenario.vehicles[vehicle]);
-        subproblem::node_bounds(&model.limits, &self.scenario.world.map)
+        subproblem::node_bounds(&model.limits, &self.scenario.world.map.inset(model.body_radius_m))
     }
 
     fn consider(

@@ -74,7 +74,8 @@ impl<'a> ScpSolver<'a> {
     pub fn new(scenario: &'a Scenario, options: Options, attempt: usize) -> Self {
         let constraints = AvoidanceConstraints::new(scenario, options.margin_m);
         let limits = |vehicle| &scenario.fixed_wing_model(vehicle).planning_limits;
-        let bounds = |vehicle| subproblem::node_bounds(limits(vehicle), &scenario.world.map);
+        let map = |vehicle| scenario.world.map.inset(scenario.fixed_wing_model(vehicle).body_radius_m);
+        let bounds = |vehicle| subproblem::node_bounds(limits(vehicle), &map(vehicle));
         let planned = |(vehicle, trajectory)| climb::bounds_in_use(&bounds(vehicle), trajectory);
         let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &constraints, attempt);
         let mut order: Vec<usize> = (0..trajectories.len()).collect();

@@ -5,8 +5,7 @@ use crate::validate::body::{too_near, too_near_obstacles};
 use crate::{Issue, Waypoint, World};
 
 pub(in crate::multirotor) fn issues(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
-    let mut issues = too_near_edges(model, world, field, waypoint);
-    issues.extend(too_near_obstacles(model.body_radius_m, world, field, waypoint));
+    let mut issues = too_near_obstacles(model.body_radius_m, world, field, waypoint);
     if field.ends_with(".start") {
         issues.extend(too_near_moving(model, world, field, waypoint));
     }
@@ -18,18 +17,6 @@ pub(in crate::multirotor) fn issues(model: &Model, world: &World, field: &str, w
         Issue::new(format!("{field}.load"), "a load", "nothing: this vehicle carries no load").remedy("remove it")
     }));
     issues
-}
-
-fn too_near_edges(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
-    let axes = ["x_m", "y_m", "z_m"].into_iter().zip(waypoint.position_m()).zip(world.map.axes());
-    let is_near = |margin_m: f64| (0.0..model.body_radius_m).contains(&margin_m);
-    axes.filter(|((_, value), range)| is_near(range.margin(*value)))
-        .map(|((axis, value), range)| {
-            let expected = format!("at least {} m, the body radius, from both ends of {range}", model.body_radius_m);
-            Issue::new(format!("{field}.{axis}"), value.to_string(), expected)
-                .remedy("move the point, or enlarge the map")
-        })
-        .collect()
 }
 
 fn too_near_moving(model: &Model, world: &World, field: &str, waypoint: &Waypoint) -> Vec<Issue> {
