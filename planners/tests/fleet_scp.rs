@@ -1,7 +1,8 @@
 //! `fleet-scp` finds plans for fleets that the papers do not fly: aircraft that may arrive at different times, slow and
 //! fast ones, and goals that need a full circle.
 
-use scenarios::{Plan, PlanStatus, Range, Scenario};
+use scenarios::fixed_wing::State;
+use scenarios::{Cylinder, Plan, PlanStatus, Range, Scenario};
 
 fn shipped(name: &str) -> Scenario {
     let path = format!("{}/../scenarios/fixed-wing/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -34,6 +35,50 @@ fn alone(speed_mps: f64) -> Scenario {
     scenario
 }
 
+/// When the plan of a vehicle is at its goal for the first time, s.
+fn arrival_s(scenario: &Scenario, plan: &Plan, vehicle: usize) -> f64 {
+    let (goal, trajectory) = (&scenario.vehicles[vehicle].goal, plan.trajectories[vehicle].fixed_wing());
+    let is_there = |state: &State| (state.x_m - goal.x_m).hypot(state.y_m - goal.y_m) < 0.01;
+    trajectory.times_s[trajectory.states.iter().position(is_there).expect("it arrives")]
+}
+
+/// Straight on, the first to arrive would be in the threat before the last one arrives.
+#[test]
+fn an_aircraft_that_has_arrived_holds_clear_of_a_threat_until_the_last_one_has_arrived() {
+    let mut scenario = alone(35.0);
+    scenario.fleet.simultaneous_arrival = false;
+    let mut second = scenario.vehicles[0].clone();
+    second.name = "uav-2".to_owned();
+    (second.start.y_m, second.goal.y_m, second.goal.x_m) = (-1500.0, -1500.0, 4000.0);
+    let threat = Cylinder { name: "ahead".to_owned(), center_m: [4900.0, -1500.0], radius_m: 200.0 };
+    scenario.world.cylinders.push(threat.clone());
+    scenario.vehicles.push(second);
+    let plan = solved(&scenario);
+    let last_s = plan.flight_time_s().expect("a plan");
+    assert!(arrival_s(&scenario, &plan, 1) < last_s - 40.0);
+    let held = plan.trajectories[1].fixed_wing();
+    assert_eq!(held.times_s.last(), Some(&last_s));
+    let distances_m = held.states.iter().map(|at| (at.x_m - threat.center_m[0]).hypot(at.y_m - threat.center_m[1]));
+    assert!(distances_m.fold(f64::INFINITY, f64::min) > threat.radius_m + 1.5);
+}
+
+/// Threats all around the goal leave no way on from it: the aircraft waits before its goal.
+#[test]
+fn an_aircraft_that_cannot_go_on_from_its_goal_arrives_with_the_last_one() {
+    let mut scenario = alone(35.0);
+    scenario.fleet.simultaneous_arrival = false;
+    let mut second = scenario.vehicles[0].clone();
+    second.name = "uav-2".to_owned();
+    (second.start.y_m, second.goal.y_m, second.goal.x_m) = (-1500.0, -1500.0, 4000.0);
+    for (y_m, name) in [(-2150.0, "right"), (-1500.0, "ahead"), (-850.0, "left")] {
+        scenario.world.cylinders.push(Cylinder { name: name.to_owned(), center_m: [4700.0, y_m], radius_m: 400.0 });
+    }
+    scenario.vehicles.push(second);
+    let plan = solved(&scenario);
+    let [first_s, second_s] = [0, 1].map(|vehicle| arrival_s(&scenario, &plan, vehicle));
+    assert!((first_s - second_s).abs() < 1e-6, "{first_s} s and {second_s} s");
+}
+
 #[test]
 fn fleets_may_arrive_at_different_times() {
     for name in ["rendezvous-1", "rendezvous-7", "reconfiguration-4", "exchange-10"] {
@@ -43,7 +88,12 @@ fn fleets_may_arrive_at_different_times() {
         let plan = solved(&scenario);
         let last_s = plan.flight_time_s().expect("a plan");
         assert!(last_s < 1.02 * together_s, "{name}: {last_s} s, together {together_s} s");
-        let first_s = plan.trajectories.iter().filter_map(|one| one.end_s()).fold(f64::INFINITY, f64::min);
+        let first_s =
+            (0..scenario.vehicles.len()).map(|i| arrival_s(&scenario, &plan, i)).fold(f64::INFINITY, f64::min);
+        assert!(
+            plan.trajectories.iter().all(|one| one.end_s() == Some(last_s)),
+            "{name}: all fly until the last arrival"
+        );
         assert!(name != "rendezvous-7" || first_s < 0.95 * last_s, "{name}: {first_s} s");
     }
 }

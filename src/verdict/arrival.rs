@@ -3,8 +3,8 @@
 //! The plan of a vehicle that can hover may go on at its goal while others are under way: it has arrived when it moves no
 //! more, and in the loop, where the plan comes into being, when it stays within the tolerance of its goal from then on. A
 //! fixed wing passes its goal: in flight its arrival is the closest approach to it over continuous time, searched for from
-//! 10 s before the planned arrival to the end of the log. The simulator coasts beyond the end of the plan, so that a late
-//! arrival is in the log. A vehicle that is closest to its goal at the very end of its log has not arrived.
+//! 10 s before the planned arrival to the end of the log, or to 10 s after it if the plan goes on beyond the goal. The simulator coasts beyond the end of the plan, so that a late
+//! arrival is in the log. A vehicle that is closest to its goal at the very end of that time has not arrived.
 
 use nalgebra::Vector3;
 use scenarios::{CheckSpec, Plan, Scenario, Trajectory, Vehicle};
@@ -13,20 +13,21 @@ use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
+use crate::verdict::goal::planned_arrival_s;
 use crate::verdict::missing_evidence::MissingEvidence;
 
 /// A vehicle that stays this close to the end of its plan waits there, m.
 const SETTLED_M: f64 = 0.01;
 
-/// Time between the first and the last end of a trajectory.
+/// Time between the first and the last planned arrival.
 pub fn check_planned_arrival(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
     if !scenario.fleet.simultaneous_arrival {
         return Ok(any_time(spec));
     }
     let ends = plan?.trajectories.iter().zip(&scenario.vehicles).map(|(trajectory, vehicle)| {
         let early = || MissingEvidence::EndsEarly { vehicle: vehicle.name.clone() };
-        let end_s = trajectory.end_s().ok_or_else(early)?;
-        Ok((settled_s(trajectory).unwrap_or(end_s), vehicle.name.as_str()))
+        let arrival_s = planned_arrival_s(scenario, vehicle, trajectory).ok_or_else(early)?;
+        Ok((settled_s(trajectory).unwrap_or(arrival_s), vehicle.name.as_str()))
     });
     Ok(spec.at_most(spread(ends)?, scenario.limits().arrival_spread_s))
 }

@@ -135,11 +135,11 @@ fn sweep(
     search.found()
 }
 
-/// Smallest distance, in space, from `motion` to `point_m` from the time `from_s` on. `None` if it ends before.
-pub fn to_point(motion: &Motion, from_s: f64, point_m: [f64; 3]) -> Option<ClosestApproach> {
+/// Smallest distance, in space, from `motion` to `point_m` between two times, s. `None` if it does not last until the first.
+pub fn to_point(motion: &Motion, [from_s, to_s]: [f64; 2], point_m: [f64; 3]) -> Option<ClosestApproach> {
     let mut search = Search::new(Bound::Curve);
-    for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s) {
-        let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1]);
+    for segment in motion.segments().filter(|segment| segment.t_s[1] > from_s && segment.t_s[0] < to_s) {
+        let part = segment.during(segment.t_s[0].max(from_s), segment.t_s[1].min(to_s));
         search.look(&part.points_m.map(|point| difference(&point, &point_m)), &part, 0.0, [0, 0]);
     }
     search.found()
@@ -248,9 +248,10 @@ mod tests {
     #[test]
     fn a_goal_is_passed_in_space_and_inside_the_window() {
         let motion = line([0.0, 0.0, 50.0], [35.0, 0.0, 0.0], 0.05, 20.0);
-        assert_is(&to_point(&motion, 0.0, [350.0, 3.0, 54.0]).unwrap(), 5.0, 10.0);
-        assert_is(&to_point(&motion, 12.025, [350.0, 0.0, 50.0]).unwrap(), 70.875, 12.025);
-        assert!(to_point(&motion, 20.0, [350.0, 0.0, 50.0]).is_none());
+        assert_is(&to_point(&motion, [0.0, 20.0], [350.0, 3.0, 54.0]).unwrap(), 5.0, 10.0);
+        assert_is(&to_point(&motion, [12.025, 20.0], [350.0, 0.0, 50.0]).unwrap(), 70.875, 12.025);
+        assert!(to_point(&motion, [20.0, 30.0], [350.0, 0.0, 50.0]).is_none());
+        assert_is(&to_point(&motion, [0.0, 6.0], [350.0, 0.0, 50.0]).unwrap(), 350.0 - 35.0 * 6.0, 6.0);
     }
 
     /// Knots at random times, places and velocities.

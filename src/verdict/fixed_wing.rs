@@ -66,7 +66,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?, it.provenance)),
     ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.planned()?, it.provenance)),
     ("plan.goal", |spec, it| {
-        goal::check_planned(spec, it.scenario, it.planned_motions()?, |index, end| it.end_error(index, end))
+        goal::check_planned(spec, it.scenario, it.plan, it.planned_motions()?, |index, end| it.end_error(index, end))
     }),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))
@@ -137,16 +137,19 @@ impl<'a> FleetCase<'a> {
         self.planned().map(|planned| planned.motions.as_slice())
     }
 
-    /// How far the true end of a vehicle's plan may be from this one.
+    /// How far the true arrival of a vehicle's plan may be from this one.
     fn end_error(&self, vehicle: usize, end: &Knot) -> EndError {
         self.tubes.get(vehicle).map_or_else(EndError::default, |tube| tube.end_error(end))
     }
 
-    /// How far the true end of a vehicle's plan may be from the one that was flown.
+    /// How far the true arrival of a vehicle's plan may be from the one that was flown.
     fn planned_end_error(&self, vehicle: usize) -> EndError {
-        let motions = self.planned_motions().ok();
-        let end = motions.and_then(|motions| motions[vehicle].knots().last());
-        end.map_or_else(EndError::default, |end| self.end_error(vehicle, end))
+        let (scenario, trajectory) = (self.scenario, &self.plan.trajectories[vehicle]);
+        let arrival = |motions: &'_ [Motion]| {
+            goal::arrival_knot(scenario, &scenario.vehicles[vehicle], trajectory, &motions[vehicle]).copied()
+        };
+        let end = self.planned_motions().ok().and_then(arrival);
+        end.map_or_else(EndError::default, |end| self.end_error(vehicle, &end))
     }
 
     /// The flown motions. If the plan was reconstructed, the vehicle would have flown what lies in the tube around it.
@@ -160,7 +163,8 @@ fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<RowTube> {
     let tube = |(index, ((vehicle, trajectory), motion)): (usize, ((&Vehicle, &Trajectory), &Motion))| {
         let limits = &case.scenario.fixed_wing_model(vehicle).limits;
         let (given, end_velocity) = (case.provenance.given(index), case.provenance.end_velocity(index));
-        RowTube::around(motion, trajectory.fixed_wing(), given, end_velocity, limits)
+        let arrival = goal::arrival_node(case.scenario, vehicle, trajectory).unwrap_or(0);
+        RowTube::around(motion, trajectory.fixed_wing(), given, end_velocity, arrival, limits)
             .widened(case.provenance.rounding_m(index))
     };
     vehicles.enumerate().map(tube).collect()

@@ -5,13 +5,15 @@ use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::closest::{self, ClosestApproach};
+use crate::verdict::goal::planned_arrival_s;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 
-/// An arrival is searched for from this long before the planned one to the end of the log, s.
+/// An arrival is searched for from this long before the planned one to the end of the log, or to this long after it if the
+/// plan goes on, s.
 const ARRIVAL_WINDOW_S: f64 = 10.0;
-/// A closest approach this close to the end of the log is no arrival, since the vehicle was still approaching, s.
-const LOG_END_S: f64 = 1e-6;
+/// A closest approach this close to the end of the search is no arrival, since the vehicle was still approaching, s.
+const SEARCH_END_S: f64 = 1e-6;
 
 /// A flight whose logs can be matched with the vehicles.
 ///
@@ -41,6 +43,8 @@ pub struct FlownVehicle<'a> {
     pub log_end_s: f64,
     /// Closest approach to the goal, from 10 s before the planned arrival on; `None` if the log ends before.
     pub approach: Option<ClosestApproach>,
+    /// Until when that is searched for, s.
+    search_end_s: f64,
 }
 
 impl<'a> FlownMotions<'a> {
@@ -56,7 +60,7 @@ impl<'a> FlownMotions<'a> {
         }
         let matched = scenario.vehicles.par_iter().zip(&plan.trajectories).zip(&flight.vehicles);
         let parts = matched.map(|((vehicle, trajectory), log)| {
-            judged_part(vehicle, trajectory, log, plan.flight_time_s().unwrap_or(0.0))
+            judged_part(scenario, vehicle, trajectory, log, plan.flight_time_s().unwrap_or(0.0))
         });
         let mut flown = Self { motions: Vec::new(), vehicles: Vec::new() };
         for part in parts.collect::<Vec<_>>() {
@@ -78,11 +82,12 @@ impl FlownMotions<'_> {
 impl FlownVehicle<'_> {
     /// Time of its arrival, s; `None` if it did not arrive.
     pub fn arrival_s(&self) -> Option<f64> {
-        self.approach.map(|approach| approach.at_s).filter(|&at_s| at_s < self.log_end_s - LOG_END_S)
+        self.approach.map(|approach| approach.at_s).filter(|&at_s| at_s < self.search_end_s - SEARCH_END_S)
     }
 }
 
 fn judged_part<'a>(
+    scenario: &Scenario,
     vehicle: &'a Vehicle,
     trajectory: &Trajectory,
     log: &'a VehicleLog,
@@ -94,7 +99,10 @@ fn judged_part<'a>(
     let mut motion = Motion::new(&vehicle.name, log.samples.iter().map(knot).collect())?.sampled();
     let hovers = trajectory.family().hovers();
     let planned_end_s = trajectory.end_s().unwrap_or(0.0);
-    let window_s = planned_end_s - ARRIVAL_WINDOW_S;
+    let planned_arrival_s = planned_arrival_s(scenario, vehicle, trajectory).unwrap_or(0.0);
+    let goes_on = planned_arrival_s < planned_end_s;
+    let search_end_s = if goes_on { planned_arrival_s + ARRIVAL_WINDOW_S } else { motion.end_s() };
+    let search_s = [planned_arrival_s - ARRIVAL_WINDOW_S, search_end_s.min(motion.end_s())];
     let mut flown = FlownVehicle {
         name: &vehicle.name,
         judged: &log.samples,
@@ -104,8 +112,9 @@ fn judged_part<'a>(
         approach: if hovers {
             hovering(&motion, planned_end_s, vehicle.goal.position_m())
         } else {
-            closest::to_point(&motion, window_s, vehicle.goal.position_m())
+            closest::to_point(&motion, search_s, vehicle.goal.position_m())
         },
+        search_end_s: search_s[1],
     };
     let mission_end_s = if hovers { plan_end_s } else { planned_end_s };
     let judged_end_s = flown.arrival_s().unwrap_or(flown.log_end_s).max(mission_end_s);

@@ -3,13 +3,16 @@
 //! The parts of a goal have tolerances of different units, so that they are compared as fractions of their tolerances; the
 //! check reports the worst one. Headings are compared modulo a full turn. Velocities are over ground. Of a vehicle
 //! that hovers the position alone is asked here: whether it has come to rest is a check of its own.
+//!
+//! A vehicle that hovers arrives where its plan ends. A fixed wing cannot stop: its plan may go on beyond the goal, so that it
+//! stays clear of the others until the last one has arrived ([`arrival_node`]).
 
 use nalgebra::Vector3;
-use scenarios::{AppliedLimits, CheckSpec, Family, Plan, Scenario, Vehicle};
+use scenarios::{AppliedLimits, CheckSpec, Family, Plan, Scenario, Trajectory, Vehicle};
 use sim::Sample;
 
 use crate::verdict::arrival::not_arrived;
-use crate::verdict::compare::is_worse;
+use crate::verdict::compare::{exceeds, is_worse};
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::flown::FlownMotions;
 use crate::verdict::missing_evidence::MissingEvidence;
@@ -18,7 +21,47 @@ use crate::verdict::reconstruction::max_turn_deg;
 use crate::verdict::tube::EndError;
 use crate::verdict::{Check, LimitKey};
 
-/// The last nodes.
+/// The node at which a vehicle arrives: the last one, unless that misses the goal and an earlier one meets all parts of it.
+/// `None` without nodes.
+pub fn arrival_node(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory) -> Option<usize> {
+    let last = trajectory.times_s().len().checked_sub(1)?;
+    let (family, limits) = (trajectory.family(), scenario.limits());
+    if family.hovers() {
+        return Some(last);
+    }
+    let meets_goal = |node: &usize| {
+        let end = End::at(vehicle, &node_knot(trajectory, *node), EndError::default());
+        end.parts(family, vehicle, &limits).iter().all(|part| !exceeds(part.off[1], part.tolerance))
+    };
+    Some(if meets_goal(&last) { last } else { (0..last).find(meets_goal).unwrap_or(last) })
+}
+
+/// Planned time of arrival, s. `None` without nodes.
+pub fn planned_arrival_s(scenario: &Scenario, vehicle: &Vehicle, trajectory: &Trajectory) -> Option<f64> {
+    arrival_node(scenario, vehicle, trajectory).map(|node| trajectory.times_s()[node])
+}
+
+/// Where a plan's motion arrives. `None` if it ends before.
+pub fn arrival_knot<'a>(
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    trajectory: &Trajectory,
+    motion: &'a Motion,
+) -> Option<&'a Knot> {
+    let node = arrival_node(scenario, vehicle, trajectory)?;
+    if node + 1 == trajectory.times_s().len() {
+        return motion.knots().last();
+    }
+    motion.knots().iter().find(|knot| knot.t_s >= trajectory.times_s()[node])
+}
+
+fn node_knot(trajectory: &Trajectory, node: usize) -> Knot {
+    let nodes = trajectory.nodes();
+    let (position_m, velocity_mps) = (nodes.position_m(node), nodes.velocity_mps(node));
+    Knot { t_s: trajectory.times_s()[node], position_m, velocity_mps }
+}
+
+/// The nodes of arrival.
 ///
 /// - `error`: of the end of the vehicle with this index
 pub fn check_nodes(
@@ -28,27 +71,28 @@ pub fn check_nodes(
     error: impl Fn(usize, &Knot) -> EndError,
 ) -> CheckResult {
     check_worst(spec, scenario, |index| {
-        let trajectory = &plan.trajectories[index];
-        let last = trajectory.times_s().len().checked_sub(1).ok_or_else(|| ends_early(scenario, index))?;
-        let nodes = trajectory.nodes();
-        let (position_m, velocity_mps) = (nodes.position_m(last), nodes.velocity_mps(last));
-        let end = Knot { t_s: trajectory.times_s()[last], position_m, velocity_mps };
-        Ok(End::at(&scenario.vehicles[index], &end, error(index, &end)))
+        let (vehicle, trajectory) = (&scenario.vehicles[index], &plan.trajectories[index]);
+        let node = arrival_node(scenario, vehicle, trajectory).ok_or_else(|| ends_early(scenario, index))?;
+        let end = node_knot(trajectory, node);
+        Ok(End::at(vehicle, &end, error(index, &end)))
     })
 }
 
-/// The ends of the continuous plan.
+/// The continuous plan at arrival.
 ///
 /// - `error`: of the end of the vehicle with this index
 pub fn check_planned(
     spec: &CheckSpec,
     scenario: &Scenario,
+    plan: &Plan,
     motions: &[Motion],
     error: impl Fn(usize, &Knot) -> EndError,
 ) -> CheckResult {
     check_worst(spec, scenario, |index| {
-        let last = motions[index].knots().last().ok_or_else(|| ends_early(scenario, index))?;
-        Ok(End::at(&scenario.vehicles[index], last, error(index, last)))
+        let vehicle = &scenario.vehicles[index];
+        let end = arrival_knot(scenario, vehicle, &plan.trajectories[index], &motions[index]);
+        let end = end.ok_or_else(|| ends_early(scenario, index))?;
+        Ok(End::at(vehicle, end, error(index, end)))
     })
 }
 

@@ -66,7 +66,9 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?, &it.between)),
     ("plan.dynamics", |spec, _| Ok(spec.skip(NO_DYNAMICS))),
     ("plan.rollout", |spec, _| Ok(spec.skip(NO_ROLLOUT))),
-    ("plan.goal", |spec, it| goal::check_planned(spec, it.scenario, it.planned()?, |index, _| it.rounding(index))),
+    ("plan.goal", |spec, it| {
+        goal::check_planned(spec, it.scenario, it.plan, it.planned()?, |index, _| it.rounding(index))
+    }),
     ("plan.rest", |spec, it| rest::check_planned(spec, it.scenario, it.planned()?, it.provenance)),
     ("flight.complete", |spec, it| {
         Ok(flight_integrity::check_complete(spec, it.scenario, it.plan, it.flight()?, reference::defect))

@@ -1,6 +1,6 @@
 //! The goal of an aircraft is a position and a velocity.
 
-use harness::verdict::{Check, Status};
+use harness::verdict::{Check, Outcome, Status};
 use scenarios::Waypoint;
 
 use crate::fleet::{Case, SPEED_MPS};
@@ -85,4 +85,64 @@ fn the_velocity_in_flight_is_that_of_the_arrival() {
     case.samples(0)[1990..].iter_mut().for_each(|sample| turned(sample, 6.0));
     let check = case.check("flight.goal");
     assert_eq!((check.status, check.unit.as_str()), (Status::Fail, "deg"), "{check:#?}");
+}
+
+/// The good fleet, with the goal of the first vehicle where its plan is after five of ten intervals. It flies on to the end.
+fn passing() -> Case {
+    let mut case = Case::good();
+    case.scenario.fleet.simultaneous_arrival = false;
+    case.scenario.vehicles[0].goal.x_m = SPEED_MPS * 10.0;
+    case
+}
+
+#[test]
+fn a_plan_may_go_on_beyond_its_goal() {
+    let mut case = passing();
+    let verdict = case.judge();
+    assert_eq!(verdict.outcome, Outcome::Pass, "{:#?}", verdict.checks);
+    case.scenario.fleet.simultaneous_arrival = true;
+    let verdict = case.judge();
+    for name in ["plan.arrival", "flight.arrival"] {
+        let check = verdict.check(name).unwrap();
+        assert_eq!(check.status, Status::Fail, "{check:#?}");
+        assert!((check.value.unwrap() - 10.0).abs() < 0.01, "it arrives in the middle of the flight: {check:#?}");
+    }
+}
+
+#[test]
+fn a_plan_that_goes_on_must_have_met_every_part_of_its_goal() {
+    type Change = fn(&mut Waypoint);
+    let changes: [Change; 4] = [
+        |goal| goal.z_m += 5.1,
+        |goal| goal.heading_deg += 5.1,
+        |goal| goal.flight_path_deg += 3.1,
+        |goal| goal.speed_mps += 2.1,
+    ];
+    for change in changes {
+        let mut case = passing();
+        change(&mut case.scenario.vehicles[0].goal);
+        let verdict = case.judge();
+        for name in CHECKS {
+            assert_eq!(verdict.check(name).unwrap().status, Status::Fail, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_flight_must_pass_the_goal_beyond_which_its_plan_goes_on() {
+    let mut case = passing();
+    for sample in case.samples(0).iter_mut().filter(|sample| (8.0..12.0).contains(&sample.t_s)) {
+        sample.position_m[2] += 5.5;
+    }
+    assert_eq!(case.status("flight.goal"), Status::Fail);
+    assert_eq!(case.status("plan.goal"), Status::Pass);
+}
+
+#[test]
+fn what_lies_beyond_the_goal_is_judged_too() {
+    let mut case = passing();
+    case.scenario.world.cylinders[0].center_m = [SPEED_MPS * 15.0, -300.0];
+    for name in ["plan.clearance", "flight.clearance"] {
+        assert_eq!(case.status(name), Status::Fail, "{name}");
+    }
 }

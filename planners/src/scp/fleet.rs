@@ -9,6 +9,8 @@
 //! - the initial guess is nearly flyable: Dubins paths around obstacles, with a roundabout where many vehicles meet;
 //! - the common time bound is released in the search phase;
 //! - unless the scenario gives their number, the intervals are as long as the vehicle's agility allows;
+//! - the plan of a vehicle that arrives before the others goes on: it holds, clear of all, until the last one has arrived;
+//!   if one cannot, all arrive at the same time;
 //! - a plan is accepted only when the motion that its controls lead to, integrated in small steps, keeps every limit at
 //!   all times.
 
@@ -21,6 +23,7 @@ mod conflict_detection;
 mod detour;
 mod dubins;
 mod grid;
+mod holding;
 mod initial_guess;
 mod initial_route;
 mod intersample_bounds;
@@ -33,15 +36,16 @@ mod schedule;
 mod scp_solver;
 mod speed;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use scenarios::{Plan, PlanStatus, Scenario, Transcription};
+use scenarios::{FleetRules, Plan, PlanStatus, Scenario, Transcription};
 
 use super::options::Options;
 use super::plan;
 use crate::convex::{Program, Solution};
 use crate::planner::{Planner, PlanningMode, Progress};
-use scp_solver::{Coarse, ScpSolver};
+use holding::Blocked;
+use scp_solver::{Coarse, FleetSolution, NoSolution, ScpSolver};
 
 /// The planner, for the registry.
 pub const PLANNER: Planner = Planner {
@@ -69,36 +73,55 @@ pub fn plan_and_inspect(
     let begin = Instant::now();
     let options = Options::fleet(&scenario.planner);
     let max_iterations = options.max_iterations;
+    let together = arriving_together(scenario);
     let mut solver = ScpSolver::new(scenario, options.clone(), 0);
     let mut history = Vec::new();
-    let (mut accepted, mut attempt) = (false, 0);
-    while !accepted && history.len() < max_iterations {
+    let (mut solution, mut attempt, mut blocked) = (None, 0, None);
+    while solution.is_none() && history.len() < max_iterations {
         if solver.has_stalled() {
             attempt += 1;
-            solver = ScpSolver::new(scenario, options.clone(), attempt);
+            let problem = if blocked.is_some() { &together } else { scenario };
+            solver = ScpSolver::new(problem, options.clone(), attempt);
         }
         let iteration = solver.advance(inspect);
-        accepted = solver.is_accepted();
         progress(&iteration);
         history.push(iteration);
+        match solver.solution() {
+            Some(Ok(found)) => solution = Some(found),
+            Some(Err(NoSolution::Blocked(vehicle))) => {
+                blocked = Some(vehicle);
+                solver = ScpSolver::new(&together, options.clone(), attempt);
+            }
+            Some(Err(NoSolution::Violated(_))) | None => {}
+        }
     }
-    let (status, trajectories) = if accepted {
-        ((PlanStatus::Solved, None), solver.synchronised())
-    } else {
-        ((PlanStatus::NoPlan, Some(failure_reason(&solver, history.len()))), Vec::new())
+    let status = match &solution {
+        Some(_) => (PlanStatus::Solved, None),
+        None => (PlanStatus::NoPlan, Some(failure_reason(&solver, history.len(), blocked.as_ref()))),
     };
-    plan::assemble(scenario, NAME, seed, &trajectories, history, status, begin.elapsed())
+    let FleetSolution { trajectories, holds } = solution.unwrap_or_default();
+    let mut plan = plan::assemble(scenario, NAME, seed, &trajectories, history, status, Duration::ZERO);
+    plan::go_on(&mut plan, &holds);
+    plan.timings.wall_s = begin.elapsed().as_secs_f64();
+    plan
 }
 
-fn failure_reason(solver: &ScpSolver, iterations: usize) -> String {
-    let reason = solver
-        .first_violation()
-        .map_or("the flight time has not settled".to_string(), |violation| violation.to_string());
+/// The scenario with all arriving at the same time: what a fleet does in which an aircraft that has arrived cannot wait for
+/// the others beyond its goal.
+fn arriving_together(scenario: &Scenario) -> Scenario {
+    let fleet = FleetRules { simultaneous_arrival: true, ..scenario.fleet.clone() };
+    Scenario { fleet, ..scenario.clone() }
+}
+
+fn failure_reason(solver: &ScpSolver, iterations: usize, blocked: Option<&Blocked>) -> String {
+    let reason = solver.checked().err();
+    let reason = reason.map_or("the flight time has not settled".to_string(), |reason| reason.to_string());
     let cure = solver.coarsest().map_or(String::new(), |coarse| {
         let Coarse { vehicle, interval_s, intervals } = coarse;
         format!("; intervals of {interval_s:.1} s are long for {vehicle}: set `planner.intervals` to {intervals}, or omit it")
     });
-    format!("after {iterations} iterations {reason}{cure}")
+    let before = blocked.map_or(String::new(), |blocked| format!("{blocked}; with a common arrival, "));
+    format!("{before}after {iterations} iterations {reason}{cure}")
 }
 
 fn unsupported_reason(scenario: &Scenario) -> Option<String> {

@@ -63,19 +63,41 @@ fn trajectory(vehicle: &str, iterate: &Iterate, dt_s: f64) -> Trajectory {
         states: Vec::new(),
         controls: Vec::new(),
     };
+    append(&mut trajectory, iterate, dt_s);
+    trajectory
+}
+
+/// Adds the nodes of an iterate after the last node of a trajectory, where it begins.
+fn append(trajectory: &mut Trajectory, iterate: &Iterate, dt_s: f64) {
+    let from_s = trajectory.times_s.last().copied();
     let mut push = |t_s: f64, state: dynamics::State, control: dynamics::Control| {
-        trajectory.times_s.push(t_s);
+        trajectory.times_s.push(from_s.unwrap_or(0.0) + t_s);
         trajectory.states.push(State::from_array(state.into()));
         trajectory.controls.push(Control::from_array(control.into()));
     };
     for k in 0..=iterate.intervals() {
-        push(k as f64 * dt_s, iterate.states[k], iterate.controls[k]);
+        if k > 0 || from_s.is_none() {
+            push(k as f64 * dt_s, iterate.states[k], iterate.controls[k]);
+        }
         if k < iterate.intervals() && iterate.ramp < 1.0 {
             let interval = Interval { dt_s, ..iterate.interval(k) };
             push((k as f64 + iterate.ramp) * dt_s, shooting::ramp_end(&interval), interval.controls[1]);
         }
     }
-    trajectory
+}
+
+/// Adds to the trajectories of a plan of fixed wings what follows on their arrival.
+pub fn go_on(plan: &mut Plan, holds: &[Option<Iterate>]) {
+    let end_s = plan.flight_time_s().unwrap_or(0.0);
+    for (trajectory, hold) in plan.trajectories.iter_mut().zip(holds) {
+        if let (scenarios::Trajectory::FixedWing(trajectory), Some(hold)) = (trajectory, hold) {
+            append(trajectory, hold, hold.dt_s);
+            // the sum of the intervals may round to beyond the last arrival
+            if let Some(last_s) = trajectory.times_s.last_mut() {
+                *last_s = end_s;
+            }
+        }
+    }
 }
 
 /// The status of a plan: solved only if the sequence has converged, all subproblems of the last iteration are solved,

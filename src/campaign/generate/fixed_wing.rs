@@ -60,15 +60,16 @@ fn sample_fleet(
     draw: fn(&FleetParameters, &mut RandomStream, usize) -> Option<Member>,
 ) -> Option<Vec<Member>> {
     let simultaneous = request.variant() != Some(Variant::FreeArrival);
-    fleet::sample_fleet(request, |spread_m, rng, index| {
+    fleet::sample_fleet(request, !simultaneous, |spread_m, rng, index| {
         draw(&FleetParameters { count: request.size, spread_m, simultaneous }, rng, index)
     })
 }
 
 fn draft(request: &Request, members: &[Member]) -> Option<Draft> {
     let simultaneous_arrival = request.variant() != Some(Variant::FreeArrival);
-    let mut world = World::empty(map(members));
-    world.cylinders = threats::draw(request, members)?;
+    let end_s = if simultaneous_arrival { 0.0 } else { fleet::last_arrival_s(members) };
+    let mut world = World::empty(map(members, end_s));
+    world.cylinders = threats::draw(request, members, end_s)?;
     let is_used = |model: &&Aircraft| members.iter().any(|member| member.aircraft.name == model.name);
     Some(Draft {
         summary: summary(request, members),
@@ -95,19 +96,23 @@ fn summary(request: &Request, members: &[Member]) -> String {
 fn certificate(members: &[Member], simultaneous_arrival: bool) -> String {
     let is_level = members.iter().all(|member| member.altitude_m[0] == member.altitude_m[1]);
     let slope = if is_level { "level" } else { "with a slope of at most 2 %" };
-    let arrival = if simultaneous_arrival { "all of the same duration" } else { "of any duration" };
+    let (duration, until) = if simultaneous_arrival {
+        ("all of the same duration", "until one of them has arrived")
+    } else {
+        ("of any duration, with a circle beyond the goal", "until the last one of the fleet has arrived")
+    };
     format!(
         "the starts and goals are the ends of paths of straight lines and arcs, {slope}, flown at constant speed, with at most 80 % of \
-         the planning limit of n_y, {arrival}. On them any two aircraft stay {} m apart at all times until one of them has \
-         arrived, and every threat is {} m away. Planners do not know these paths.",
+         the planning limit of n_y, {duration}. On them any two aircraft stay {} m apart at all times {until}, and every threat is {} m \
+         away. Planners do not know these paths.",
         fleet::APART_M,
         threats::CLEAR_M
     )
 }
 
-/// The map around all paths.
-fn map(members: &[Member]) -> Map {
-    let corners = fleet::bounds(members);
+/// The map around all paths until a time, s.
+fn map(members: &[Member], end_s: f64) -> Map {
+    let corners = fleet::bounds(members, end_s);
     let axis = |axis: usize| {
         let [low, high] = corners.map(|corner| corner[axis]);
         Range::new(round_to(low - MAP_MARGIN_M, 10.0), round_to(high + MAP_MARGIN_M, 10.0))

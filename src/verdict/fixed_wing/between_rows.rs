@@ -50,11 +50,11 @@ pub fn contradiction(trajectory: &Trajectory, velocities_mps: &[[f64; 3]], limit
 pub struct RowTube {
     /// Around the motion.
     pub tube: Tube,
-    /// `None` if all was given.
+    /// At arrival; `None` if all was given.
     end: Option<KnownEnd>,
 }
 
-/// What the rows tell of the end of the motion.
+/// What the rows tell of the arrival.
 #[derive(Clone, Debug)]
 struct KnownEnd {
     position_m: [f64; 3],
@@ -66,16 +66,19 @@ struct KnownEnd {
 impl RowTube {
     /// The tube around the reconstructed `motion` of a trajectory, which has no width if all was given.
     ///
-    /// - `end_velocity`: of rows without velocities
+    /// - `end_velocity`: at the last one of rows without velocities
+    /// - `arrival`: the row at which the vehicle arrives
     /// - `limits`: what the vehicle can do
     pub fn around(
         motion: &Motion,
         trajectory: &Trajectory,
         given: &GivenRows,
         end_velocity: Option<EndVelocity>,
+        arrival: usize,
         limits: &Limits,
     ) -> Self {
-        let Some(end) = KnownEnd::new(trajectory, given, end_velocity) else { return Self::default() };
+        let end_velocity = end_velocity.filter(|_| arrival + 1 == trajectory.states.len());
+        let Some(end) = KnownEnd::new(trajectory, given, end_velocity, arrival) else { return Self::default() };
         let acceleration_mps2 = max_acceleration_mps2(limits);
         let rows = (1..trajectory.times_s.len()).map(|end| RowPair::new(trajectory, end, given));
         let mut segments = motion.segments().filter(Segment::lasts).peekable();
@@ -97,7 +100,7 @@ impl RowTube {
         Self { tube: self.tube.widened(distance_m), end: self.end.map(widened) }
     }
 
-    /// How far the true end may be from this one.
+    /// How far the true arrival may be from this one.
     pub fn end_error(&self, end: &Knot) -> EndError {
         let Some(known) = &self.end else { return EndError::default() };
         EndError {
@@ -109,15 +112,19 @@ impl RowTube {
 
 impl KnownEnd {
     /// `None` without rows, or if all was given.
-    fn new(trajectory: &Trajectory, given: &GivenRows, end_velocity: Option<EndVelocity>) -> Option<Self> {
+    fn new(
+        trajectory: &Trajectory,
+        given: &GivenRows,
+        end_velocity: Option<EndVelocity>,
+        arrival: usize,
+    ) -> Option<Self> {
         if *given == GivenRows::Everything {
             return None;
         }
-        let last = trajectory.states.len().checked_sub(1)?;
-        let state = &trajectory.states[last];
+        let state = trajectory.states.get(arrival)?;
         let EndVelocity { velocity_mps, error_mps } = match (given, end_velocity) {
             (GivenRows::States(velocities_mps), _) => {
-                EndVelocity { velocity_mps: velocities_mps[last], error_mps: 0.0 }
+                EndVelocity { velocity_mps: velocities_mps[arrival], error_mps: 0.0 }
             }
             (_, Some(end_velocity)) => end_velocity,
             (_, None) => EndVelocity { velocity_mps: state.velocity_mps(), error_mps: f64::INFINITY },

@@ -20,7 +20,7 @@ const LIMIT_TOLERANCE: f64 = 1e-6;
 const MAX_DEFECT_M: f64 = 0.1;
 /// Largest accepted distance from the plan's end when its controls are integrated open loop from the start, as a fraction
 /// of what the scenario accepts.
-const MAX_ROLLOUT_FRACTION: f64 = 0.8;
+pub const MAX_ROLLOUT_FRACTION: f64 = 0.8;
 /// Largest accepted distance of the ends of the plan from start and goal, m and m/s.
 const MAX_END_ERROR: f64 = 0.001;
 /// Largest accepted violation of a physical limit, as a fraction of the planned range.

@@ -65,7 +65,14 @@ impl Tightening {
     }
 
     /// The bounds of every node of a subproblem about `trajectory`.
-    pub fn applied_to(&self, bounds: &[Range; STAGE_LEN], trajectory: &Iterate) -> Vec<[Range; STAGE_LEN]> {
+    ///
+    /// - `goes_on`: whether the vehicle flies on after its arrival
+    pub fn applied_to(
+        &self,
+        bounds: &[Range; STAGE_LEN],
+        trajectory: &Iterate,
+        goes_on: bool,
+    ) -> Vec<[Range; STAGE_LEN]> {
         let inner = bounds.map(|range| inside(range, LIMIT_MARGIN * range.width()));
         let mut tightened = vec![inner; self.nodes.len()];
         for (node, distances) in tightened.iter_mut().zip(&self.nodes) {
@@ -79,6 +86,9 @@ impl Tightening {
             release_states(&mut tightened[node]);
             let ramp_s = trajectory.dt_s * if node == 0 { trajectory.ramp } else { 1.0 };
             bound_controls(&mut tightened[node], &inner, &trajectory.states[node], side * ramp_s);
+        }
+        if goes_on {
+            bound_controls(&mut tightened[last], &inner, &trajectory.states[last], trajectory.dt_s * trajectory.ramp);
         }
         tightened
     }
@@ -180,7 +190,7 @@ mod tests {
         };
         let mut tightening = Tightening::new(5);
         tightening.observe(&motion);
-        let tightened = tightening.applied_to(&bounds, &trajectory);
+        let tightened = tightening.applied_to(&bounds, &trajectory, false);
         let margin = LIMIT_MARGIN * 2000.0;
         let moved = |node: usize| 1000.0 - margin - tightened[node][3].max;
         assert_eq!(moved(3), 0.0);

@@ -68,15 +68,16 @@ pub fn locate(t_s: f64, dt_s: f64, intervals: usize) -> (usize, f64) {
     (k, (t_s / dt_s - k as f64).clamp(0.0, 1.0))
 }
 
-fn sample(state: &State) -> MotionSample {
+/// The horizontal part of a state.
+pub fn sample(state: &State) -> MotionSample {
     let [x, y, _, v, χ, γ] = (*state).into();
     let (sin, cos) = χ.sin_cos();
     let horizontal = v * γ.cos();
     MotionSample { position_m: Vector2::new(x, y), velocity_mps: Vector2::new(horizontal * cos, horizontal * sin) }
 }
 
-/// The motion at any time, in a straight line beyond the end.
-fn at(slices: &[TimeSlice], dt_s: f64, t_s: f64) -> MotionSample {
+/// The motion of successive slices of `dt_s` each at any time, in a straight line beyond the end.
+pub fn at(slices: &[TimeSlice], dt_s: f64, t_s: f64) -> MotionSample {
     let end_s = dt_s * slices.len() as f64;
     if t_s >= end_s {
         let last = slices[slices.len() - 1][SUBSTEPS];

@@ -20,6 +20,8 @@ pub struct RefinedMotion {
     pub defect: NodeDefect,
     /// Distance of the goal from the end of the integration without a restart, m.
     pub rollout_error_m: f64,
+    /// Where the integration without a restart ends.
+    pub open_loop_end: State,
 }
 
 /// Difference between a node of the plan and the state to which the controls lead from the node before it.
@@ -59,7 +61,12 @@ impl RefinedMotion {
         let end = trajectory.states[trajectory.intervals()];
         let rollout_error_m = (end - open_loop).fixed_rows::<3>(0).norm();
         let dt_s = trajectory.dt_s / pieces as f64;
-        Self { motion: VehicleMotion { intervals, dt_s, kink: None }, defect, rollout_error_m }
+        Self {
+            motion: VehicleMotion { intervals, dt_s, kink: None },
+            defect,
+            rollout_error_m,
+            open_loop_end: open_loop,
+        }
     }
 }
 

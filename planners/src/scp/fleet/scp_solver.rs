@@ -1,5 +1,6 @@
 //! The sequence of convex programs: linearise about the last trajectories, add avoidance rows, solve, update.
 
+use std::fmt;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -18,6 +19,7 @@ use super::agility::Agility;
 use super::avoidance_rows::{AvoidanceConstraints, avoidance_rows};
 use super::climb;
 use super::conflict_detection::FleetMotion;
+use super::holding::{self, Blocked};
 use super::initial_guess::InitialGuess;
 use super::intersample_bounds::Tightening;
 use super::schedule::TrustRegionSchedule;
@@ -44,6 +46,33 @@ pub struct Coarse<'a> {
     pub interval_s: f64,
     /// Number of intervals that would be short enough.
     pub intervals: usize,
+}
+
+/// The motion of a fleet until the last vehicle has arrived.
+#[derive(Default)]
+pub struct FleetSolution {
+    /// Until the arrival of each vehicle.
+    pub trajectories: Vec<Iterate>,
+    /// From then on; `None` for those that arrive last.
+    pub holds: Vec<Option<Iterate>>,
+}
+
+/// Why trajectories are no solution.
+#[derive(Clone, Debug)]
+pub enum NoSolution {
+    /// The first constraint that they violate.
+    Violated(ConstraintViolation),
+    /// They keep every constraint, but a vehicle cannot stay clear after its arrival.
+    Blocked(Blocked),
+}
+
+impl fmt::Display for NoSolution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Violated(violation) => violation.fmt(f),
+            Self::Blocked(blocked) => blocked.fmt(f),
+        }
+    }
 }
 
 /// The fleet between two iterations.
@@ -125,9 +154,9 @@ impl<'a> ScpSolver<'a> {
         iteration
     }
 
-    /// Are the trajectories a solution? Not in the search phase, and not while they violate a constraint.
-    pub fn is_accepted(&self) -> bool {
-        !self.schedule.is_searching() && self.first_violation().is_none()
+    /// The solution, or why the trajectories are none; `None` in the search phase.
+    pub fn solution(&self) -> Option<Result<FleetSolution, NoSolution>> {
+        (!self.schedule.is_searching()).then(|| self.checked())
     }
 
     /// Has it searched and settled as often as is worth it from one initial guess?
@@ -135,19 +164,25 @@ impl<'a> ScpSolver<'a> {
         self.schedule.failed_rounds() >= MAX_ROUNDS
     }
 
-    /// The first constraint that the trajectories violate; `None` if they can be flown.
-    pub fn first_violation(&self) -> Option<ConstraintViolation> {
-        acceptance::first_violation(
-            self.scenario,
-            &self.constraints,
-            &self.synchronised(),
-            &self.bounds,
-            &self.boundary,
-        )
+    /// The trajectories with what follows on them, if they can be flown.
+    ///
+    /// # Errors
+    ///
+    /// Why they cannot.
+    pub fn checked(&self) -> Result<FleetSolution, NoSolution> {
+        let trajectories = self.synchronised();
+        let Self { scenario, constraints, bounds, boundary, .. } = self;
+        match acceptance::first_violation(scenario, constraints, &trajectories, bounds, boundary) {
+            Some(violation) => Err(NoSolution::Violated(violation)),
+            None => match holding::holds(scenario, constraints, &trajectories, bounds) {
+                Ok(holds) => Ok(FleetSolution { trajectories, holds }),
+                Err(blocked) => Err(NoSolution::Blocked(blocked)),
+            },
+        }
     }
 
     /// The trajectories, with equal step lengths where these differ only by the solver's tolerance.
-    pub fn synchronised(&self) -> Vec<Iterate> {
+    fn synchronised(&self) -> Vec<Iterate> {
         let max_s = max_dt_s(&self.trajectories);
         let joined = |trajectory: &Iterate| {
             let is_max = max_s - trajectory.dt_s < EQUAL_DT_TOLERANCE * max_s;
@@ -178,8 +213,9 @@ impl<'a> ScpSolver<'a> {
 
     /// The subproblems, in their order.
     fn programs(&self, rows: &[Vec<HalfspaceConstraint>]) -> Vec<Program> {
+        let goes_on = !self.scenario.fleet.simultaneous_arrival;
         let program = |&i: &usize| {
-            let bounds = self.tightening[i].applied_to(&self.planned[i], &self.trajectories[i]);
+            let bounds = self.tightening[i].applied_to(&self.planned[i], &self.trajectories[i], goes_on);
             let context = Context {
                 options: &self.options,
                 boundary: self.boundary[i],

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::aircraft::{Aircraft, SCOUT};
-use super::fleet::{APART_M, Member, are_apart, distance_m};
+use super::fleet::{APART_M, Member, are_apart, distance_m, first_arrival_s};
 use super::path::{Leg, Path, Pose, lane_change, length_m};
 use super::{ALTITUDE_M, RandomStream};
 use crate::campaign::generate::Request;
@@ -55,7 +55,9 @@ pub fn ring(request: &Request) -> Option<Vec<Member>> {
             level(SCOUT, Path { start, legs: legs.clone(), speed_mps: SCOUT.cruise_mps })
         };
         let members: Vec<Member> = angles_rad.iter().map(member).collect();
-        if (0..members.len()).all(|i| members[..i].iter().all(|other| are_apart(&members[i], other))) {
+        if (0..members.len()).all(|i| {
+            members[..i].iter().all(|other| are_apart(&members[i], other, first_arrival_s(&members[i], other)))
+        }) {
             return Some(members);
         }
         aside_m *= 1.1;
@@ -162,7 +164,7 @@ fn bisect(wanted_m: f64, [mut low, mut high]: [f64; 2], legs: impl Fn(f64) -> Op
 }
 
 fn level(aircraft: &'static Aircraft, path: Path) -> Member {
-    Member { aircraft, path, altitude_m: [ALTITUDE_M; 2] }
+    Member { aircraft, path, altitude_m: [ALTITUDE_M; 2], beyond_per_m: 0.0 }
 }
 
 /// With a start and a goal of altitudes of their own, at most a slope of 2 % apart.
@@ -170,7 +172,7 @@ fn climbing(rng: &mut RandomStream, aircraft: &'static Aircraft, path: Path) -> 
     let largest_m = (0.02 * path.length_m()).min(80.0);
     let start_m = round_to(rng.between(340.0, 460.0), 1.0);
     let goal_m = round_to((start_m + rng.between(-largest_m, largest_m)).clamp(320.0, 480.0), 1.0);
-    Member { aircraft, path, altitude_m: [start_m, goal_m] }
+    Member { aircraft, path, altitude_m: [start_m, goal_m], beyond_per_m: 0.0 }
 }
 
 fn on_circle(radius_m: f64, angle_rad: f64) -> [f64; 2] {

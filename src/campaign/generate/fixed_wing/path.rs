@@ -35,7 +35,7 @@ impl Leg {
 }
 
 impl Pose {
-    fn after(self, length_m: f64, curvature_per_m: f64) -> Self {
+    pub fn after(self, length_m: f64, curvature_per_m: f64) -> Self {
         let [x, y] = self.position_m;
         let heading_rad = self.heading_rad + curvature_per_m * length_m;
         let ((sin, cos), (sin_after, cos_after)) = (self.heading_rad.sin_cos(), heading_rad.sin_cos());

@@ -15,12 +15,13 @@ const STEP_M: f64 = 20.0;
 const MAX_ATTEMPTS: usize = 3000;
 
 /// Threats that cover the requested fraction of the rectangle around the paths. They do not overlap.
-pub fn draw(request: &Request, members: &[Member]) -> Option<Vec<Cylinder>> {
+///
+/// - `end_s`: until when the aircraft fly at least, s
+pub fn draw(request: &Request, members: &[Member], end_s: f64) -> Option<Vec<Cylinder>> {
     let mut rng = request.rng("threats");
-    let [low, high] = bounds(members);
+    let [low, high] = bounds(members, end_s);
     let wanted_m2 = request.density * (high[0] - low[0]) * (high[1] - low[1]);
-    let samples: Vec<[f64; 2]> =
-        members.iter().flat_map(|member| member.path.samples(STEP_M)).map(|pose| pose.position_m).collect();
+    let samples: Vec<[f64; 2]> = members.iter().flat_map(|member| member.samples(STEP_M, end_s)).collect();
     let mut threats: Vec<Cylinder> = Vec::new();
     let mut covered_m2 = 0.0;
     while covered_m2 < wanted_m2 {

@@ -85,7 +85,7 @@ fn used(scenario: &Scenario, motion: &Admissible, with_velocities: bool) -> [f64
     let limits = &scenario.fixed_wing_model(&scenario.vehicles[0]).limits;
     let trajectory = completed.plan.trajectories[0].fixed_wing();
     let given = completed.provenance.given(0);
-    let tube = RowTube::around(&planned.motions[0], trajectory, given, None, limits).tube;
+    let tube = RowTube::around(&planned.motions[0], trajectory, given, None, trajectory.states.len() - 1, limits).tube;
     assert!(tube.has_width(), "nothing was reconstructed");
     let mut largest = [0.0_f64; 2];
     for knot in &motion.knots {
