@@ -63,10 +63,13 @@ pub fn holds(
     bounds: &[[Range; STAGE_LEN]],
 ) -> Result<Vec<Option<Iterate>>, Blocked> {
     let end_s = max_flight_time_s(trajectories);
-    let missions: Vec<Track> = trajectories.iter().map(Track::new).collect();
     let mut order: Vec<usize> =
         (0..trajectories.len()).filter(|&i| end_s - trajectories[i].flight_time_s() > MIN_HOLD_S).collect();
     order.sort_by(|a, b| trajectories[*a].flight_time_s().total_cmp(&trajectories[*b].flight_time_s()));
+    if order.is_empty() {
+        return Ok(vec![None; trajectories.len()]);
+    }
+    let missions: Vec<Track> = trajectories.iter().map(Track::new).collect();
     let mut blocked = 0;
     for _ in 0..MAX_ORDERS {
         let (mut tracks, mut holds) = (missions.clone(), vec![None; trajectories.len()]);
