@@ -34,6 +34,7 @@ mod provenance;
 #[cfg(test)]
 mod random;
 pub mod reconstruction;
+mod requirements;
 mod rotors;
 mod separation;
 mod separation_shape;

@@ -28,6 +28,8 @@ pub enum LimitField {
     Goal,
     /// The gate concerned.
     Gates,
+    /// The formula of the requirement.
+    Requirement,
     /// None: the limit is fixed.
     None,
 }
@@ -155,9 +157,20 @@ pub const CHECKS: &[CheckSpec] = {
     ]
 };
 
-/// The check with the full name `name`.
+/// What the checks of all requirements have in common; the name, the unit and the description are those of the requirement.
+pub const REQUIREMENT_CHECKS: [CheckSpec; 2] = {
+    const DESCRIPTION: &str = "Robustness of a requirement of the scenario, in the unit of the signal that decides.";
+    [
+        plan("plan.requirement", "-", LimitField::Requirement, ALL, DESCRIPTION),
+        flight("flight.requirement", "-", LimitField::Requirement, ALL, DESCRIPTION),
+    ]
+};
+
+/// The check with the full name `name`. For `plan.requirement.NAME` and `flight.requirement.NAME`, what the checks of all
+/// requirements have in common.
 pub fn check_spec(name: &str) -> Option<&'static CheckSpec> {
-    CHECKS.iter().find(|check| check.name == name)
+    let is_of = |check: &&CheckSpec| name.strip_prefix(check.name).is_some_and(|rest| rest.starts_with('.'));
+    CHECKS.iter().find(|check| check.name == name).or_else(|| REQUIREMENT_CHECKS.iter().find(is_of))
 }
 
 /// The checks that apply to a family, in the order of a verdict.

@@ -24,6 +24,7 @@ pub mod plan_input;
 mod planner_settings;
 mod random;
 mod range;
+pub mod requirement;
 mod scenario;
 pub mod shipped;
 mod simulation;
@@ -34,7 +35,7 @@ mod vehicle;
 mod verdict_limits;
 mod world;
 
-pub use checks::{CHECKS, CheckSpec, Group, LimitField, check_names, check_spec, checks_of};
+pub use checks::{CHECKS, CheckSpec, Group, LimitField, REQUIREMENT_CHECKS, check_names, check_spec, checks_of};
 pub use closest_name::closest_name;
 pub use families::{Family, Models, Trajectory, VehicleModel};
 pub use find::{FindError, find};

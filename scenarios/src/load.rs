@@ -105,7 +105,7 @@ impl ScenarioFile {
             Ok(scenario) => {
                 let semantic = self.name_issue(&scenario).into_iter().chain(validate(&scenario));
                 let fresh: Vec<Issue> = semantic.filter(|issue| !is_reported(&issue.field, &issues)).collect();
-                issues.extend(fresh.into_iter().map(|issue| locate(tree.get_ref(), issue)));
+                issues.extend(fresh.into_iter().map(|issue| locate(&self.text, tree.get_ref(), issue)));
                 if issues.is_empty() { Ok(scenario) } else { Err(self.invalid(issues)) }
             }
             Err(error) if issues.is_empty() => Err(self.invalid(vec![not_in_schema(&error)])),
@@ -116,7 +116,7 @@ impl ScenarioFile {
     /// An error that locates `issues` in this file.
     pub fn error(&self, issues: Vec<Issue>) -> LoadError {
         let located = |issue: Issue| match DeTable::parse(&self.text) {
-            Ok(tree) => locate(tree.get_ref(), issue),
+            Ok(tree) => locate(&self.text, tree.get_ref(), issue),
             Err(_) => (issue, 0..0),
         };
         self.invalid(issues.into_iter().map(located).collect())
@@ -140,9 +140,10 @@ impl ScenarioFile {
     }
 }
 
-fn locate(tree: &DeTable<'_>, issue: Issue) -> (Issue, Range<usize>) {
+fn locate(text: &str, tree: &DeTable<'_>, issue: Issue) -> (Issue, Range<usize>) {
     let span = position::span_of_field(tree, &issue.field);
-    (issue, span)
+    let start = position::within_string(text, &span, issue.byte);
+    (issue, start..span.end)
 }
 
 fn syntax_issue(error: &toml::de::Error) -> (Issue, Range<usize>) {

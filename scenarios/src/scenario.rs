@@ -1,6 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::requirement::Requirement;
 use crate::{
     AppliedLimits, Family, FleetRules, Mismatch, Models, PlannerSettings, Sensors, Simulation, Vehicle, VehicleModel,
     VerdictLimits, World,
@@ -47,6 +48,9 @@ pub struct Scenario {
     /// Limits of the verdict.
     #[serde(default)]
     pub verdict: VerdictLimits,
+    /// Requirements in the user's own words, as formulas of signal temporal logic.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<Requirement>,
 }
 
 impl Scenario {

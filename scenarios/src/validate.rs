@@ -7,6 +7,7 @@ mod identifier;
 mod model;
 mod planner;
 pub(crate) mod quantity;
+mod requirement;
 mod simulation;
 mod vehicle;
 mod verdict;
@@ -33,6 +34,7 @@ pub fn validate(scenario: &Scenario) -> Vec<Issue> {
     issues.extend(planner::flight_time(scenario));
     issues.extend(simulation::issues(&scenario.simulation));
     issues.extend(disturbance::issues(scenario));
-    issues.extend(verdict::issues(&scenario.verdict));
+    issues.extend(requirement::issues(scenario));
+    issues.extend(verdict::issues(scenario));
     issues
 }

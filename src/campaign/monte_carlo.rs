@@ -10,6 +10,7 @@ mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
+use scenarios::requirement::Requirement;
 use scenarios::{Group, LimitField, Scenario, check_spec, checks_of};
 use serde::{Deserialize, Serialize};
 
@@ -87,6 +88,8 @@ impl Sweep {
     pub fn new(experiment: &Experiment<'_>, samples: usize, dispersions: Dispersions) -> Self {
         let Experiment { scenario, system } = experiment;
         let of_flight = checks_of(scenario.family()).filter(|check| check.group == Group::Flight);
+        let of_requirements = scenario.requirements.iter().flat_map(Requirement::check_names);
+        let of_requirements = of_requirements.filter(|name| name.starts_with("flight."));
         Self {
             schema: SCHEMA,
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -95,7 +98,10 @@ impl Sweep {
             seed: scenario.simulation.seed,
             samples,
             dispersions,
-            checks: of_flight.map(|check| (check.name.to_owned(), check.unit.to_owned())).collect(),
+            checks: of_flight
+                .map(|check| (check.name.to_owned(), check.unit.to_owned()))
+                .chain(of_requirements.map(|name| (name, "-".to_owned())))
+                .collect(),
         }
     }
 }
@@ -138,7 +144,7 @@ pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flo
 fn has_several_quantities(check: &str) -> bool {
     check_spec(check).is_some_and(|spec| match spec.limit {
         LimitField::ModelLimits => spec.unit == "-",
-        limit => limit == LimitField::Goal,
+        limit => matches!(limit, LimitField::Goal | LimitField::Requirement),
     })
 }
 

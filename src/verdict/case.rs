@@ -11,7 +11,7 @@ use crate::verdict::motion::Motion;
 use crate::verdict::{Check, Provenance, arrival, conditions, flight_integrity, integrity, tracking};
 
 /// Why the groups `nodes` and `plan` are skipped for a plan that came into being during the flight.
-const PLANNED_IN_LOOP: &str = "planned in the loop: there was no plan before the flight";
+pub const PLANNED_IN_LOOP: &str = "planned in the loop: there was no plan before the flight";
 
 /// A plan, its flight, and the evidence that all families share.
 pub struct Case<'a> {
@@ -71,6 +71,11 @@ impl<'a> Case<'a> {
         self.flown.as_ref()
     }
 
+    /// Whether the plan came into being during the flight.
+    pub fn is_planned_in_loop(&self) -> bool {
+        self.flight().is_ok_and(|flight| flight.planning.is_some())
+    }
+
     /// The end of the mission, s; infinite if it cannot be told.
     pub fn mission_end_s(&self) -> f64 {
         self.flown().map_or(f64::INFINITY, FlownMotions::mission_end_s)
@@ -89,7 +94,7 @@ impl<'a> Case<'a> {
     ///
     /// If a check has no function, which is a bug.
     pub fn checks(&self, family: Family, own: impl Fn(&CheckSpec) -> Option<CheckResult> + Sync) -> Vec<Check> {
-        let planned_in_loop = self.flight().is_ok_and(|flight| flight.planning.is_some());
+        let planned_in_loop = self.is_planned_in_loop();
         let check = |spec: &&CheckSpec| match spec.group {
             Group::Nodes | Group::Plan if planned_in_loop => spec.skip(PLANNED_IN_LOOP),
             Group::Nodes | Group::Plan | Group::Flight => {

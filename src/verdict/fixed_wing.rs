@@ -25,12 +25,14 @@ use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::tube::EndError;
-use crate::verdict::{Check, collision, flight_integrity, goal, separation};
+use crate::verdict::{Check, collision, flight_integrity, goal, requirements, separation};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
     let fleet = FleetCase::new(case);
-    case.checks(Family::FixedWing, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)))
+    let mut checks = case.checks(Family::FixedWing, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)));
+    requirements::insert(&mut checks, case, fleet.planned_motions(), fleet.flown_motions());
+    checks
 }
 
 /// A fleet's plan and flight, with the plan as a continuous motion.

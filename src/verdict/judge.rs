@@ -1,3 +1,4 @@
+use scenarios::requirement::Requirement;
 use scenarios::{CheckSpec, Group, Plan, PlanStatus, Scenario, check_spec};
 use sim::Flight;
 
@@ -86,7 +87,10 @@ fn apply_check_policy(scenario: &Scenario, checks: &mut Vec<Check>) {
     }
     for check in checks {
         let may_be_advisory = check_spec(&check.name).is_some_and(CheckSpec::may_be_advisory);
-        check.advisory = may_be_advisory && scenario.verdict.advisory.contains(&check.name);
+        let of_requirement = |it: &&Requirement| it.advisory && it.check_names().any(|name| name == check.name);
+        let is_advisory = scenario.verdict.advisory.contains(&check.name)
+            || scenario.requirements.iter().any(|it| of_requirement(&it));
+        check.advisory = may_be_advisory && is_advisory;
     }
 }
 

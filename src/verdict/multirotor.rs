@@ -24,7 +24,7 @@ use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion, Segment};
 use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::tube::{EndError, Stretch, Tube};
-use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, separation};
+use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, requirements, separation};
 
 /// Why a plan of positions and velocities has no defects.
 const NO_DYNAMICS: &str = "positions and velocities determine the accelerations between them: see control_limits";
@@ -36,7 +36,9 @@ const NO_ROLLOUT: &str = "without feedback a double integrator drifts, whatever 
 /// Every check of multirotors, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
     let fleet = FleetCase::new(case);
-    case.checks(Family::Multirotor, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)))
+    let mut checks = case.checks(Family::Multirotor, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)));
+    requirements::insert(&mut checks, case, fleet.hovering(), fleet.flown_motions());
+    checks
 }
 
 /// A fleet's plan and flight, with the plan as a continuous motion.

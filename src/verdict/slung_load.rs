@@ -34,7 +34,7 @@ use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::separation_shape::SeparationShape;
-use crate::verdict::{Check, flight_integrity, separation};
+use crate::verdict::{Check, flight_integrity, requirements, separation};
 
 /// Required clearance of the envelope in flight, m. The plan keeps a larger one, which the tracker may use up.
 const FLOWN_ENVELOPE_M: f64 = 0.0;
@@ -42,7 +42,14 @@ const FLOWN_ENVELOPE_M: f64 = 0.0;
 /// Every check of the vehicle, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
     let vehicle = VehicleCase::new(case);
-    case.checks(Family::SlungLoad, |spec| Some(function_of(CHECKS, spec)?(spec, &vehicle)))
+    let mut checks = case.checks(Family::SlungLoad, |spec| Some(function_of(CHECKS, spec)?(spec, &vehicle)));
+    requirements::insert(
+        &mut checks,
+        case,
+        vehicle.planned().map(|it| it.motions.as_slice()),
+        vehicle.flown().map(|it| it.motions.as_slice()),
+    );
+    checks
 }
 
 /// The vehicle, its planned and flown motion, and what they are compared with.

@@ -88,6 +88,7 @@ fn scenario(vehicles: Vec<Vehicle>, step_s: f64) -> Scenario {
         planner: PlannerSettings { name: "by-hand".to_owned(), ..Default::default() },
         simulation: Simulation { step_s, coast_s: COAST_S, max_duration_s: 60.0, ..Default::default() },
         verdict: VerdictLimits::default(),
+        requirements: Vec::new(),
     }
 }
 

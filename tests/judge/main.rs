@@ -11,6 +11,7 @@ mod fleet;
 mod geofences;
 mod goals;
 mod partial_plans;
+mod requirements;
 mod roundabout;
 mod rules;
 mod simulated;

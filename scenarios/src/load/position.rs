@@ -41,6 +41,16 @@ fn child<'t, 'i>(value: &'t Spanned<DeValue<'i>>, step: &str) -> Option<&'t Span
     }
 }
 
+/// Position in the file of a byte of the text that a quoted string with the range `span` holds. The beginning of the string
+/// if that cannot be told, because it holds escapes.
+pub(super) fn within_string(text: &str, span: &Range<usize>, byte: usize) -> usize {
+    let quoted = &text[span.clone()];
+    let quotes = ["\"\"\"\n", "'''\n", "\"\"\"", "'''", "\"", "'"];
+    let opening = quotes.into_iter().find(|quotes| quoted.starts_with(quotes)).map_or(0, str::len);
+    let is_plain = opening > 0 && !quoted.contains('\\') && opening + byte < quoted.len();
+    if byte > 0 && is_plain { span.start + opening + byte } else { span.start }
+}
+
 /// The document without the keys at `fields`.
 pub(super) fn without<'i, 'f>(
     root: &Spanned<DeTable<'i>>,

@@ -1,9 +1,11 @@
 //! Limits of the verdict, and names of checks.
 
 use super::quantity::{not_negative, positive_if_given};
-use crate::{CHECKS, Issue, VerdictLimits, check_spec, closest_name};
+use crate::requirement::Requirement;
+use crate::{CHECKS, Issue, Scenario, check_spec, closest_name};
 
-pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
+pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
+    let limits = &scenario.verdict;
     let positive_quantities = [
         ("tracking_max_m", limits.tracking_max_m),
         ("tracking_rms_m", limits.tracking_rms_m),
@@ -23,13 +25,15 @@ pub(super) fn issues(limits: &VerdictLimits) -> Vec<Issue> {
         limits.envelope_m.and_then(|value| not_negative("verdict.envelope_m", value)),
         limits.saturation.and_then(|value| fraction("verdict.saturation", value)),
     ];
-    let names = unknown_checks("verdict.advisory", &limits.advisory);
+    let of_requirements = scenario.requirements.iter().flat_map(Requirement::check_names);
+    let known: Vec<String> = CHECKS.iter().map(|check| check.name.to_owned()).chain(of_requirements).collect();
+    let names = unknown_checks("verdict.advisory", &limits.advisory, &known);
     rules
         .chain(others)
         .flatten()
         .chain(names)
         .chain(decisive_checks(&limits.advisory))
-        .chain(unknown_checks("verdict.required", &limits.required))
+        .chain(unknown_checks("verdict.required", &limits.required, &known))
         .collect()
 }
 
@@ -49,15 +53,15 @@ fn fraction(field: &str, value: f64) -> Option<Issue> {
     (!(0.0..=1.0).contains(&value)).then(|| Issue::new(field, value.to_string(), "a fraction from 0 to 1"))
 }
 
-fn unknown_checks(field: &str, names: &[String]) -> Vec<Issue> {
-    let is_unknown = |(_, name): &(usize, &String)| check_spec(name).is_none();
-    names.iter().enumerate().filter(is_unknown).map(|(index, name)| unknown_check(field, index, name)).collect()
+fn unknown_checks(field: &str, names: &[String], known: &[String]) -> Vec<Issue> {
+    let is_unknown = |(_, name): &(usize, &String)| !known.contains(name);
+    names.iter().enumerate().filter(is_unknown).map(|(index, name)| unknown_check(field, index, name, known)).collect()
 }
 
-fn unknown_check(field: &str, index: usize, name: &str) -> Issue {
-    let remedy = match closest_name(name, CHECKS.iter().map(|check| check.name)) {
+fn unknown_check(field: &str, index: usize, name: &str, known: &[String]) -> Issue {
+    let remedy = match closest_name(name, known.iter().map(String::as_str)) {
         Some(known) => format!("did you mean \"{known}\"?"),
-        None => format!("the checks are {}", CHECKS.iter().map(|check| check.name).collect::<Vec<_>>().join(", ")),
+        None => format!("the checks are {}", known.join(", ")),
     };
     let expected = "the full name of a check, such as \"flight.separation\"";
     Issue::new(format!("{field}[{index}]"), format!("\"{name}\""), expected).remedy(remedy)

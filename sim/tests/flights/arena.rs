@@ -32,6 +32,7 @@ pub fn scenario(vehicles: usize) -> Scenario {
         planner: PlannerSettings::default(),
         simulation: Simulation::default(),
         verdict: VerdictLimits::default(),
+        requirements: Vec::new(),
     }
 }
 

@@ -52,6 +52,7 @@ pub fn scenario() -> Scenario {
         planner: PlannerSettings::default(),
         simulation: Simulation { step_s: 0.002, ..Simulation::default() },
         verdict: VerdictLimits::default(),
+        requirements: Vec::new(),
     }
 }
 

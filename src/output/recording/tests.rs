@@ -41,6 +41,7 @@ fn with_run(test: impl FnOnce(&Run<'_>)) {
         planner: PlannerSettings::default(),
         simulation: Simulation::default(),
         verdict: VerdictLimits::default(),
+        requirements: Vec::new(),
     };
     let plan = Plan { status: PlanStatus::NoPlan, ..Plan::new(&scenario.name, "", 0, Vec::new()) };
     let verdict = Verdict { outcome: Outcome::NoPlan, overclaimed: false, checks: Vec::new(), integration: None };

@@ -12,6 +12,7 @@ pub(super) fn candidates(check: &Check, scenario: &Scenario) -> Vec<String> {
         Some(LimitField::Gates) => gates(check, scenario),
         Some(LimitField::ModelLimits) => model_limits(check, scenario),
         Some(LimitField::Goal) => goal(check, scenario),
+        Some(LimitField::Requirement) => requirement(check, scenario).into_iter().collect(),
         Some(LimitField::None) | None => Vec::new(),
     };
     let fallback = ["verdict", "planner.command", "planner.name"].map(str::to_owned);
@@ -34,6 +35,12 @@ fn obstacles(check: &Check, scenario: &Scenario) -> Vec<String> {
 
 fn gates(check: &Check, scenario: &Scenario) -> Vec<String> {
     list("gates", check, scenario.world.gates.iter().map(|gate| &gate.name))
+}
+
+/// The formula of the requirement that the check is about.
+fn requirement(check: &Check, scenario: &Scenario) -> Option<String> {
+    let index = scenario.requirements.iter().position(|it| it.check_names().any(|name| name == check.name))?;
+    Some(format!("requirements[{index}].formula"))
 }
 
 fn geofences(check: &Check, scenario: &Scenario) -> Vec<String> {

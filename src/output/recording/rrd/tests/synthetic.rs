@@ -122,6 +122,7 @@ fn scenario(count: usize, duration_s: f64) -> Scenario {
         planner: PlannerSettings { name: "by-hand".to_owned(), ..PlannerSettings::default() },
         simulation: Simulation::default(),
         verdict: VerdictLimits::default(),
+        requirements: Vec::new(),
     }
 }
 

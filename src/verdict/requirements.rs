@@ -1,0 +1,169 @@
+//! Requirements of the scenario: formulas of signal temporal logic over the planned and the flown motion.
+//!
+//! Their value is the space robustness at the beginning of the motion [Donzé, Maler 2010]: how far the decisive signal is
+//! from where the formula would change its truth. It is bounded for all times, not only at samples (`grid`), from bounds of
+//! the motions (`body`) by interval arithmetic (`interval`, `signal`). Quantities of the flight log hold from one sample to the
+//! next.
+
+mod body;
+mod explanation;
+mod grid;
+mod instance;
+mod interval;
+mod scene;
+mod signal;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+use scenarios::requirement::{Formula, Requirement};
+use scenarios::{CheckSpec, Group, REQUIREMENT_CHECKS};
+
+use crate::verdict::case::{Case, PLANNED_IN_LOOP};
+use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
+use crate::verdict::motion::Motion;
+use crate::verdict::{Check, Status};
+use grid::Robustness;
+use instance::Instance;
+use scene::Scene;
+
+/// Inserts the checks of all requirements, in the order of a verdict.
+///
+/// - `planned`, `flown`: the motions of the vehicles, in the order of the scenario, and of the load after them
+pub fn insert(
+    checks: &mut Vec<Check>,
+    case: &Case<'_>,
+    planned: Evidence<'_, [Motion]>,
+    flown: Evidence<'_, [Motion]>,
+) {
+    let end_of_plan = checks.iter().position(|check| check.name.starts_with("flight.")).unwrap_or(checks.len());
+    let [of_plan, of_flight] = &REQUIREMENT_CHECKS;
+    checks.extend(of_group(of_flight, case, flown));
+    drop(checks.splice(end_of_plan..end_of_plan, of_group(of_plan, case, planned)));
+}
+
+fn of_group(spec: &CheckSpec, case: &Case<'_>, motions: Evidence<'_, [Motion]>) -> Vec<Check> {
+    let asked: Vec<&Requirement> =
+        case.scenario.requirements.iter().filter(|it| it.applies_to.covers(spec.group)).collect();
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let flight = case.flight().ok().filter(|_| spec.group == Group::Flight);
+    let scene = motions.map(|motions| Scene::new(case.scenario, motions, flight));
+    let is_reconstructed = motions.is_ok_and(|motions| motions.iter().any(Motion::is_reconstructed));
+    let named = |requirement: &&Requirement| {
+        let check = if spec.group == Group::Plan && case.is_planned_in_loop() {
+            spec.skip(PLANNED_IN_LOOP)
+        } else {
+            let made = scene.as_ref().map_err(|missing| (*missing).clone());
+            let made = made.and_then(|scene| check(spec, requirement, scene, is_reconstructed));
+            made.unwrap_or_else(|missing| spec.fail(missing))
+        };
+        Check { name: format!("{}.{}", spec.name, requirement.name), ..check }
+    };
+    asked.par_iter().map(named).collect()
+}
+
+fn check(spec: &CheckSpec, requirement: &Requirement, scene: &Scene<'_>, is_reconstructed: bool) -> CheckResult {
+    let formula = match requirement.formula(scene.scenario) {
+        Ok(formula) => formula,
+        Err(error) => return Ok(spec.fail(format_args!("the formula cannot be evaluated: {error}"))),
+    };
+    if let Some(signal) = formula.logged_signal().filter(|_| spec.group == Group::Plan) {
+        return Ok(spec.skip(format_args!("{signal} is known at the samples of a flight log only")));
+    }
+    if is_reconstructed && formula.needs_velocities() {
+        let reason = "the plan was reconstructed between its rows: its velocities are not known there";
+        return Ok(Check { status: Status::Undecided, ..spec.skip(reason) });
+    }
+    let Some(decisive) = smallest(&formula, scene) else {
+        return Ok(spec.skip("the scenario has fewer vehicles than the formula speaks of, or none at the same time"));
+    };
+    Ok(decided(spec, requirement, &decisive))
+}
+
+/// The check of the robustness found.
+fn decided(spec: &CheckSpec, requirement: &Requirement, decisive: &Decisive<'_>) -> Check {
+    let Decisive { instance, robustness } = decisive;
+    let predicate = &instance.formula.predicates[robustness.predicate];
+    let at_s = 0.5 * (robustness.cell[0] + robustness.cell[1]);
+    let spec = CheckSpec { unit: predicate.unit, ..*spec };
+    if robustness.bounds.min.is_infinite() && robustness.bounds.max == robustness.bounds.min {
+        return spec.fail("the motion ends before the interval of the formula begins, so that no signal decides");
+    }
+    let measured = Measurement::bounds(robustness.bounds.min, robustness.bounds.max).at(at_s);
+    let measured = instance.concerned(predicate).iter().fold(measured, |measured, name| measured.with(name));
+    let mut check = spec.at_least(measured, 0.0);
+    if check.is_bad() {
+        let why = explanation::explain(requirement, instance, robustness);
+        check.reason =
+            Some(check.reason.take().filter(|it| !it.is_empty()).map_or(why.clone(), |it| format!("{it}; {why}")));
+    }
+    check
+}
+
+/// An instance of a formula, and its robustness.
+struct Decisive<'a> {
+    instance: Instance<'a>,
+    robustness: Robustness,
+}
+
+/// The robustness over all vehicles that the quantifiers range over; `None` if there are none.
+fn smallest<'a>(formula: &'a Formula, scene: &'a Scene<'a>) -> Option<Decisive<'a>> {
+    quantified(formula, scene, &mut Vec::new(), 0, f64::INFINITY)
+}
+
+/// - `assigned`: the vehicles of the variables of the quantifiers before `depth`
+/// - `beat`: the smallest robustness known so far
+fn quantified<'a>(
+    formula: &'a Formula,
+    scene: &'a Scene<'a>,
+    assigned: &mut Vec<usize>,
+    depth: usize,
+    beat: f64,
+) -> Option<Decisive<'a>> {
+    let Some(quantifier) = formula.quantifiers.get(depth) else {
+        let instance = Instance::new(formula, scene, assigned)?;
+        let robustness = grid::robustness(&instance, beat);
+        return Some(Decisive { instance, robustness });
+    };
+    let mut found: Option<Decisive<'a>> = None;
+    for chosen in selections(scene.scenario.vehicles.len(), quantifier.variables.len()) {
+        let before = assigned.len();
+        assigned.extend(chosen);
+        let known = found.as_ref().map(|found| found.robustness.bounds);
+        // Of several that must all hold, one that is certainly not the worst need not be known better.
+        let beat =
+            if quantifier.is_universal { known.map_or(beat, |known| beat.min(known.max)) } else { f64::INFINITY };
+        let next = quantified(formula, scene, assigned, depth + 1, beat);
+        assigned.truncate(before);
+        found = combined(quantifier.is_universal, found, next);
+    }
+    found
+}
+
+/// The worse of two for all, the better of two for some; bounds as those of the smaller and of the larger number.
+fn combined<'a>(is_universal: bool, a: Option<Decisive<'a>>, b: Option<Decisive<'a>>) -> Option<Decisive<'a>> {
+    let (Some(a), Some(b)) = (&a, &b) else { return a.or(b) };
+    let [one, other] = [a.robustness.bounds, b.robustness.bounds];
+    let bounds = if is_universal { one.minimum(other) } else { one.maximum(other) };
+    let is_first = if is_universal { one.min <= other.min } else { one.min >= other.min };
+    let of = |it: &Decisive<'a>| Decisive {
+        instance: it.instance.clone(),
+        robustness: Robustness { bounds, ..it.robustness.clone() },
+    };
+    Some(if is_first { of(a) } else { of(b) })
+}
+
+/// All selections of `count` of `n` vehicles, in their order.
+fn selections(n: usize, count: usize) -> Vec<Vec<usize>> {
+    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..count {
+        let longer = |chosen: &Vec<usize>| {
+            let first = chosen.last().map_or(0, |last| last + 1);
+            (first..n).map(|next| chosen.iter().copied().chain([next]).collect()).collect::<Vec<Vec<usize>>>()
+        };
+        all = all.iter().flat_map(longer).collect();
+    }
+    all
+}

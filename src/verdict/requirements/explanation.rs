@@ -1,0 +1,43 @@
+//! Why a requirement failed, in words.
+
+use std::ops::Range;
+
+use scenarios::requirement::{Requirement, Term};
+
+use crate::number_format::quantity;
+use crate::verdict::requirements::grid::Robustness;
+use crate::verdict::requirements::instance::Instance;
+
+/// The formula, the clause that decides, the instant, the vehicles, the values there, and by how much it falls short.
+pub fn explain(requirement: &Requirement, instance: &Instance<'_>, robustness: &Robustness) -> String {
+    let text = |span: &Range<usize>| &requirement.formula[span.clone()];
+    let formula = instance.formula;
+    let decisive = &formula.predicates[robustness.predicate];
+    let at_s = 0.5 * (robustness.cell[0] + robustness.cell[1]);
+    let named = formula.variables.iter().zip(&instance.assigned);
+    let variables: Vec<String> =
+        named.map(|(name, &vehicle)| format!("{name} is {}", instance.scene.bodies[vehicle].name())).collect();
+    let mut values: Vec<String> = Vec::new();
+    for predicate in &formula.predicates {
+        for (side, span) in predicate.sides.iter().zip(&predicate.side_spans) {
+            let value =
+                format!("{} is {}", text(span), value(instance, side, at_s, (predicate.unit, predicate.unit_size)));
+            if !matches!(side, Term::Constant(_)) && !values.contains(&value) {
+                values.push(value);
+            }
+        }
+    }
+    let who = if variables.is_empty() { String::new() } else { format!(", where {}", variables.join(" and ")) };
+    let short = quantity(-robustness.bounds.min, decisive.unit);
+    let values = values.join(", ");
+    format!(
+        "{}: at {at_s:.2} s{who}, {values}: `{}` decides, short by {short}",
+        requirement.formula,
+        text(&decisive.span)
+    )
+}
+
+fn value(instance: &Instance<'_>, side: &Term, at_s: f64, (unit, unit_size): (&'static str, f64)) -> String {
+    let (bounds, _) = instance.bounds(side, [at_s, at_s]);
+    quantity(0.5 * (bounds.min + bounds.max) / unit_size, unit)
+}

@@ -1,0 +1,230 @@
+//! Interval arithmetic, and intervals with a bound of their slope.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Relative widening that covers the rounding of a few hundred operations.
+const ROUNDING: f64 = 1e-12;
+
+/// A closed interval of real numbers, possibly unbounded. What cannot be told is the whole line, never NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+}
+
+impl Interval {
+    /// The whole line.
+    pub const ALL: Self = Self { min: f64::NEG_INFINITY, max: f64::INFINITY };
+
+    /// The interval between two ends; the whole line if one of them is NaN.
+    pub fn new(min: f64, max: f64) -> Self {
+        if min.is_nan() || max.is_nan() { Self::ALL } else { Self { min, max } }
+    }
+
+    /// A single number.
+    pub fn point(value: f64) -> Self {
+        Self::new(value, value)
+    }
+
+    /// All numbers whose magnitude is at most `radius`.
+    pub fn within(radius: f64) -> Self {
+        Self::new(-radius, radius)
+    }
+
+    /// The smallest interval around some numbers.
+    pub fn hull(values: impl IntoIterator<Item = f64>) -> Self {
+        let mut hull: Option<Self> = None;
+        for value in values {
+            let point = Self::point(value);
+            hull = Some(hull.map_or(point, |hull| hull.union(point)));
+        }
+        hull.unwrap_or(Self::ALL)
+    }
+
+    /// The smallest interval around both.
+    pub fn union(self, other: Self) -> Self {
+        Self::new(self.min.min(other.min), self.max.max(other.max))
+    }
+
+    /// What both have in common. Two bounds of one number that miss each other do so by rounding.
+    pub fn intersection(self, other: Self) -> Self {
+        let (min, max) = (self.min.max(other.min), self.max.min(other.max));
+        Self::new(min.min(max), max.max(min))
+    }
+
+    /// Every number of it, moved by up to `by`, and by what rounding may have done.
+    pub fn widened(self, by: f64) -> Self {
+        let finite = |end: f64| if end.is_finite() { end.abs() } else { 0.0 };
+        let by = by + ROUNDING * (1.0 + finite(self.min).max(finite(self.max)));
+        Self::new(self.min - by, self.max + by)
+    }
+
+    pub fn width(self) -> f64 {
+        self.max - self.min
+    }
+
+    /// Largest magnitude.
+    pub fn magnitude(self) -> f64 {
+        self.min.abs().max(self.max.abs())
+    }
+
+    pub fn minimum(self, other: Self) -> Self {
+        Self::new(self.min.min(other.min), self.max.min(other.max))
+    }
+
+    pub fn maximum(self, other: Self) -> Self {
+        Self::new(self.min.max(other.min), self.max.max(other.max))
+    }
+
+    pub fn abs(self) -> Self {
+        let magnitude = self.magnitude();
+        if self.min <= 0.0 && self.max >= 0.0 {
+            Self::new(0.0, magnitude)
+        } else {
+            Self::new(self.min.abs().min(self.max.abs()), magnitude)
+        }
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.max, -self.min)
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.min + other.min, self.max + other.max)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.min - other.max, self.max - other.min)
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+        let corners = [(self.min, other.min), (self.min, other.max), (self.max, other.min), (self.max, other.max)];
+        Self::hull(corners.map(|(a, b)| product(a, b)))
+    }
+}
+
+impl Div for Interval {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        if other.min <= 0.0 && other.max >= 0.0 {
+            return Self::ALL;
+        }
+        self.mul(Self::new(1.0 / other.max, 1.0 / other.min))
+    }
+}
+
+/// Euclidean norm of a vector of intervals.
+pub fn norm(vector: &[Interval]) -> Interval {
+    let sum = |end: fn(Interval) -> f64| vector.iter().map(|it| end(it.abs()).powi(2)).sum::<f64>().sqrt();
+    Interval::new(sum(|it| it.min), sum(|it| it.max))
+}
+
+/// Scalar product of two vectors of intervals.
+pub fn dot(a: &[Interval], b: &[Interval]) -> Interval {
+    a.iter().zip(b).map(|(&a, &b)| a * b).fold(Interval::point(0.0), Add::add)
+}
+
+/// `atan2(y, x)` of y ≥ 0: rad, from 0 to π. It decreases with x, and grows with y where x is positive.
+pub fn angle(y: Interval, x: Interval) -> Interval {
+    let y = y.abs();
+    let largest = if x.min >= 0.0 { y.max } else { y.min };
+    let smallest = if x.max > 0.0 { y.min } else { y.max };
+    Interval::new(smallest.atan2(x.max), largest.atan2(x.min))
+}
+
+/// A function of time over a cell: bounds of its value and of its slope, and how far the true function may be from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet {
+    /// Bounds of the value.
+    pub value: Interval,
+    /// Bounds of the slope, 1/s.
+    pub slope: Interval,
+    /// Largest difference between this function and the true one.
+    pub error: f64,
+}
+
+impl Jet {
+    /// A constant.
+    pub fn constant(value: f64) -> Self {
+        Self { value: Interval::point(value), slope: Interval::point(0.0), error: 0.0 }
+    }
+
+    /// A function without a known slope.
+    pub fn rough(value: Interval, error: f64) -> Self {
+        Self { value, slope: Interval::ALL, error }
+    }
+
+    pub fn negate(self) -> Self {
+        Self { value: -self.value, slope: -self.slope, error: self.error }
+    }
+
+    pub fn abs(self) -> Self {
+        let slope = if self.value.min >= 0.0 {
+            self.slope
+        } else if self.value.max <= 0.0 {
+            -self.slope
+        } else {
+            self.slope.union(-self.slope)
+        };
+        Self { value: self.value.abs(), slope, error: self.error }
+    }
+
+    pub fn plus(self, other: Self) -> Self {
+        Self { value: self.value + other.value, slope: self.slope + other.slope, error: self.error + other.error }
+    }
+
+    pub fn times(self, other: Self) -> Self {
+        let (a, b) = (self.value, other.value);
+        let error = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error * size };
+        Self {
+            value: a * b,
+            slope: self.slope * b + a * other.slope,
+            error: error(self.error, b.magnitude()) + error(other.error, a.magnitude() + self.error),
+        }
+    }
+
+    /// 1 / f. Where f may be 0, nothing is known.
+    pub fn reciprocal(self) -> Self {
+        let true_value = self.value.widened(self.error);
+        if true_value.min <= 0.0 && true_value.max >= 0.0 {
+            return Self::rough(Interval::ALL, 0.0);
+        }
+        let smallest = true_value.abs().min;
+        let one = Interval::point(1.0);
+        Self {
+            value: one / self.value,
+            slope: -(self.slope / (self.value * self.value)),
+            error: self.error / (smallest * smallest),
+        }
+    }
+
+    pub fn minimum(self, other: Self) -> Self {
+        let slope = if self.value.max <= other.value.min {
+            self.slope
+        } else if other.value.max <= self.value.min {
+            other.slope
+        } else {
+            self.slope.union(other.slope)
+        };
+        Self { value: self.value.minimum(other.value), slope, error: self.error.max(other.error) }
+    }
+
+    pub fn maximum(self, other: Self) -> Self {
+        self.negate().minimum(other.negate()).negate()
+    }
+}

@@ -1,0 +1,107 @@
+//! What formulas are about: bodies, obstacles, geofences and logs.
+
+use scenarios::requirement::{Quantity, Subject};
+use scenarios::{Cylinder, Geofence, GeofenceKind, MovingCylinder, Prism, Scenario};
+use sim::{Flight, Sample};
+
+use crate::verdict::motion::Motion;
+use crate::verdict::requirements::body::Body;
+use crate::verdict::requirements::interval::Interval;
+
+/// The bodies of a motion, planned or flown, and what surrounds them.
+pub struct Scene<'a> {
+    pub scenario: &'a Scenario,
+    /// The vehicles, in the order of the scenario; after them the load, if there is one.
+    pub bodies: Vec<Body<'a>>,
+    pub obstacles: Vec<Obstacle<'a>>,
+    /// The geofences, positive inside whatever their kind.
+    pub geofences: Vec<Geofence>,
+    flight: Option<&'a Flight>,
+}
+
+/// An obstacle by its name, in space and as seen from above.
+pub struct Obstacle<'a> {
+    pub name: &'a str,
+    pub shape: Shape<'a>,
+}
+
+/// What bounds an obstacle.
+pub enum Shape<'a> {
+    /// Unbounded upwards and downwards.
+    Cylinder(&'a Cylinder),
+    /// A volume to keep out of, and the same without top and bottom.
+    Prism([Geofence; 2]),
+    /// The same.
+    Moving([MovingCylinder; 2]),
+}
+
+impl<'a> Scene<'a> {
+    /// - `flight`: the logs of a flown motion; `None` for a planned one
+    pub fn new(scenario: &'a Scenario, motions: &'a [Motion], flight: Option<&'a Flight>) -> Self {
+        let world = &scenario.world;
+        let cylinders = world.cylinders.iter().map(|it| (it.name.as_str(), Shape::Cylinder(it)));
+        let boxes = world.boxes.iter().map(|it| (it.name.as_str(), prism(&it.as_prism())));
+        let prisms = world.prisms.iter().map(|it| (it.name.as_str(), prism(it)));
+        let moving = world.moving.iter().map(|it| {
+            let seen_from_above = MovingCylinder { z_m: None, ..it.clone() };
+            (it.name.as_str(), Shape::Moving([it.clone(), seen_from_above]))
+        });
+        let obstacles = cylinders.chain(boxes).chain(prisms).chain(moving);
+        let inside = |fence: &Geofence| Geofence { kind: GeofenceKind::StayIn, ..fence.clone() };
+        Self {
+            scenario,
+            bodies: motions.iter().map(Body::new).collect(),
+            obstacles: obstacles.map(|(name, shape)| Obstacle { name, shape }).collect(),
+            geofences: world.geofences.iter().map(inside).collect(),
+            flight,
+        }
+    }
+
+    /// The index of the body that a subject stands for.
+    ///
+    /// - `assigned`: the vehicle of every variable
+    pub fn body_of(&self, subject: Subject, assigned: &[usize]) -> usize {
+        match subject {
+            Subject::Vehicle(index) => index,
+            Subject::Variable(variable) => assigned[variable],
+            Subject::Load => self.scenario.vehicles.len(),
+        }
+    }
+
+    /// Bounds of a logged quantity of a vehicle over an interval of time. A sample holds until the next one.
+    pub fn logged(&self, quantity: Quantity, vehicle: usize, [from_s, to_s]: [f64; 2]) -> Interval {
+        let Some(log) = self.flight.and_then(|flight| flight.vehicles.get(vehicle)) else { return Interval::ALL };
+        let first = log.samples.partition_point(|sample| sample.t_s <= from_s).max(1) - 1;
+        let end = log.samples.partition_point(|sample| sample.t_s <= to_s).max(first + 1);
+        let values = (first..end.min(log.samples.len())).map(|index| match quantity {
+            Quantity::Tension => log.loads.get(index).map_or(f64::NAN, |load| load.tension_n),
+            _ => logged_value(quantity, &log.samples[index]),
+        });
+        Interval::hull(values)
+    }
+}
+
+fn logged_value(quantity: Quantity, sample: &Sample) -> f64 {
+    let norm = |a: [f64; 3], b: [f64; 3]| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt();
+    match quantity {
+        Quantity::Airspeed => norm(sample.velocity_mps, sample.wind_mps),
+        Quantity::WindSpeed => norm(sample.wind_mps, [0.0; 3]),
+        Quantity::TrackingError => norm(sample.position_m, sample.reference_position_m),
+        Quantity::Bank => {
+            let [x, y, z, w] = sample.world_from_body;
+            // The vertical component of the body's y axis.
+            (2.0 * (y * z + w * x)).abs().min(1.0).asin()
+        }
+        _ => f64::NAN,
+    }
+}
+
+fn prism<'a>(prism: &Prism) -> Shape<'a> {
+    let volume = |z_m| Geofence {
+        name: prism.name.clone(),
+        kind: GeofenceKind::KeepOut,
+        polygon_m: prism.corners_m.clone(),
+        z_m,
+    };
+    Shape::Prism([volume(prism.z_m), volume(None)])
+}
