@@ -1,7 +1,7 @@
 //! Covariance matrix adaptation (CMA-ES): a search for the minimum of a function whose derivatives are not known.
 //!
 //! Candidates are drawn from a normal distribution N(m, σ² C). Its mean moves to the better half of them, weighted by rank;
-//! its covariance grows along the directions that led there. Parameters, numbered as there, from Hansen, "The CMA Evolution
+//! its covariance grows along the directions that led there. Parameters as in Hansen, "The CMA Evolution
 //! Strategy: A Tutorial" (2016), section A.
 
 use nalgebra::{DMatrix, DVector};

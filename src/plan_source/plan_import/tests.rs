@@ -82,3 +82,22 @@ fn extreme_states_have_a_large_or_nan_residual() {
         assert!(!(residual.position_m < 1e3 && residual.load_factor < 1.0), "{residual:?}");
     }
 }
+
+/// Of two rows 2 s apart with two decimals: a T/2, and the rounding of both ends of the chord.
+#[test]
+fn the_last_velocity_is_known_up_to_acceleration_and_rounding() {
+    let found = super::end_velocity(&[0.0, 2.0], &[[0.25, 0.0, 0.0], [70.25, 0.0, 0.0]], 8.0).expect("two rows");
+    assert_eq!(found.velocity_mps, [35.0, 0.0, 0.0]);
+    let rounding_mps = 2.0 * 3.0_f64.sqrt() * 0.005 / 2.0;
+    assert!((found.error_mps - (8.0 + rounding_mps)).abs() < 1e-9, "{found:?}");
+}
+
+/// Straight and level at 35 m/s for 2 s, under controls that accelerate by 0.1 g: off by 0.1 g t²/2 and 0.1 g t.
+#[test]
+fn the_residual_is_the_acceleration_that_is_missing() {
+    let states = [0.0, 70.0].map(|x_m| State::from_array([x_m, 0.0, 400.0, 35.0, 0.0, 0.0]));
+    let control = Control { n_x: 0.1, n_y: 0.0, n_z: 1.0 };
+    let found = controls::residual(&[0.0, 2.0], &states, &[control; 2]);
+    let off = [found.position_m - 0.2 * 9.81, found.velocity_mps - 0.2 * 9.81, found.load_factor - 0.1];
+    assert!(off.iter().all(|off| off.abs() < 2e-3), "{found:?}");
+}
