@@ -88,11 +88,9 @@ impl<'a> FleetProblem<'a> {
             [cos, sin]
         };
         let options = Options::new(&scenario.planner);
-        let bounds = |vehicle| {
-            let model = scenario.fixed_wing_model(vehicle);
-            let map = scenario.world.map.inset(model.body_radius_m);
-            vec![subproblem::node_bounds(&model.planning_limits, &map); options.intervals + 1]
-        };
+        let limits = |vehicle| &scenario.fixed_wing_model(vehicle).planning_limits;
+        let bounds =
+            |vehicle| vec![subproblem::node_bounds(limits(vehicle), &scenario.world.map); options.intervals + 1];
         Self {
             scenario,
             bounds: scenario.vehicles.iter().map(bounds).collect(),

@@ -142,7 +142,7 @@ fn no_sample_of_a_predicate_is_outside_its_bounds() {
 #[test]
 fn random_formulas_contain_their_sampled_robustness() {
     let mut uniform = Uniform::seeded(20);
-    for round in 0..60 {
+    for round in 0..12 {
         let motions = [wild("uav-1", &mut uniform), wild("uav-2", &mut uniform)];
         let formula = oracle::Sampled::random(&mut uniform, 3);
         let [lower, upper] = bounds(&formula.text(), &motions);
