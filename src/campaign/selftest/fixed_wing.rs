@@ -8,6 +8,7 @@ use sim::{Actuation, Commanded, Sample};
 
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
+use super::faults::places;
 use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, SEPARATION_CHECKS, limit};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::UnflownCase;
@@ -47,8 +48,9 @@ fn faults(_: &ReferenceCase) -> Vec<Fault> {
 }
 
 fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
-    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole(), vec![near_misses::separation()]];
-    common.into_iter().flatten().chain(own_near_misses()).chain(goals::near_misses()).collect()
+    let own = [places::near_misses(), vec![near_misses::separation()]];
+    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole()].into_iter().chain(own);
+    common.flatten().chain(own_near_misses()).chain(goals::near_misses()).collect()
 }
 
 fn own_near_misses() -> [NearMiss; 2] {

@@ -13,7 +13,7 @@ use scenarios::{Family, Sensors, Trajectory};
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
 use super::faults::tightened_limits::{self, FamilyLimits, SEPARATION_CHECKS, limit};
-use super::faults::{log, plan};
+use super::faults::{log, places, plan};
 use super::reference_case::UnflownCase;
 use super::{Fault, ReferenceCase};
 
@@ -86,15 +86,16 @@ fn windy() -> UnflownCase {
 
 fn faults(reference: &ReferenceCase) -> Vec<Fault> {
     if has_rotors(reference) {
-        rotors::faults()
+        rotors::faults().into_iter().chain(places::flown_faults()).collect()
     } else if !reference.scenario.world.moving.is_empty() {
-        moving::faults()
+        moving::faults().into_iter().chain(places::flown_faults()).collect()
     } else if reference.is_planned_in_the_loop() {
-        [log::faults(), in_loop::faults()].into_iter().flatten().collect()
+        [log::faults(), in_loop::faults(), places::flown_faults()].into_iter().flatten().collect()
     } else {
         // Positions and velocities determine the accelerations between two nodes: there is no defect.
         let on_plans = plan::faults().into_iter().filter(|fault| fault.aims_at != "plan.dynamics");
-        let all = [log::faults(), plans::faults(), flights::faults(), tightened_limits::faults(&SELFTEST.limits)];
+        let limits = tightened_limits::faults(&SELFTEST.limits);
+        let all = [log::faults(), plans::faults(), flights::faults(), places::faults(), limits];
         on_plans.chain(all.into_iter().flatten()).collect()
     }
 }

@@ -7,6 +7,7 @@ use sim::LoadSample;
 
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
+use super::faults::places;
 use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, GOALS, limit};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::{UnflownCase, thrusts};
@@ -46,11 +47,12 @@ fn reference_cases() -> Vec<UnflownCase> {
 }
 
 fn faults(_: &ReferenceCase) -> Vec<Fault> {
-    super::faults::with_common(faults::all(), &SELFTEST.limits)
+    let own = faults::all().into_iter().chain(places::load_faults());
+    super::faults::with_common(own.collect(), &SELFTEST.limits)
 }
 
 fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
-    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole()];
+    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole(), places::near_misses()];
     common.into_iter().flatten().chain(own_near_misses()).collect()
 }
 

@@ -3,6 +3,7 @@ use scenarios::in_loop::ReplanStatus;
 use sim::{Event, EventKind, Sample};
 
 use super::has_rotors;
+use crate::campaign::selftest::faults::places;
 use crate::campaign::selftest::near_misses::{self, NEAR_M};
 use crate::campaign::selftest::{NearMiss, ReferenceCase};
 
@@ -11,8 +12,9 @@ pub fn all(reference: &ReferenceCase) -> Vec<NearMiss> {
     if reference.is_planned_in_the_loop() {
         return in_the_loop(reference);
     }
-    let common = [near_misses::limits(&super::SELFTEST.limits), near_misses::whole(), vec![near_misses::separation()]];
-    common.into_iter().flatten().chain(planned()).collect()
+    let own = [places::near_misses(), vec![near_misses::separation()]];
+    let common = [near_misses::limits(&super::SELFTEST.limits), near_misses::whole()].into_iter().chain(own);
+    common.flatten().chain(planned()).collect()
 }
 
 fn planned() -> [NearMiss; 2] {
