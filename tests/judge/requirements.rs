@@ -47,6 +47,7 @@ fn limits_are_kept_and_broken_by_what_geometry_says() {
         ("always inside(site) > 60 m", -10.0),
         ("always speed < 36 m/s", 1.0),
         ("always speed < 34 m/s", -1.0),
+        ("always speed > 34 m/s", 1.0),
         ("eventually [5 s, 15 s] distance(uav-1, point(350 m, 3 m, 404 m)) < 6 m", 1.0),
         ("eventually [5 s, 15 s] distance(uav-1, point(350 m, 3 m, 404 m)) < 4 m", -1.0),
         ("always heading_from(90 deg) > 89 deg", 1.0),

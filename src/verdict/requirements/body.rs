@@ -106,7 +106,9 @@ impl<'a> Body<'a> {
         let segment = Enclosure::of(&self.motion.segment(after - 1));
         let position = state.position_m.map(Interval::point);
         let velocity = state.velocity_mps.map(Interval::point);
-        Enclosure { position, velocity, jumps: false, ..segment }
+        let is_known = segment.acceleration[0] != Interval::EMPTY;
+        let acceleration = if is_known { segment.acceleration } else { [Interval::point(0.0); 3] };
+        Enclosure { position, velocity, acceleration, jumps: false, ..segment }
     }
 }
 
@@ -122,12 +124,11 @@ impl Enclosure {
         let deviation_m = segment.deviation_m;
         if !segment.lasts() {
             let position = std::array::from_fn(|axis| Interval::hull(points.iter().map(|point| point[axis])));
-            let still = [Interval::point(0.0); 3];
-            // Position or velocity may jump.
+            // Position or velocity may jump. The velocities are those of the segments before and after.
             return Self {
                 position,
-                velocity: still,
-                acceleration: still,
+                velocity: [Interval::EMPTY; 3],
+                acceleration: [Interval::EMPTY; 3],
                 errors: [deviation_m, 0.0, 0.0],
                 jumps: true,
             };

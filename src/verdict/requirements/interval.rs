@@ -18,6 +18,9 @@ impl Interval {
     /// The whole line.
     pub const ALL: Self = Self { min: f64::NEG_INFINITY, max: f64::INFINITY };
 
+    /// No number: it adds nothing to a union.
+    pub const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY };
+
     /// The interval between two ends; the whole line if one of them is NaN.
     pub fn new(min: f64, max: f64) -> Self {
         if min.is_nan() || max.is_nan() { Self::ALL } else { Self { min, max } }
