@@ -54,7 +54,7 @@ pub fn timed_motion(path: &[Point], limits: PlanningLimits, deviation_m: f64) ->
 }
 
 /// The path as planned: at the largest speed along the legs, from start to goal. The velocity turns at each corner, and
-/// changes from and to rest at the ends, within [`JUMP_S`], half before and half after the corner; the accelerations of these
+/// changes from and to rest at the ends, within `JUMP_S`, half before and half after the corner; the accelerations of these
 /// jumps are far beyond any limit.
 ///
 /// # Panics

@@ -72,19 +72,7 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |experiment, scenario: &Scenario, name, planner: &str, options: Horizon| {
         let planner = planners::find(planner).expect("a planner of the registry");
-        let mut scenario = scenario.clone();
-        // Grid, swarm and weights of the scenario, options of the case.
-        let own = scenario.planner.horizon.take().unwrap_or_default();
-        scenario.planner.horizon = Some(Horizon {
-            step_s: own.step_s,
-            steps: own.steps,
-            particles: own.particles,
-            iterations: own.iterations,
-            swarm: own.swarm,
-            violation_weights: own.violation_weights,
-            stage_weight: options.stage_weight.or(own.stage_weight),
-            ..options
-        });
+        let scenario = with_options(scenario, options);
         cases.push(Case { experiment, name, scenario, planner });
     };
     let usual = Horizon::default;
@@ -130,18 +118,38 @@ pub fn all(plan: &Plan) -> Vec<Case> {
     let end_alone = Horizon { stage_weight: Some(0.0), ..Horizon::default() };
     add(Experiment::DynamicMap, &plan.pop_up, END_ALONE, "rhc-fpso", end_alone);
     for scenario in [map, &plan.trap] {
-        for (name, sampler) in [
-            ("PSO", Sampler::Pso),
-            ("FPSO", Sampler::Fpso),
-            ("CEM", Sampler::Cem),
-            ("MPPI", Sampler::Mppi),
-            ("CMA-ES", Sampler::CmaEs),
-        ] {
+        for (name, sampler) in SAMPLERS {
             add(Experiment::Samplers, scenario, name, "rhc", Horizon { sampler: Some(sampler), ..Horizon::default() });
         }
     }
     cases
 }
+
+/// A scenario with the options of a case; grid, swarm and weights are its own.
+fn with_options(scenario: &Scenario, options: Horizon) -> Scenario {
+    let mut scenario = scenario.clone();
+    let own = scenario.planner.horizon.take().unwrap_or_default();
+    scenario.planner.horizon = Some(Horizon {
+        step_s: own.step_s,
+        steps: own.steps,
+        particles: own.particles,
+        iterations: own.iterations,
+        swarm: own.swarm,
+        violation_weights: own.violation_weights,
+        stage_weight: options.stage_weight.or(own.stage_weight),
+        ..options
+    });
+    scenario
+}
+
+/// The samplers that are compared.
+const SAMPLERS: [(&str, Sampler); 5] = [
+    ("PSO", Sampler::Pso),
+    ("FPSO", Sampler::Fpso),
+    ("CEM", Sampler::Cem),
+    ("MPPI", Sampler::Mppi),
+    ("CMA-ES", Sampler::CmaEs),
+];
 
 /// The paths of the baselines, flown as planned.
 const AS_PLANNED: [(&str, &str); 3] =
