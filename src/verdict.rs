@@ -12,6 +12,7 @@ mod collision;
 pub mod compare;
 mod conditions;
 mod curve_as_cubics;
+mod end;
 mod evidence;
 mod extreme;
 pub mod fixed_wing;

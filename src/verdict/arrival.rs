@@ -11,9 +11,9 @@ use scenarios::{CheckSpec, Plan, Scenario, Trajectory, Vehicle};
 
 use crate::verdict::Check;
 use crate::verdict::compare::exceeds;
+use crate::verdict::end::planned_arrival_s;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::flown::{FlownMotions, FlownVehicle};
-use crate::verdict::goal::planned_arrival_s;
 use crate::verdict::missing_evidence::MissingEvidence;
 
 /// A vehicle that stays this close to the end of its plan waits there, m.

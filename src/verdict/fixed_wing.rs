@@ -25,7 +25,7 @@ use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::tube::EndError;
-use crate::verdict::{Check, collision, flight_integrity, goal, requirements, separation};
+use crate::verdict::{Check, collision, end, flight_integrity, goal, requirements, separation};
 
 /// Every check of a fixed-wing fleet, in the order of a verdict.
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
@@ -148,7 +148,7 @@ impl<'a> FleetCase<'a> {
     fn planned_end_error(&self, vehicle: usize) -> EndError {
         let (scenario, trajectory) = (self.scenario, &self.plan.trajectories[vehicle]);
         let arrival = |motions: &'_ [Motion]| {
-            goal::arrival_knot(scenario, &scenario.vehicles[vehicle], trajectory, &motions[vehicle]).copied()
+            end::arrival_knot(scenario, &scenario.vehicles[vehicle], trajectory, &motions[vehicle]).copied()
         };
         let end = self.planned_motions().ok().and_then(arrival);
         end.map_or_else(EndError::default, |end| self.end_error(vehicle, &end))
@@ -165,7 +165,7 @@ fn tubes(case: &Case<'_>, planned: &PlannedMotions) -> Vec<RowTube> {
     let tube = |(index, ((vehicle, trajectory), motion)): (usize, ((&Vehicle, &Trajectory), &Motion))| {
         let limits = &case.scenario.fixed_wing_model(vehicle).limits;
         let (given, end_velocity) = (case.provenance.given(index), case.provenance.end_velocity(index));
-        let arrival = goal::arrival_node(case.scenario, vehicle, trajectory).unwrap_or(0);
+        let arrival = end::arrival_node(case.scenario, vehicle, trajectory).unwrap_or(0);
         RowTube::around(motion, trajectory.fixed_wing(), given, end_velocity, arrival, limits)
             .widened(case.provenance.rounding_m(index))
     };

@@ -5,7 +5,7 @@ use scenarios::{Plan, Scenario, Trajectory, Vehicle};
 use sim::{Flight, Sample, VehicleLog};
 
 use crate::verdict::closest::{self, ClosestApproach};
-use crate::verdict::goal::planned_arrival_s;
+use crate::verdict::end::planned_arrival_s;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 
