@@ -7,8 +7,6 @@
 mod cma_es;
 mod space;
 
-use std::collections::VecDeque;
-
 use clap::ValueEnum;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -104,7 +102,8 @@ pub fn search(
     options: SearchOptions,
     progress: &mut dyn FnMut(usize),
 ) -> Falsification {
-    search_with(space, &|document| system.try_out(document), options, progress)
+    let found = search_with(space, &|document| system.try_out(document), options, progress);
+    Falsification { planner: system.source.name().to_owned(), ..found }
 }
 
 fn search_with(
@@ -113,7 +112,7 @@ fn search_with(
     options: SearchOptions,
     progress: &mut dyn FnMut(usize),
 ) -> Falsification {
-    let mut record = Record::new(options);
+    let mut record = Record::new(space, options);
     let mut random = ChaCha8Rng::seed_from_u64(options.seed);
     let mut evaluate = |points: &[Vec<f64>], record: &mut Record| {
         let values: Vec<Vec<f64>> =
@@ -152,7 +151,7 @@ fn descend(
     record: &mut Record,
     evaluate: &mut impl FnMut(&[Vec<f64>], &mut Record) -> Vec<Trial>,
 ) {
-    let (mut failures, mut best): (usize, VecDeque<f64>) = (0, VecDeque::new());
+    let (mut failures, mut best): (usize, Vec<f64>) = (0, Vec::new());
     while !record.is_spent() && failures < ENOUGH_FAILURES && search.spread() > SMALLEST_SIGMA {
         let points = search.ask(random);
         let trials = evaluate(&points, record);
@@ -161,7 +160,7 @@ fn descend(
         }
         let values: Vec<f64> = trials.iter().map(Trial::value).collect();
         failures += trials.iter().filter(|trial| trial.fails()).count();
-        best.push_back(values.iter().copied().fold(f64::INFINITY, f64::min));
+        best.push(values.iter().copied().fold(f64::INFINITY, f64::min));
         let before = best.iter().take(best.len().saturating_sub(PATIENCE)).copied().fold(f64::INFINITY, f64::min);
         let lately = best.iter().rev().take(PATIENCE).copied().fold(f64::INFINITY, f64::min);
         if best.len() > PATIENCE && lately >= before {
@@ -182,14 +181,14 @@ struct Record {
 }
 
 impl Record {
-    fn new(options: SearchOptions) -> Self {
+    fn new(space: &Space<'_>, options: SearchOptions) -> Self {
         let result = Falsification {
             schema: SCHEMA,
-            scenario: String::new(),
+            scenario: space.scenario_name().to_owned(),
             planner: String::new(),
             method: options.method,
             seed: options.seed,
-            fields: Vec::new(),
+            fields: space.field_names(),
             flights: 0,
             rejected: 0,
             no_plan: 0,

@@ -81,6 +81,11 @@ impl ScenarioDocument {
         Self { root: file.text().parse().expect("the text of a valid scenario is TOML") }
     }
 
+    /// Name of the scenario.
+    pub fn name(&self) -> &str {
+        self.root.get("name").and_then(Value::as_str).unwrap_or_default()
+    }
+
     /// The text of the file.
     pub fn text(&self) -> String {
         self.root.to_string()
@@ -92,8 +97,7 @@ impl ScenarioDocument {
     ///
     /// It is not valid.
     pub fn scenario(&self) -> Result<Scenario, LoadError> {
-        let name = self.root.get("name").and_then(Value::as_str).unwrap_or_default();
-        scenarios::parse(&format!("{name}.toml"), &self.text())
+        scenarios::parse(&format!("{}.toml", self.name()), &self.text())
     }
 
     /// The same scenario, naming a registered planner where that is valid.
@@ -117,11 +121,7 @@ impl ScenarioDocument {
     /// The number at a path.
     pub fn number(&self, path: &FieldPath) -> Option<f64> {
         let (first, rest) = path.0.split_first()?;
-        let mut value = self.root.get(key_of(first)?)?;
-        for step in rest {
-            value = inside(value, step)?;
-        }
-        as_number(value)
+        as_number(rest.iter().try_fold(self.root.get(key_of(first)?)?, inside)?)
     }
 
     /// Replaces the number at a path. Returns whether there is one.

@@ -103,12 +103,7 @@ impl FalsifyCommand {
             flown = done;
         });
         progress.finish();
-        Falsification {
-            scenario: job.scenario.name.clone(),
-            planner: job.plan_source.name().to_owned(),
-            fields: self.fields.iter().map(|field| field.path.to_string()).collect(),
-            ..found
-        }
+        found
     }
 
     /// Writes the scenarios of the failures; those of an earlier search are removed.

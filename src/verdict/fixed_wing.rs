@@ -43,9 +43,6 @@ struct FleetCase<'a> {
     tubes: Vec<RowTube>,
     /// The flown motions in their tubes; `None` if nothing was reconstructed.
     flown_in_tubes: Option<Vec<Motion>>,
-    /// The motions after the first arrival, until the last.
-    planned_coast: Vec<Motion>,
-    flown_coast: Vec<Motion>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
@@ -60,7 +57,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("plan.separation", |spec, it| {
         let shape = SeparationShape::Horizontal;
-        separation::check_with_coast(spec, it.scenario, it.planned_motions(), &it.planned_coast, shape)
+        separation::check_with_coast(spec, it.scenario, it.planned_motions(), |motions| Ok(it.coast_of(motions)), shape)
     }),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
@@ -79,7 +76,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("flight.separation", |spec, it| {
         let shape = SeparationShape::Horizontal;
-        separation::check_with_coast(spec, it.scenario, it.flown_motions(), &it.flown_coast, shape)
+        separation::check_with_coast(spec, it.scenario, it.flown_motions(), |_| it.flown_coast(), shape)
     }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
     ("flight.state_limits", |spec, it| {
@@ -101,23 +98,17 @@ impl<'a> FleetCase<'a> {
         let flown = shared.flown_motions().ok().filter(|_| tubes.iter().any(|tube| tube.tube.has_width()));
         let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
         let planned = planned.map(|planned| PlannedMotions { motions: surround(planned.motions, &tubes), ..planned });
-        let mut case =
-            Self { shared, planned, tubes, flown_in_tubes, planned_coast: Vec::new(), flown_coast: Vec::new() };
-        if shared.scenario.fleet.separation_m.is_some() {
-            case.planned_coast = case.coast_of_plan();
-            case.flown_coast = case.coast_of_flight();
-        }
-        case
+        Self { shared, planned, tubes, flown_in_tubes }
     }
 
-    fn coast_of_plan(&self) -> Vec<Motion> {
-        let motions = self.planned_motions().unwrap_or_default();
-        coast::planned(motions, |index| self.planned_end_error(index))
+    /// The planned motions after the first arrival, until the last.
+    fn coast_of(&self, planned: &[Motion]) -> Vec<Motion> {
+        coast::planned(planned, |index| self.planned_end_error(index))
     }
 
-    fn coast_of_flight(&self) -> Vec<Motion> {
-        let (Ok(flight), Ok(flown)) = (self.shared.flight(), self.shared.flown()) else { return Vec::new() };
-        coast::flown(flight, flown, |index, motion| self.in_tube(index, motion))
+    /// The flown motions after the first arrival, until the last.
+    fn flown_coast(&self) -> Result<Vec<Motion>, MissingEvidence> {
+        coast::flown(self.shared.flight()?, self.shared.flown()?, |index, motion| self.in_tube(index, motion))
     }
 
     /// The end of a flown motion in the tube in which it would have been flown: beyond the plan's end, the error of the last

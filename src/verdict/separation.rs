@@ -22,22 +22,23 @@ pub fn check(
     motions: Evidence<'_, [Motion]>,
     shape: SeparationShape,
 ) -> CheckResult {
-    check_with_coast(spec, scenario, motions, &[], shape)
+    against_rule(spec, scenario, motions, |motions| Ok(closest::between_vehicles(motions, shape)))
 }
 
-/// Over continuous time.
+/// Over continuous time, of motions that end at the arrivals.
 ///
-/// - `coast`: the motions from the first arrival until the last, if `motions` end at the arrivals
+/// - `coast`: the motions from the first arrival until the last; none if all arrive at once
 pub fn check_with_coast(
     spec: &CheckSpec,
     scenario: &Scenario,
     motions: Evidence<'_, [Motion]>,
-    coast: &[Motion],
+    coast: impl Fn(&[Motion]) -> Result<Vec<Motion>, MissingEvidence>,
     shape: SeparationShape,
 ) -> CheckResult {
     against_rule(spec, scenario, motions, |motions| {
-        let parts = [motions, coast].into_iter().filter_map(|part| closest::between_vehicles(part, shape));
-        parts.reduce(ClosestApproach::closer)
+        let coast = coast(motions)?;
+        let parts = [motions, &coast].into_iter().filter_map(|part| closest::between_vehicles(part, shape));
+        Ok(parts.reduce(ClosestApproach::closer))
     })
 }
 
@@ -50,7 +51,7 @@ pub fn check_nodes(
 ) -> CheckResult {
     match plan.ok().and_then(unequal_node_time) {
         Some(reason) if scenario.fleet.separation_m.is_some() => Ok(spec.skip(reason)),
-        _ => against_rule(spec, scenario, plan, |plan| at_nodes(plan, shape)),
+        _ => against_rule(spec, scenario, plan, |plan| Ok(at_nodes(plan, shape))),
     }
 }
 
@@ -58,7 +59,7 @@ fn against_rule<T: ?Sized>(
     spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Option<ClosestApproach>,
+    measure: impl Fn(&T) -> Result<Option<ClosestApproach>, MissingEvidence>,
 ) -> CheckResult {
     let Some(limit_m) = scenario.fleet.separation_m else {
         return Ok(spec.skip("the fleet has no separation rule"));
@@ -66,7 +67,7 @@ fn against_rule<T: ?Sized>(
     if scenario.vehicles.len() < 2 {
         return Ok(spec.skip("there is only one vehicle"));
     }
-    let closest = measure(evidence?).ok_or(MissingEvidence::NoCommonTime)?;
+    let closest = measure(evidence?)?.ok_or(MissingEvidence::NoCommonTime)?;
     let [i, j] = closest.who.map(|index| scenario.vehicles[index].name.as_str());
     Ok(spec.at_least(Measurement::approach(&closest).with(i).with(j), limit_m))
 }

@@ -142,3 +142,20 @@ fn an_arrived_vehicle_counts_for_separation_until_the_others_have_arrived() {
     assert_eq!(case.status("flight.separation"), Status::Fail);
     assert_eq!(case.status("plan.separation"), Status::Pass);
 }
+
+/// What cannot be judged of the time after an arrival is no separation.
+#[test]
+fn a_log_without_numbers_after_an_arrival_does_not_pass_for_separation() {
+    let mut case = Case::straight(&[0.0, 200.0], 0.01);
+    case.scenario.fleet.simultaneous_arrival = false;
+    case.scenario.vehicles[0].goal.x_m = 350.0;
+    let trajectory = case.trajectory(0);
+    trajectory.times_s.truncate(6);
+    trajectory.states.truncate(6);
+    trajectory.controls.truncate(6);
+    assert_eq!(case.status("flight.separation"), Status::Pass);
+    for sample in case.samples(0).iter_mut().filter(|sample| (14.0..15.0).contains(&sample.t_s)) {
+        sample.position_m[1] = f64::NAN;
+    }
+    assert_eq!(case.status("flight.separation"), Status::Fail);
+}

@@ -20,6 +20,18 @@ pub struct Distance {
     pub hessian: [f64; 3],
 }
 
+impl Distance {
+    /// Adds the weighted second derivatives to a Hessian whose first two variables are the point.
+    ///
+    /// - `width`: length of a row of the Hessian
+    pub fn add_hessian(&self, hessian: &mut [f64], width: usize, weight: f64) {
+        let [xx, xy, yy] = self.hessian;
+        for (at, value) in [(0, xx), (1, xy), (width, xy), (width + 1, yy)] {
+            hessian[at] += weight * value;
+        }
+    }
+}
+
 impl Polygon {
     /// The polygon with these corners, m.
     ///

@@ -61,10 +61,7 @@ pub fn differentiate(
         for (index, slope) in cable_at.into_iter().zip(radius.gradient).take(count) {
             row[index] = -slope;
         }
-        let [xx, xy, yy] = distance.hessian;
-        for (at, value) in [(0, xx), (1, xy), (width, xy), (width + 1, yy)] {
-            derivatives.hessian[at] += weight * value;
-        }
+        distance.add_hessian(derivatives.hessian, width, *weight);
         radius.scatter(derivatives.hessian, width, cable_at, count, -weight);
     }
 }

@@ -68,11 +68,7 @@ pub fn differentiate(
             }
             reach_weights[k] += weights[2 + 2 * k] - weights[1 + 2 * k];
         }
-        let weight: f64 = weights.iter().sum();
-        let [xx, xy, yy] = distance.hessian;
-        for (at, value) in [(0, xx), (1, xy), (width, xy), (width + 1, yy)] {
-            derivatives.hessian[at] += weight * value;
-        }
+        distance.add_hessian(derivatives.hessian, width, weights.iter().sum());
     }
     for (reach, weight) in reaches.iter().zip(reach_weights) {
         reach.scatter(derivatives.hessian, width, cable_at, count, weight);

@@ -47,6 +47,16 @@ impl<'a> Space<'a> {
         }
     }
 
+    /// Name of the scenario.
+    pub fn scenario_name(&self) -> &str {
+        self.document.name()
+    }
+
+    /// The paths of the fields.
+    pub fn field_names(&self) -> Vec<String> {
+        self.fields.iter().map(|field| field.path.to_string()).collect()
+    }
+
     /// Number of fields.
     pub fn dimension(&self) -> usize {
         self.fields.len()

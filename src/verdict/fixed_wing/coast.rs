@@ -6,6 +6,7 @@
 use sim::Flight;
 
 use crate::verdict::flown::{FlownMotions, knot};
+use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::tube::EndError;
 
@@ -25,18 +26,25 @@ pub fn planned(motions: &[Motion], end_error: impl Fn(usize) -> EndError) -> Vec
 /// The flown motions from the first arrival until the last, those that have arrived flying on. Empty if all arrive at once.
 ///
 /// - `surround`: the motion of a vehicle in the tube in which it would have flown
-pub fn flown(flight: &Flight, flown: &FlownMotions<'_>, surround: impl Fn(usize, Motion) -> Motion) -> Vec<Motion> {
+///
+/// # Errors
+///
+/// A log holds values there that cannot be judged.
+pub fn flown(
+    flight: &Flight,
+    flown: &FlownMotions<'_>,
+    surround: impl Fn(usize, Motion) -> Motion,
+) -> Result<Vec<Motion>, MissingEvidence> {
     let ends_s = flown.vehicles.iter().map(|vehicle| vehicle.judged_end_s);
-    let Some([from_s, to_s]) = first_and_last(ends_s) else { return Vec::new() };
+    let Some([from_s, to_s]) = first_and_last(ends_s) else { return Ok(Vec::new()) };
     let coast = |(index, motion): (usize, &Motion)| {
         let samples = &flight.vehicles[index].samples;
         let end = (samples.partition_point(|sample| sample.t_s < to_s) + 1).min(samples.len());
         let begin = samples[..end].partition_point(|sample| sample.t_s < from_s).saturating_sub(LEAD_SAMPLES);
         let knots: Vec<Knot> = samples[begin.min(end.saturating_sub(LEAD_SAMPLES))..end].iter().map(knot).collect();
-        // A log that can be judged to its arrival can be judged as a whole, or its numbers fail another check.
-        Some(surround(index, Motion::new(motion.vehicle(), knots).ok()?.sampled()))
+        Ok(surround(index, Motion::new(motion.vehicle(), knots)?.sampled()))
     };
-    flown.motions.iter().enumerate().map(coast).collect::<Option<_>>().unwrap_or_default()
+    flown.motions.iter().enumerate().map(coast).collect()
 }
 
 /// The smallest and the largest of the times, if they differ, s.
