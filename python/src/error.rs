@@ -10,8 +10,8 @@ create_exception!(uav_harness, InvalidInput, PyValueError, "A scenario, a plan o
 create_exception!(uav_harness, Bug, PyRuntimeError, "A bug of the harness: please report it.");
 
 /// An exception with this text.
-pub fn invalid(text: impl Into<String>) -> PyErr {
-    InvalidInput::new_err(text.into())
+pub fn invalid(text: impl ToString) -> PyErr {
+    InvalidInput::new_err(text.to_string())
 }
 
 /// One line per issue of a scenario.

@@ -8,6 +8,7 @@
 //! Whatever the command does, the result is a plan, or no plan with a reason: a crash, a timeout and an invalid reply are
 //! findings about that planner.
 
+mod fault;
 pub(crate) mod group;
 mod in_loop;
 mod process;
@@ -20,6 +21,7 @@ use std::time::Duration;
 
 use scenarios::{Plan, PlanTimings, Scenario};
 
+pub use self::fault::PlannerFault;
 use self::in_loop::ExternalSession;
 use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{Guidance, PlannerOutput};
@@ -76,15 +78,15 @@ impl ExternalPlanner {
         let ended = process::run(&self.command, &self.folder, request.to_string().into_bytes(), time_limit);
         let wall_s = ended.wall.as_secs_f64();
         let answer = ended.output.and_then(|text| reply::read(&text, scenario, &self.name, seed));
-        let mut answer = answer.unwrap_or_else(|reason| CompletedPlan::whole(self.no_plan(scenario, seed, reason)));
+        let mut answer = answer.unwrap_or_else(|fault| CompletedPlan::whole(self.no_plan(scenario, seed, &fault)));
         if answer.plan.timings == PlanTimings::default() {
             answer.plan.timings.wall_s = wall_s;
         }
         ExternalAnswer { answer, log: ended.log }
     }
 
-    fn no_plan(&self, scenario: &Scenario, seed: u64, reason: String) -> Plan {
-        Plan::no_plan(&scenario.name, &self.name, seed, reason)
+    fn no_plan(&self, scenario: &Scenario, seed: u64, fault: &PlannerFault) -> Plan {
+        Plan::no_plan(&scenario.name, &self.name, seed, fault.to_string())
     }
 }
 

@@ -69,7 +69,7 @@ impl InLoopPlanner for ExternalInLoopPlanner {
         let replies_have_ids = session.replies_have_ids();
         session
             .request(|id| message::line(&ReplanRequest::new(id, &self.vehicle, observation, !replies_have_ids)))
-            .unwrap_or_else(ReplanResult::failed)
+            .unwrap_or_else(|fault| ReplanResult::failed(fault.to_string()))
     }
 
     fn finish(&mut self) -> PlannerRemarks {

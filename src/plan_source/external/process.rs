@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::group;
+use super::{PlannerFault, group};
 
 /// Largest size of standard output, bytes.
 const MAX_OUTPUT_BYTES: u64 = 256 << 20;
@@ -20,8 +20,8 @@ pub(super) const DRAIN_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Result of a command.
 pub(super) struct Ended {
-    /// Its standard output, or the reason why it is unusable.
-    pub output: Result<String, String>,
+    /// Its standard output, or why it is unusable.
+    pub output: Result<String, PlannerFault>,
     /// Its standard error.
     pub log: String,
     /// Its wall time.
@@ -34,8 +34,8 @@ pub(super) fn run(command: &[String], folder: &Path, request: Vec<u8>, time_limi
     let began = Instant::now();
     let mut child = match spawn(command, folder) {
         Ok(child) => child,
-        Err(reason) => {
-            let output = Err(format!("cannot start `{}`: {reason}", command.join(" ")));
+        Err(error) => {
+            let output = Err(PlannerFault::cannot_start(command, &error));
             return Ended { output, log: String::new(), wall: began.elapsed() };
         }
     };
@@ -46,8 +46,8 @@ pub(super) fn run(command: &[String], folder: &Path, request: Vec<u8>, time_limi
     let status = wait(&mut child, &guard, began, time_limit);
     let wall = began.elapsed();
     let log = String::from_utf8_lossy(&log.recv_timeout(DRAIN_TIMEOUT).unwrap_or_default()).into_owned();
-    let output = match failure_reason(status, time_limit) {
-        Some(reason) => Err(with_last_log_line(reason, &log)),
+    let output = match fault(status, time_limit) {
+        Some(fault) => Err(fault.with_last_line_of(&log)),
         None => text(&output.recv_timeout(DRAIN_TIMEOUT).unwrap_or_default()),
     };
     Ended { output, log, wall }
@@ -109,35 +109,19 @@ fn wait(
     in_time.then_some(status)
 }
 
-/// The reason why the output of a command is unusable; `None` if it succeeded.
-fn failure_reason(status: Option<std::io::Result<ExitStatus>>, limit: Duration) -> Option<String> {
+/// Why the output of a command is unusable; `None` if it succeeded.
+fn fault(status: Option<std::io::Result<ExitStatus>>, limit: Duration) -> Option<PlannerFault> {
     match status {
-        None => Some(format!("it took longer than its limit of {} s and was terminated", limit.as_secs_f64())),
-        Some(Err(error)) => Some(format!("its exit status is unknown: {error}")),
+        None => Some(PlannerFault::TimedOut(limit)),
+        Some(Err(error)) => Some(PlannerFault::UnknownStatus(error.to_string())),
         Some(Ok(status)) if status.success() => None,
-        Some(Ok(status)) => Some(ending(status)),
+        Some(Ok(status)) => Some(PlannerFault::Ended(status)),
     }
 }
 
-/// How a command ended, in words.
-pub(super) fn ending(status: ExitStatus) -> String {
-    match status.code() {
-        Some(code) => format!("it ended with exit code {code}"),
-        None => format!("it crashed ({status})"),
-    }
-}
-
-fn text(output: &[u8]) -> Result<String, String> {
+fn text(output: &[u8]) -> Result<String, PlannerFault> {
     if output.len() as u64 > MAX_OUTPUT_BYTES {
-        return Err(format!("it wrote more than {} MiB", MAX_OUTPUT_BYTES >> 20));
+        return Err(PlannerFault::LongOutput(MAX_OUTPUT_BYTES >> 20));
     }
-    String::from_utf8(output.to_vec()).map_err(|_| "its reply is not valid UTF-8".to_owned())
-}
-
-/// The reason with the last line of the log, which usually names the exception.
-pub(super) fn with_last_log_line(reason: String, log: &str) -> String {
-    match log.lines().rev().map(str::trim).find(|line| !line.is_empty()) {
-        Some(line) => format!("{reason}; the last line in planner.log: {}", line.chars().take(200).collect::<String>()),
-        None => reason,
-    }
+    String::from_utf8(output.to_vec()).map_err(|_| PlannerFault::NotText)
 }

@@ -6,7 +6,7 @@ use scenarios::in_loop::{Observation, ReplanResult};
 use serde_json::Value;
 
 use super::in_loop::message::{Line, ReplanRequest};
-use super::{reply, request};
+use super::{PlannerFault, reply, request};
 use crate::plan_source::plan_import::CompletedPlan;
 
 /// The request for a plan, which holds what is known before the flight.
@@ -22,8 +22,8 @@ pub fn plan_request(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Value 
 ///
 /// # Errors
 ///
-/// Why the reply is invalid, in one line.
-pub fn read_plan(text: &str, scenario: &Scenario, planner: &str, seed: u64) -> Result<CompletedPlan, String> {
+/// Why the reply is invalid; its text is one line.
+pub fn read_plan(text: &str, scenario: &Scenario, planner: &str, seed: u64) -> Result<CompletedPlan, PlannerFault> {
     reply::read(text, &scenario.planner_view(), planner, seed)
 }
 
@@ -40,9 +40,9 @@ pub fn replan_request(id: u64, vehicle: &str, observation: &Observation<'_>) -> 
 /// # Errors
 ///
 /// Why the reply is invalid.
-pub fn read_replan(text: &str) -> Result<ReplanResult, String> {
+pub fn read_replan(text: &str) -> Result<ReplanResult, PlannerFault> {
     match Line::parse(text) {
         Line::Reply { result, .. } => result,
-        Line::Blank | Line::Stray => Err("its reply is no JSON object".to_owned()),
+        Line::Blank | Line::Stray => Err(PlannerFault::NoObject),
     }
 }

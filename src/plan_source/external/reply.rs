@@ -4,7 +4,7 @@ use scenarios::plan_input::{self, PlanError};
 use scenarios::{PlanStatus, Scenario};
 use serde::Deserialize;
 
-use super::{OLDEST_PROTOCOL, PROTOCOL};
+use super::{OLDEST_PROTOCOL, PROTOCOL, PlannerFault};
 use crate::plan_source::plan_import::{self, CompletedPlan};
 
 /// Largest number of errors that a reason names.
@@ -21,16 +21,17 @@ struct Header {
 ///
 /// # Errors
 ///
-/// The reason why the reply is invalid, in one line.
-pub(super) fn read(text: &str, scenario: &Scenario, planner: &str, seed: u64) -> Result<CompletedPlan, String> {
+/// Why the reply is invalid; its text is one line.
+pub(super) fn read(text: &str, scenario: &Scenario, planner: &str, seed: u64) -> Result<CompletedPlan, PlannerFault> {
     if text.trim().is_empty() {
-        return Err("it wrote no reply to its standard output".into());
+        return Err(PlannerFault::NoReply);
     }
     // Invalid JSON is reported by the plan reader, with its position.
     if let Ok(header_fields) = serde_json::from_str::<Header>(text) {
         header_fields.check()?;
     }
-    let (mut header, tracks) = plan_input::parse_json("reply", text, scenario).map_err(|error| in_one_line(&error))?;
+    let (mut header, tracks) = plan_input::parse_json("reply", text, scenario)
+        .map_err(|error| PlannerFault::InvalidPlan(in_one_line(&error)))?;
     if header.status == Some(PlanStatus::NoPlan) {
         header.reason = header.reason.or_else(|| Some("the planner reports no plan".into()));
         return Ok(plan_import::complete(scenario, header, Vec::new(), planner, seed));
@@ -39,13 +40,13 @@ pub(super) fn read(text: &str, scenario: &Scenario, planner: &str, seed: u64) ->
 }
 
 impl Header {
-    fn check(&self) -> Result<(), String> {
+    fn check(&self) -> Result<(), PlannerFault> {
         match (&self.protocol, &self.status) {
-            (None, _) => Err(format!("its reply has no `protocol`; expected {PROTOCOL}")),
+            (None, _) => Err(PlannerFault::NoProtocol),
             (Some(version), _) if !version.as_u64().is_some_and(is_read) => {
-                Err(format!("its reply has protocol version {version}; expected {PROTOCOL}"))
+                Err(PlannerFault::UnknownProtocol(version.clone()))
             }
-            (_, None) => Err("its reply has no `status`; expected \"solved\", \"not-converged\" or \"no-plan\"".into()),
+            (_, None) => Err(PlannerFault::NoStatus),
             _ => Ok(()),
         }
     }

@@ -7,7 +7,7 @@ use scenarios::{Cylinder, Prism};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::plan_source::external::request;
+use crate::plan_source::external::{PlannerFault, request};
 
 /// A message as a line.
 pub fn line(message: &impl Serialize) -> Vec<u8> {
@@ -103,7 +103,7 @@ pub enum Line {
         /// The id of the request that it replies to, if it has one.
         id: Option<u64>,
         /// The result, or why the reply is invalid.
-        result: Result<ReplanResult, String>,
+        result: Result<ReplanResult, PlannerFault>,
     },
 }
 
@@ -138,18 +138,18 @@ impl Line {
             Ok(reply) => Self::Reply { id: reply.id, result: reply.result() },
             Err(error) => {
                 let id = serde_json::from_str::<Id>(text).ok().and_then(|it| it.id);
-                Self::Reply { id, result: Err(format!("its reply is invalid: {error}")) }
+                Self::Reply { id, result: Err(PlannerFault::InvalidReply(error.to_string())) }
             }
         }
     }
 }
 
 impl Reply {
-    fn result(self) -> Result<ReplanResult, String> {
+    fn result(self) -> Result<ReplanResult, PlannerFault> {
         let decision = match (self.fly, self.keep) {
             (Some(nodes), None) => Decision::Fly(nodes),
             (None, Some(reason)) => Decision::Keep { reason },
-            _ => return Err("its reply is invalid: it needs either `fly` or `keep`".into()),
+            _ => return Err(PlannerFault::InvalidReply("it needs either `fly` or `keep`".into())),
         };
         Ok(ReplanResult { decision, diagnostics: self.diagnostics })
     }

@@ -10,8 +10,9 @@ use scenarios::in_loop::{PlannerRemarks, ReplanResult};
 use serde_json::json;
 
 use super::message::{self, Line};
-use crate::plan_source::external::process::{DRAIN_TIMEOUT, MAX_LOG_BYTES, drain, ending, spawn, with_last_log_line};
-use crate::plan_source::external::{ExternalPlanner, group};
+use crate::plan_source::external::fault::ending;
+use crate::plan_source::external::process::{DRAIN_TIMEOUT, MAX_LOG_BYTES, drain, spawn};
+use crate::plan_source::external::{ExternalPlanner, PlannerFault, group};
 
 /// Largest size of a reply, bytes.
 const MAX_REPLY_BYTES: u64 = 16 << 20;
@@ -29,8 +30,8 @@ const SHOWN_CHARACTERS: usize = 100;
 /// The process of an in-loop command.
 pub struct Session {
     time_limit: Duration,
-    /// The process; after it has failed or ended, the reason.
-    running: Result<Running, String>,
+    /// The process; after it has failed or ended, why.
+    running: Result<Running, PlannerFault>,
     /// Its standard error, once it has ended.
     log: String,
     /// Number of requests so far, which is the id of the last one.
@@ -44,7 +45,7 @@ struct Running {
     child: Child,
     guard: group::Guard,
     requests: Sender<Vec<u8>>,
-    lines: Receiver<Result<String, String>>,
+    lines: Receiver<Result<String, PlannerFault>>,
     log: Receiver<Vec<u8>>,
 }
 
@@ -60,7 +61,7 @@ impl Session {
     pub fn start(planner: &ExternalPlanner, time_limit_s: f64) -> Self {
         let running = match spawn(&planner.command, &planner.folder) {
             Ok(child) => Ok(Running::new(child)),
-            Err(reason) => Err(format!("cannot start `{}`: {reason}", planner.command.join(" "))),
+            Err(error) => Err(PlannerFault::cannot_start(&planner.command, &error)),
         };
         Self {
             time_limit: Duration::try_from_secs_f64(time_limit_s).unwrap_or(Duration::MAX),
@@ -89,9 +90,9 @@ impl Session {
     ///
     /// # Errors
     ///
-    /// The reason why there is no result. After a timeout, the end of the process, or a reply that does not match, no
+    /// Why there is no result. After a timeout, the end of the process, or a reply that does not match, no
     /// further request is sent.
-    pub fn request(&mut self, line: impl FnOnce(u64) -> Vec<u8>) -> Result<ReplanResult, String> {
+    pub fn request(&mut self, line: impl FnOnce(u64) -> Vec<u8>) -> Result<ReplanResult, PlannerFault> {
         while let Ok(unasked) = self.running()?.lines.try_recv() {
             self.take(unasked, None)?;
         }
@@ -119,7 +120,7 @@ impl Session {
     /// to be said of it beyond its replies, once.
     pub fn finish(&mut self) -> PlannerRemarks {
         let mut notes = Vec::new();
-        let ended = self.end("the flight is over", GRACE);
+        let ended = self.end(PlannerFault::FlightOver, GRACE);
         match ended.as_ref().map(|ended| ended.status) {
             Some(None) => {
                 notes.push(format!("it did not end within {} s after the flight, and was killed", GRACE.as_secs()));
@@ -144,11 +145,11 @@ impl Session {
 
     /// Terminates the command and returns its standard error.
     pub fn log(&mut self) -> String {
-        self.end("the flight is over", Duration::ZERO);
+        self.end(PlannerFault::FlightOver, Duration::ZERO);
         std::mem::take(&mut self.log)
     }
 
-    fn running(&self) -> Result<&Running, String> {
+    fn running(&self) -> Result<&Running, PlannerFault> {
         self.running.as_ref().map_err(Clone::clone)
     }
 
@@ -160,10 +161,10 @@ impl Session {
     /// The line is a reply that cannot be matched with a request, so that no later one could be trusted either.
     fn take(
         &mut self,
-        line: Result<String, String>,
+        line: Result<String, PlannerFault>,
         id: Option<u64>,
-    ) -> Result<Option<Result<ReplanResult, String>>, String> {
-        let line = line.map_err(|reason| self.fail(reason))?;
+    ) -> Result<Option<Result<ReplanResult, PlannerFault>>, PlannerFault> {
+        let line = line.map_err(|fault| self.fail(fault))?;
         let (found, result) = match Line::parse(&line) {
             Line::Blank => return Ok(None),
             Line::Stray => {
@@ -173,9 +174,9 @@ impl Session {
             Line::Reply { id, result } => (id, result),
         };
         let mismatch = match (id, found) {
-            (None, _) => "it replied before it was asked".to_owned(),
-            (Some(id), Some(found)) if found != id => format!("its reply has the id {found}, and the request has {id}"),
-            (Some(id), None) if self.replies_have_ids() => format!("its reply has no id, and the request has {id}"),
+            (None, _) => PlannerFault::Unasked,
+            (Some(expected), Some(found)) if found != expected => PlannerFault::WrongId { found, expected },
+            (Some(id), None) if self.replies_have_ids() => PlannerFault::NoId(id),
             (Some(_), Some(_)) => {
                 self.replies_have_ids = Some(true);
                 return Ok(Some(result));
@@ -184,7 +185,7 @@ impl Session {
                 self.replies_have_ids = Some(false);
                 match result {
                     Ok(_) => return Ok(Some(result)),
-                    Err(reason) => format!("{reason}; without an `id` the replies after it cannot be matched"),
+                    Err(fault) => PlannerFault::Unmatched(Box::new(fault)),
                 }
             }
         };
@@ -192,35 +193,33 @@ impl Session {
     }
 
     /// Ends the command because of a reply.
-    fn fail(&mut self, reason: String) -> String {
-        self.end(&reason, GRACE);
-        reason
+    fn fail(&mut self, fault: PlannerFault) -> PlannerFault {
+        self.end(fault.clone(), GRACE);
+        fault
     }
 
-    fn time_out(&mut self) -> String {
-        let reason = format!("it took longer than its limit of {} s and was terminated", self.time_limit.as_secs_f64());
-        self.end(&reason, Duration::ZERO);
-        reason
+    fn time_out(&mut self) -> PlannerFault {
+        let fault = PlannerFault::TimedOut(self.time_limit);
+        self.end(fault.clone(), Duration::ZERO);
+        fault
     }
 
     /// It has closed its standard output.
-    fn crash(&mut self) -> String {
-        let ended = self.end("it has ended", EXIT_TIMEOUT);
+    fn crash(&mut self) -> PlannerFault {
+        let ended = self.end(PlannerFault::Silent, EXIT_TIMEOUT);
         let status = ended.and_then(|ended| ended.status);
-        let reason = status.map_or_else(|| "it closed its standard output".to_owned(), ending);
-        let reason = with_last_log_line(reason, &self.log);
-        self.running = Err(reason.clone());
-        reason
+        let fault = status.map_or(PlannerFault::Silent, PlannerFault::Ended).with_last_line_of(&self.log);
+        self.running = Err(fault.clone());
+        fault
     }
 
     /// Closes the command's input, waits until it ends, kills it otherwise, and keeps its standard error. `None` if it has
     /// ended before.
-    fn end(&mut self, reason: &str, grace: Duration) -> Option<EndedSession> {
+    fn end(&mut self, why: PlannerFault, grace: Duration) -> Option<EndedSession> {
         if self.replies_have_ids() {
             self.send(message::line(&json!({ "request": "end" })));
         }
-        let Running { mut child, guard, requests, lines, log } =
-            std::mem::replace(&mut self.running, Err(reason.to_owned())).ok()?;
+        let Running { mut child, guard, requests, lines, log } = std::mem::replace(&mut self.running, Err(why)).ok()?;
         drop(requests);
         let (began, mut replies) = (Instant::now(), 0);
         let mut has_exited = guard.has_exited(&mut child);
@@ -291,22 +290,20 @@ impl StrayLines {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.end("the flight is over", Duration::ZERO);
+        self.end(PlannerFault::FlightOver, Duration::ZERO);
     }
 }
 
 /// Sends every line, until the pipe is closed, or a line is too long or not UTF-8.
-fn read_lines(stdout: ChildStdout, sender: &SyncSender<Result<String, String>>) {
+fn read_lines(stdout: ChildStdout, sender: &SyncSender<Result<String, PlannerFault>>) {
     let mut reader = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
         let read = reader.by_ref().take(MAX_REPLY_BYTES).read_until(b'\n', &mut line);
         let text = match read {
             Err(_) | Ok(0) => return,
-            Ok(_) if line.len() as u64 >= MAX_REPLY_BYTES => {
-                Err(format!("it wrote a line of {} MiB", MAX_REPLY_BYTES >> 20))
-            }
-            Ok(_) => String::from_utf8(line).map_err(|_| "its reply is not valid UTF-8".to_owned()),
+            Ok(_) if line.len() as u64 >= MAX_REPLY_BYTES => Err(PlannerFault::LongLine(MAX_REPLY_BYTES >> 20)),
+            Ok(_) => String::from_utf8(line).map_err(|_| PlannerFault::NotText),
         };
         let is_last = text.is_err();
         if sender.send(text).is_err() || is_last {

@@ -21,8 +21,9 @@ fn session(script: &str, time_limit_s: f64) -> Session {
     Session::start(&planner, time_limit_s)
 }
 
+/// The result of a request, or why there is none.
 fn ask(session: &mut Session) -> Result<ReplanResult, String> {
-    session.request(|id| format!("{{\"id\": {id}}}\n").into_bytes())
+    session.request(|id| format!("{{\"id\": {id}}}\n").into_bytes()).map_err(|fault| fault.to_string())
 }
 
 /// The reason why the first request has no result, which is also that of the next one, if the session is over.
