@@ -55,7 +55,8 @@ Examples:
 Exit codes:
   0    every verdict is a pass
   1    a verdict is a fail, no plan was found, or a result is worse than the one it is compared with
-  2    bad usage, invalid input, or a file that cannot be read or written; valid scenarios are still run
+  2    bad usage, invalid input, or a file that cannot be read or written; valid scenarios are
+       still run
   101  a bug in the harness
   130  interrupted by Ctrl-C";
 
@@ -144,5 +145,17 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         super::Cli::command().debug_assert();
+    }
+
+    /// Help is wrapped at this width, so that longer lines of a table would lose their columns.
+    #[test]
+    fn examples_and_tables_in_the_help_are_not_wrapped() {
+        let cli = super::Cli::command();
+        for command in cli.get_subcommands().chain([&cli]) {
+            let text = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            for line in text.lines() {
+                assert!(line.chars().count() <= 100, "{}: {line}", command.get_name());
+            }
+        }
     }
 }

@@ -27,7 +27,7 @@ pub struct Check {
     /// The plan: a table (.csv, .tsv, .txt, .tum, .parquet), polynomial pieces (.csv), or a .json file
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
-    /// Names of the file's columns, where they are not understood: 'theirs=ours, theirs[unit]=ours'
+    /// Names of columns that are not understood: 'theirs=ours, theirs[unit]=ours'
     #[arg(long, value_name = "MAP", value_parser = column_map, default_value = "", hide_default_value = true)]
     columns: ColumnMap,
     /// Name of the results, in place of a planner's [default: the name of the plan file]
@@ -43,43 +43,47 @@ pub struct Check {
 const EXAMPLES: &str = "\
 Examples:
   harness check scenarios/fixed-wing/rendezvous-1.toml --plan my-plan.csv
-  harness check scenarios/fixed-wing/rendezvous-7.toml --plan out/rendezvous-7/parallel-scp/plan.json
   harness check scenarios/multirotor/trap.toml --plan pieces.csv
   harness check scenarios/multirotor/trap.toml --plan log.txt --columns 'when[ms]=t_s, alt[ft]=z_m'
+  harness check scenarios/fixed-wing/rendezvous-7.toml \\
+      --plan out/rendezvous-7/parallel-scp/plan.json
 
-Columns of CSV and Parquet files for fixed wings, one row per node; x points east, y north, z up:
-  vehicle                                     name in the scenario; optional if there is only one vehicle
-  t_s                                         time, from 0, increasing for each vehicle
-  x_m, y_m, z_m                               position
-  speed_mps, heading_rad, flight_path_rad     velocity, with the heading counterclockwise from east; alternatively
-                                              vx_mps, vy_mps, vz_mps, or angles as heading_deg, flight_path_deg;
-                                              reconstructed if absent
-  n_x, n_y, n_z                               load factors, linear between the nodes; reconstructed if absent
+Columns of tables (CSV, Parquet) for fixed wings; x points east, y north, z up:
+  vehicle                          name in the scenario; optional if there is only one vehicle
+  t_s                              time, from 0, increasing for each vehicle
+  x_m, y_m, z_m                    position
+  speed_mps, heading_rad,          velocity, the heading counterclockwise from east;
+  flight_path_rad                  alternatively vx_mps, vy_mps, vz_mps, or heading_deg and
+                                   flight_path_deg; reconstructed if absent
+  n_x, n_y, n_z                    load factors, linear between the rows; reconstructed if absent
 
 Columns for multirotors:
-  vehicle, t_s, x_m, y_m, z_m                 as above
-  vx_mps, vy_mps, vz_mps                      velocity; between two rows the plan is the cubic with their positions and
-                                              velocities. Reconstructed if absent; then the vehicle may have done anything
-                                              within its acceleration limit between two rows
+  vehicle, t_s, x_m, y_m, z_m      as above
+  vx_mps, vy_mps, vz_mps           velocity: between two rows the plan is the cubic with their
+                                   positions and velocities. If absent, it is reconstructed, and
+                                   between two rows the vehicle may have done anything within its
+                                   acceleration limit
 
 Columns for slung loads, all required except at_node:
   vehicle, t_s, x_m, y_m, z_m, vx_mps, vy_mps, vz_mps
   roll_rad, pitch_rad, yaw_rad, rate_x_radps, rate_y_radps, rate_z_radps
   load_x_m, load_y_m, load_z_m, load_vx_mps, load_vy_mps, load_vz_mps
   thrust_1_n, thrust_2_n, thrust_3_n, thrust_4_n
-  cable                                       taut or slack, from this row to the next
-  at_node                                     yes where the planner imposed its constraints, no at samples between
-  Euler rates and cable angles, which plan.csv has too, follow from these and are not read.
+  cable                            taut or slack, from this row to the next
+  at_node                          yes where the planner imposed its constraints, no in between
+  plan.csv also has Euler rates and cable angles, which follow from these and are ignored.
 
-In a table every row counts as a node of the planner in the checks nodes.*, unless the column at_node says `no`;
-plan.json names the planner's own nodes. Common names (t, time, px, pos_x, vel_x, ...) and units in brackets (px[ft],
-time[ms]) are understood; other columns are not used, and named. Separators are commas, semicolons, tabs or spaces; lines
-that begin with # are comments. Eight numbers in a row without a header are the TUM format.
+Every row of a table counts as a node of the planner in the checks nodes.*, unless at_node says
+`no`; plan.json names the planner's own nodes. Common names (t, time, px, pos_x, vel_x, ...) and
+units in brackets (px[ft], time[ms]) are understood; other columns are ignored, and listed.
+Separators are commas, semicolons, tabs or spaces; lines that begin with # are comments. Eight
+numbers in a row without a header are the TUM format.
 
-Polynomial pieces of multirotors and fixed wings: duration,x^0,x^1,...,y^0,...,z^0,... as written by uav_trajectories and
-Crazyswarm. Bezier curves and B-splines are given in JSON. docs/plans.md describes all of them.
+Polynomial pieces of multirotors and fixed wings: duration,x^0,x^1,...,y^0,...,z^0,... as written
+by uav_trajectories and Crazyswarm. Bezier curves and B-splines are given in JSON.
 
-A JSON file is a plan.json of `harness run`, or the same with these columns as arrays in every trajectory.";
+A JSON file is a plan.json of `harness run`, or these columns as arrays in every trajectory.
+docs/plans.md describes all formats.";
 
 fn column_map(text: &str) -> Result<ColumnMap, String> {
     ColumnMap::parse(text).map_err(|issue| issue.to_string())

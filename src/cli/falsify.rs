@@ -17,18 +17,18 @@ use crate::progress::Progress;
 
 /// Search for scenarios in which a planner fails
 ///
-/// Fields of the scenario vary within given ranges: positions and sizes of obstacles, starts, goals, wind, masses, noise, delays,
-/// or any other number. The search goes to where the margin of the check shrinks (without --check the smallest of separation,
-/// clearance and tracking, as fractions of their limits); every candidate is planned, flown and judged. Of
-/// each kind of failure (a check, and the bodies it names) the worst one is written as a scenario file, which fails again to
-/// the bit. Candidates that are not valid scenarios cost no flight. The exit code is 1 if a failure was found.
+/// Fields of the scenario vary within given ranges: positions and sizes of obstacles, starts, goals, wind, masses, noise,
+/// delays, or any other number. Every candidate is planned, flown and judged, and the search moves towards smaller margins
+/// of the check (without --check: the smallest margin of separation, clearance and tracking, as fractions of their limits).
+/// The worst failure of each kind (a check, and the bodies it names) is written as a scenario file that reproduces it
+/// exactly. Candidates that are not valid scenarios cost no flight. The exit code is 1 if a failure was found.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct FalsifyCommand {
     /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// A field and its range; may be repeated. Elements of lists go by index or by name
+    /// A field and its range; repeatable. Elements of lists are addressed by index or by name
     #[arg(long = "vary", value_name = "FIELD=LOW..HIGH", required = true)]
     fields: Vec<VariedField>,
     /// The check to fail, as `flight.clearance` [default: any]
@@ -43,7 +43,7 @@ pub struct FalsifyCommand {
     /// Seed of the search; that of the flights is the scenario's
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Shrink every failure, with as many flights again at most; see `harness shrink`
+    /// Shrink every failure, in at most as many flights again; see `harness shrink`
     #[arg(long)]
     shrink: bool,
     #[command(flatten)]
@@ -61,14 +61,16 @@ pub struct FalsifyCommand {
 
 const EXAMPLES: &str = "\
 Examples:
-  harness falsify scenarios/multirotor/pop-up.toml -p rhc-fpso --vary vehicles[0].start.y_m=-3..3 --vary vehicles[0].goal.y_m=-3..3
-  harness falsify scenarios/fixed-wing/rendezvous-1.toml -p parallel-scp --check plan.clearance \\
-      --vary world.cylinders.threat-1.radius_m=20..120 --vary vehicles.uav-1.goal.y_m=-500..500 -n 200 --shrink
+  harness falsify scenarios/multirotor/pop-up.toml -p rhc-fpso \\
+      --vary vehicles[0].start.y_m=-3..3 --vary vehicles[0].goal.y_m=-3..3
+  harness falsify scenarios/fixed-wing/rendezvous-1.toml -p parallel-scp -n 200 --shrink \\
+      --check plan.clearance --vary world.cylinders.threat-1.radius_m=20..120 \\
+      --vary vehicles.uav-1.goal.y_m=-500..500
 
-Results:
-  out/<scenario>/<planner>/falsify.json                        the search, and one failure of each kind
-  out/<scenario>/<planner>/failures/<scenario>-failure-1.toml  the scenario of the first kind of failure
-  out/<scenario>/<planner>/failures/<scenario>-failure-1-small.toml  with --shrink: the smallest that still fails
+Results, in out/<scenario>/<planner>/:
+  falsify.json                              the search, and one failure of each kind
+  failures/<scenario>-failure-1.toml        the scenario of the first kind of failure
+  failures/<scenario>-failure-1-small.toml  with --shrink: the smallest that still fails
 
 `harness run out/<scenario>/<planner>/failures/*.toml` repeats and records them.";
 

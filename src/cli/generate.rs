@@ -33,7 +33,7 @@ pub struct Generate {
     /// Number of scenarios of each kind, with successive seeds
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     count: u64,
-    /// Fixed wings: they need not arrive at the same time
+    /// Fixed wings: arrivals need not be simultaneous
     #[arg(long, conflicts_with = "hidden")]
     free_arrival: bool,
     /// Multirotors: obstacles are unknown until they are sensed
@@ -76,7 +76,7 @@ fn description(kind: &Kind) -> String {
         false => format!("density: {}", density.meaning),
     };
     let variant = kind.variant.map_or_else(String::new, |variant| format!("; --{}", variant.name()));
-    format!("    {name:<10} {summary}\n               {size}; {density}{variant}\n")
+    format!("    {name:<10} {summary}\n               {size}\n               {density}{variant}\n")
 }
 
 impl Generate {

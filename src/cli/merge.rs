@@ -12,7 +12,7 @@ use crate::output;
 /// Merge the partitions of a sweep, or the result folders of several machines
 ///
 /// Result folders: the results of all of them are copied into one folder, with one summary, one junit.xml and, with --html,
-/// one page. A scenario and planner may be in one of them only. The exit code is that of one run of all of them.
+/// one page. Each pair of scenario and planner may occur in one of them only. The exit code is that of one run of all of them.
 ///
 /// Partitions: all of them must belong to one sweep: the same scenario, planner, seed, options and version of the harness. Together
 /// they must hold every sample exactly once; a missing or duplicate sample is an error.

@@ -93,7 +93,8 @@ Results:
   out/<scenario>/<planner>/plan.json, plan.csv        the plan
   out/summary.json, out/summary.md, out/junit.xml     the summary of all results
 
-docs/external-planners.md describes the protocol of external planners, docs/ci.md continuous integration.";
+docs/external-planners.md describes the protocol of external planners, docs/ci.md continuous
+integration.";
 
 impl Run {
     /// Runs all valid jobs, and reports the others.

@@ -73,7 +73,7 @@ enum Recording {
     Mcap,
     /// Flight log as a table, with exact numbers
     Parquet,
-    /// What `harness report` draws of the flight: scene.json
+    /// The scene that `harness report` draws: scene.json
     Page,
     /// No recording
     None,

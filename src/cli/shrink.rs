@@ -45,8 +45,8 @@ Examples:
   harness shrink scenarios/fixed-wing/rendezvous-7.toml -p parallel-scp --check plan.separation
   harness shrink my-scenario.toml --planner-command 'python3 planner.py'
 
-Results:
-  out/<scenario>/<planner>/<scenario>-small.toml    the smallest scenario that fails; `harness run` repeats it";
+Results, in out/<scenario>/<planner>/:
+  <scenario>-small.toml    the smallest scenario that fails; `harness run` repeats it";
 
 impl ShrinkCommand {
     /// Shrinks, writes and prints.

@@ -51,10 +51,11 @@ Examples:
   harness stress scenarios/fixed-wing/rendezvous-7-wind.toml --over wind
   harness stress scenarios/slung/rectangle-wind.toml --over wind,mass,delay,noise
 
-Results:
-  out/<scenario>/<planner>/stress-<what>.json    every level that was flown, and the bracket of the first failure
+Results, in out/<scenario>/<planner>/:
+  stress-<what>.json    every level that was flown, and the bracket of the first failure
 
-Example of a result: `wind 14.225 m/s: passes at 14.150 m/s, fails by flight.tracking_max; the scenario has 5.000 m/s`.";
+Example of a result:
+  wind 14.225 m/s: passes at 14.150 m/s, fails by flight.tracking_max; the scenario has 5.000 m/s";
 
 impl StressCommand {
     /// Plans, searches, prints and writes.

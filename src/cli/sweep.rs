@@ -90,17 +90,18 @@ const EXAMPLES: &str = "\
 Examples:
   harness sweep scenarios/fixed-wing/rendezvous-7.toml --samples 200
   harness sweep scenarios/slung/rectangle-wind.toml -n 500 --wind 2 --mass 5 --at-least 95
-  harness sweep scenarios/multirotor/forest.toml -n 1000 --partition 1/4 -o out/1    the first of four machines
+  harness sweep scenarios/multirotor/forest.toml -n 1000 --partition 1/4 -o out/1
+                                                     the part of the first of four machines
   harness merge out/*/forest/rhc/sweep.parquet -o out/forest
 
-Results:
-  out/<scenario>/<planner>/sweep.parquet          one row per sample: perturbation, verdict, the margin of every check
-  out/<scenario>/<planner>/sweep.json             the pass rate with its 95 % confidence interval, quantiles of the margins
-  out/<scenario>/<planner>/worst/<scenario>.toml  the scenario of the sample with the most failed checks
-  out/<scenario>/<planner>/plan.json              the plan
+Results, in out/<scenario>/<planner>/:
+  sweep.parquet          one row per sample: perturbation, verdict, the margin of every check
+  sweep.json             the pass rate with its 95 % confidence interval, quantiles of the margins
+  worst/<scenario>.toml  the scenario of the sample with the most failed checks
+  plan.json              the plan
 
-`harness check worst/<scenario>.toml --plan plan.json` repeats and records the worst sample; for an in-loop planner,
-`harness run worst/<scenario>.toml` does.";
+`harness check worst/<scenario>.toml --plan plan.json` repeats and records the worst sample; for an
+in-loop planner, `harness run worst/<scenario>.toml` does.";
 
 impl SweepCommand {
     /// Plans, flies, writes and prints.

@@ -28,11 +28,9 @@ const DENSITY: Density = Density { meaning: "fraction of the flown area that thr
 
 /// The kinds of this family.
 pub const KINDS: &[Kind] = &[
-    kind(
-        "ring",
-        "All aircraft fly across a circle to the opposite point: every straight flight meets every other.",
-        |it| draft(it, &draw::ring(it)?),
-    ),
+    kind("ring", "Aircraft cross a circle to the opposite point: every straight path meets every other.", |it| {
+        draft(it, &draw::ring(it)?)
+    }),
     kind("mixed", "Aircraft of three sizes and speed ranges cross each other.", |it| {
         draft(it, &sample_fleet(it, draw::mixed)?)
     }),
