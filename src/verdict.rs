@@ -237,3 +237,27 @@ impl fmt::Display for Status {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use scenarios::check_spec;
+
+    use super::Check;
+    use crate::verdict::evidence::{Decide, Measurement};
+
+    fn check(at_s: Option<f64>, names: &[&str]) -> Check {
+        let measured = names.iter().fold(Measurement::value(1.0), |measured, name| measured.with(name));
+        let measured = at_s.into_iter().fold(measured, Measurement::at);
+        check_spec("plan.separation").unwrap().at_least(measured, 0.0)
+    }
+
+    #[test]
+    fn the_place_of_a_check_is_its_time_and_its_bodies_each_once() {
+        let place = |at_s, names: &[&str]| check(at_s, names).place();
+        assert_eq!(place(Some(83.1), &["uav-3", "uav-5"]).as_deref(), Some("83.10 s, uav-3 and uav-5"));
+        assert_eq!(place(Some(83.1), &["uav-3", "uav-3"]).as_deref(), Some("83.10 s, uav-3"));
+        assert_eq!(place(None, &["uav-3"]).as_deref(), Some("uav-3"));
+        assert_eq!(place(Some(0.0), &[]).as_deref(), Some("0.00 s"));
+        assert_eq!(place(None, &[]), None);
+    }
+}

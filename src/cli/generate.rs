@@ -75,7 +75,7 @@ fn description(kind: &Kind) -> String {
         true => format!("density: {}, up to {} [{}]", density.meaning, density.max, density.default),
         false => format!("density: {}", density.meaning),
     };
-    let variant = kind.variant.map_or_else(String::new, |variant| format!("; --{}", variant.name()));
+    let variant = kind.variant.map_or_else(String::new, |variant| format!("\n               --{}", variant.name()));
     format!("    {name:<10} {summary}\n               {size}\n               {density}{variant}\n")
 }
 

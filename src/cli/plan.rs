@@ -38,7 +38,8 @@ Examples:
   harness plan scenarios/fixed-wing/rendezvous-7.toml -o plan.csv
   harness plan scenarios/fixed-wing/rendezvous-7.toml -o - | jq .status
 
-`harness check SCENARIO --plan FILE` flies and judges the plan. In-loop planners have no plan before the flight.";
+`harness check SCENARIO --plan FILE` flies and judges the plan. In-loop planners have no plan before
+the flight.";
 
 /// Whether the source is a plan that is none; the reason is printed.
 pub fn has_no_plan(source: &PlanSource) -> bool {

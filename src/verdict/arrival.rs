@@ -126,3 +126,31 @@ pub fn not_arrived(vehicle: &FlownVehicle<'_>) -> MissingEvidence {
         Some(approach) => MissingEvidence::NotArrived { vehicle: name, distance_m: approach.upper_m, log_end_s },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::reached_s;
+
+    /// Along x to the goal at 2 m/s: 0.5 m before it at 9.75 s, between the positions at 9 and 10 s.
+    #[test]
+    fn the_goal_is_reached_between_the_last_position_outside_and_the_first_one_inside() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/multirotor/trap.toml");
+        let vehicle = scenarios::load(&file).unwrap().vehicles.remove(0);
+        let [x, y, z] = vehicle.goal.position_m();
+        let path = |turns_back: bool| {
+            (0..=12_u32).map(move |t_s| {
+                let ahead_m = 2.0 * (10.0 - f64::from(t_s)).max(if turns_back && t_s == 11 { 2.0 } else { 0.0 });
+                (f64::from(t_s), [x - ahead_m, y, z])
+            })
+        };
+        let reached = reached_s(path(false), &vehicle, 0.5).unwrap();
+        assert!((reached - 9.75).abs() < 1e-12, "{reached}");
+        // It leaves again: the last time counts.
+        let reached = reached_s(path(true), &vehicle, 0.5).unwrap();
+        assert!((reached - (11.0 + 3.5 / 4.0)).abs() < 1e-12, "{reached}");
+        assert_eq!(reached_s(path(false).take(10), &vehicle, 0.5), None);
+        assert_eq!(reached_s(path(false).skip(11), &vehicle, 0.5), Some(11.0));
+    }
+}

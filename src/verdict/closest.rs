@@ -224,6 +224,17 @@ mod tests {
         assert!(between_vehicles(&[north(0.0)], SeparationShape::Horizontal).is_none());
     }
 
+    /// Two lines 10 m apart, of which one is known up to 2 m: 8 m are possible, 12 m certain.
+    #[test]
+    fn one_motion_in_a_tube_widens_the_bounds_of_a_pair() {
+        let exact = line([0.0; 3], [30.0, 0.0, 0.0], 0.5, 10.0);
+        let tube = line([0.0, 10.0, 0.0], [30.0, 0.0, 0.0], 0.5, 10.0).within(|_| 2.0);
+        for pair in [[exact.clone(), tube.clone()], [tube, exact]] {
+            let found = between_vehicles(&pair, SeparationShape::Spatial).unwrap();
+            assert!((found.lower_m - 8.0).abs() < 1e-6 && (found.upper_m - 12.0).abs() < 1e-6, "{found:?}");
+        }
+    }
+
     #[test]
     fn vehicles_are_compared_while_both_last() {
         // At 10 s they would meet; the second motion ends at 8 s, 40 m earlier.

@@ -139,3 +139,6 @@ fn noise_defect(what: &str, sigma: f64, errors: &[[f64; 3]]) -> Option<String> {
         format!("the noise of the measured {what} has a standard deviation of {estimate:.3e} instead of {sigma}")
     })
 }
+
+#[cfg(test)]
+mod tests;

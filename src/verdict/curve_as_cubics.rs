@@ -61,3 +61,39 @@ impl CurveAsCubics {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::CurveAsCubics;
+
+    #[test]
+    fn of_two_vehicles_the_counts_are_added_and_the_largest_differences_kept() {
+        let one = CurveAsCubics {
+            pieces: 2,
+            degree: 7,
+            cubics: 40,
+            position_m: 0.1,
+            velocity_mps: 0.5,
+            acceleration_mps2: 0.2,
+        };
+        let other = CurveAsCubics {
+            pieces: 3,
+            degree: 5,
+            cubics: 30,
+            position_m: 0.3,
+            velocity_mps: 0.4,
+            acceleration_mps2: 0.9,
+        };
+        let both = CurveAsCubics {
+            pieces: 5,
+            degree: 7,
+            cubics: 70,
+            position_m: 0.3,
+            velocity_mps: 0.5,
+            acceleration_mps2: 0.9,
+        };
+        assert_eq!(CurveAsCubics::sum(Some(one), Some(other)), Some(both));
+        assert_eq!(CurveAsCubics::sum(None, Some(other)), Some(other));
+        assert_eq!(CurveAsCubics::sum(None, None), None);
+    }
+}

@@ -138,3 +138,6 @@ impl Part {
         is_worse(own, others, 1.0)
     }
 }
+
+#[cfg(test)]
+mod tests;

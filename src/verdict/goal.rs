@@ -114,3 +114,39 @@ fn velocity_mps(samples: &[Sample], t_s: f64) -> Option<[f64; 3]> {
         before.velocity_mps[axis] + fraction * (after.velocity_mps[axis] - before.velocity_mps[axis])
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use sim::{Actuation, Commanded, Sample};
+
+    use super::velocity_mps;
+
+    /// Samples 0.5 s apart from 2 s on, with a velocity of (3 t, -t, 0).
+    fn samples() -> Vec<Sample> {
+        let sample = |t_s: f64| Sample {
+            t_s,
+            position_m: [0.0; 3],
+            velocity_mps: [3.0 * t_s, -t_s, 0.0],
+            wind_mps: [0.0; 3],
+            world_from_body: [0.0, 0.0, 0.0, 1.0],
+            measured_position_m: [0.0; 3],
+            measured_velocity_mps: [0.0; 3],
+            reference_position_m: [0.0; 3],
+            reference_velocity_mps: [0.0; 3],
+            actuation: Actuation::Acceleration(Commanded { command: [0.0; 3], control: [0.0; 3] }),
+        };
+        (0..4).map(|step| sample(2.0 + 0.5 * f64::from(step))).collect()
+    }
+
+    #[test]
+    fn a_velocity_is_interpolated_between_samples_and_kept_beyond_them() {
+        let samples = samples();
+        for (t_s, at_s) in [(2.0, 2.0), (2.5, 2.5), (2.75, 2.75), (3.4, 3.4), (3.5, 3.5)] {
+            let found = velocity_mps(&samples, t_s).unwrap();
+            let expected = [3.0 * at_s, -at_s, 0.0];
+            assert!((0..3).all(|axis| (found[axis] - expected[axis]).abs() < 1e-12), "{found:?} at {t_s} s");
+        }
+        assert_eq!(velocity_mps(&samples, 9.0), Some([10.5, -3.5, 0.0]));
+        assert_eq!(velocity_mps(&[], 2.0), None);
+    }
+}

@@ -205,3 +205,6 @@ fn events_defect(flight: &Flight, log: &PlanningLog) -> Option<String> {
     (logged != odd)
         .then(|| format!("{odd} results were late, rejected or missing, but the log has {logged} events of them"))
 }
+
+#[cfg(test)]
+mod tests;

@@ -125,6 +125,26 @@ mod tests {
     }
 
     #[test]
+    fn flights_are_compared_sample_by_sample_and_loads_as_well() {
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/slung/rectangle.toml");
+        let scenario = scenarios::load(&file).unwrap();
+        let planner = planners::find("slung-lgr").unwrap();
+        let plan = planner.plan(&scenario, 0, &mut |_| {});
+        let flight = sim::fly(&scenario, &plan, 0, &mut |_| {});
+        assert_eq!(super::distance_m(&flight, &flight), Some(0.0));
+        let changed = |change: fn(&mut sim::VehicleLog)| {
+            let mut other = flight.clone();
+            change(&mut other.vehicles[0]);
+            super::distance_m(&flight, &other)
+        };
+        assert_eq!(changed(|log| log.samples.truncate(9)), None);
+        assert_eq!(changed(|log| log.loads.truncate(9)), None);
+        let moved = changed(|log| log.loads[7].position_m[2] += 0.25).unwrap();
+        assert!((moved - 0.25).abs() < 1e-12, "{moved}");
+        assert!(changed(|log| log.samples[7].position_m[1] = f64::NAN).unwrap().is_nan());
+    }
+
+    #[test]
     fn a_margin_below_the_disagreement_is_undecided() {
         for value_m in [0.9e-3, -0.9e-3] {
             assert_eq!(status_after(Some(1e-3), clearance(value_m)), Status::Undecided);

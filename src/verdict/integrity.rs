@@ -99,3 +99,60 @@ fn planner_figures(plan: &Plan) -> impl Iterator<Item = f64> + '_ {
     let timings = [plan.timings.wall_s, plan.timings.distributed_s];
     history.chain(plan.objective).chain(timings).chain(events).chain(alternatives)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use scenarios::fixed_wing::{Control, State, Trajectory};
+    use scenarios::{Interpolation, Plan, check_spec};
+
+    use super::{check_plan_complete, check_plan_finite};
+    use crate::verdict::Status;
+
+    fn plan(vehicles: &[&str]) -> Plan {
+        let trajectory = |vehicle: &&str| Trajectory {
+            vehicle: (*vehicle).into(),
+            interpolation: Interpolation::FirstOrderHold,
+            times_s: vec![0.0, 1.0],
+            states: vec![State::from_array([0.0, 0.0, 300.0, 35.0, 0.0, 0.0]); 2],
+            controls: vec![Control::CRUISE; 2],
+        };
+        Plan::new("pair", "by-hand", 0, vehicles.iter().map(|vehicle| trajectory(vehicle).into()).collect())
+    }
+
+    #[test]
+    fn every_number_that_is_not_finite_is_counted_and_its_vehicle_named() {
+        let mut plan = plan(&["uav-1", "uav-2"]);
+        let spec = check_spec("plan.finite").unwrap();
+        assert_eq!(check_plan_finite(spec, &plan).status, Status::Pass);
+        let scenarios::Trajectory::FixedWing(second) = &mut plan.trajectories[1] else { unreachable!() };
+        (second.times_s[1], second.states[0].speed_mps, second.states[1].speed_mps) =
+            (f64::NAN, f64::INFINITY, f64::NAN);
+        plan.objective = Some(f64::NAN);
+        let check = check_plan_finite(spec, &plan);
+        assert_eq!((check.status, check.value), (Status::Fail, Some(4.0)));
+        assert_eq!(check.between, ["uav-2"]);
+        plan.trajectories.clear();
+        assert_eq!(check_plan_finite(spec, &plan).status, Status::Fail);
+    }
+
+    #[test]
+    fn a_vehicle_without_a_trajectory_and_a_trajectory_without_a_vehicle_are_defects() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/fixed-wing/rendezvous-2.toml");
+        let scenario = scenarios::load(&file).unwrap();
+        let defects = |vehicles: &[&str]| {
+            let mut plan = plan(vehicles);
+            for (trajectory, vehicle) in plan.trajectories.iter_mut().zip(&scenario.vehicles) {
+                let scenarios::Trajectory::FixedWing(trajectory) = trajectory else { unreachable!() };
+                let start = &vehicle.start;
+                let ([x, y, z], [turn, climb]) =
+                    (start.position_m(), [start.heading_deg, start.flight_path_deg].map(f64::to_radians));
+                trajectory.states = vec![State::from_array([x, y, z, start.speed_mps, turn, climb]); 2];
+            }
+            check_plan_complete(check_spec("plan.complete").unwrap(), &scenario, &plan).value.unwrap()
+        };
+        let [one, two] = [0, 1].map(|index| scenario.vehicles[index].name.as_str());
+        assert_eq!([defects(&[one, two]), defects(&[one]), defects(&[one, two, "nobody"])], [0.0, 1.0, 1.0]);
+    }
+}

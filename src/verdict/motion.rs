@@ -299,6 +299,20 @@ mod tests {
         assert_eq!(segment.during(1.0, 3.0), segment);
     }
 
+    /// Samples of x = t³/6, 0.1 s apart, and one that follows another within a microsecond: its jerk would be rounding.
+    #[test]
+    fn an_interval_far_below_the_others_does_not_decide_the_error_of_interpolation() {
+        let cubic = |t_s: f64| knot(t_s, t_s.powi(3) / 6.0, t_s * t_s / 2.0);
+        let mut knots: Vec<Knot> = (0..=40).map(|step| cubic(f64::from(step) / 10.0)).collect();
+        let deviation_m = |knots: &[Knot]| Motion::new("uav", knots.to_vec()).unwrap().sampled().deviation_m();
+        assert!(deviation_m(&knots) < 1e-12);
+        knots.insert(20, Knot { position_m: [cubic(1.900_001).position_m[0] + 1e-9, 0.0, 0.0], ..cubic(1.900_001) });
+        assert!(deviation_m(&knots) < 1e-12, "{}", deviation_m(&knots));
+        // One in the middle of an interval does: a jump of a millimetre is no rounding.
+        knots[20] = Knot { position_m: [cubic(1.95).position_m[0] + 1e-3, 0.0, 0.0], ..cubic(1.95) };
+        assert!(deviation_m(&knots) > 1e-5, "{}", deviation_m(&knots));
+    }
+
     #[test]
     fn motions_that_cannot_be_judged_are_refused() {
         let refused = |knots: Vec<Knot>| Motion::new("uav-1", knots).is_err();

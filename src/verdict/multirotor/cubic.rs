@@ -92,6 +92,22 @@ mod tests {
         assert!((first[0] - 12.0).abs() < 1e-12 && (last[0] + 12.0).abs() < 1e-12, "{first:?} {last:?}");
     }
 
+    /// Half an ulp of 1000 m and of 1e6 s at 7 m/s, over 1e-4 s: accelerations up to the sum of both are rounding.
+    #[test]
+    fn rounding_is_taken_off_where_it_decides_and_not_beyond() {
+        let interval_s = 2.0_f64.powi(-13);
+        let knot = |t_s: f64, x_m: f64| Knot { t_s, position_m: [x_m, 0.0, 0.0], velocity_mps: [7.0, 0.0, 0.0] };
+        let segment = Segment::between(&knot(1e6, 1000.0), &knot(1e6 + interval_s, 1000.0 + 7.0 * interval_s));
+        let furthest_m = 1000.0 + 7.0 * interval_s;
+        let rounding_m = f64::EPSILON * (4.0 * furthest_m + 7.0 * (1e6 + interval_s));
+        let rounding_mps2 = 6.0 * rounding_m / (interval_s * interval_s);
+        assert!(rounding_mps2 > 0.5, "{rounding_mps2}");
+        let left = |value_mps2: f64| without_rounding(value_mps2, 3.0, &segment);
+        assert_eq!(left(2.9), 2.9);
+        assert!((left(3.0 + 0.9 * rounding_mps2) - (3.0 - 0.1 * rounding_mps2)).abs() < 1e-6 * rounding_mps2);
+        assert_eq!(left(3.0 + 1.1 * rounding_mps2), 3.0 + 1.1 * rounding_mps2);
+    }
+
     #[test]
     fn a_jump_needs_an_infinite_acceleration_and_rounding_none() {
         let knot =
@@ -100,6 +116,8 @@ mod tests {
         assert!(is_jump(&[knot(1.0, 2.0, 1.0), knot(1.0, 2.0, -1.0)]));
         assert!(!is_jump(&[knot(1.0, 2.0, 1.0), knot(1.0, 2.0, 1.0)]));
         assert!(!is_jump(&[knot(1.0, 2.0, 1.0), knot(1.1, 2.5, 1.0)]));
+        let aside = |y_m: f64| Knot { position_m: [2.0, y_m, -y_m], ..knot(1.0, 2.0, 1.0) };
+        assert!(!is_jump(&[aside(4.0), aside(4.0)]) && is_jump(&[aside(4.0), aside(4.5)]));
         // 3 ns on a motion at constant velocity: the second difference is rounding.
         let [a, b] = [4.0, 4.0 + 3e-9].map(|t_s| knot(t_s, 0.7 * t_s, 0.7));
         let segment = Segment::between(&a, &b);

@@ -124,3 +124,29 @@ fn admissible_motions_stay_in_the_tube() {
         .reduce(|| [0.0; 2], |a, b| [larger(a[0], b[0]), larger(a[1], b[1])]);
     assert!(most[0] > 0.3 && most[1] > 0.2, "the tube is needlessly wide: {most:?}");
 }
+
+/// Along the path gravity helps: down the steepest descent with full thrust, or up the steepest climb with full drag.
+#[test]
+fn the_largest_acceleration_is_that_of_the_worst_attitude() {
+    let scenario = scenario();
+    let limits = Limits {
+        flight_path_deg: Range::new(-30.0, 10.0),
+        n_x: Range::new(-0.1, 0.4),
+        n_y: Range::new(-0.2, 0.5),
+        n_z: Range::new(0.7, 1.6),
+        ..scenario.fixed_wing_model(&scenario.vehicles[0]).limits.clone()
+    };
+    let (along, across, upwards) = (0.4 + 0.5, 0.5, 1.6 - 30.0_f64.to_radians().cos());
+    let expected = 9.81 * f64::sqrt(along * along + across * across + upwards * upwards);
+    assert!((max_acceleration_mps2(&limits) - expected).abs() < 1e-9);
+    let mirrored = Limits {
+        flight_path_deg: Range::new(-10.0, 50.0),
+        n_x: Range::new(-0.6, 0.1),
+        n_y: Range::new(-0.5, 0.2),
+        n_z: Range::new(-0.5, 1.1),
+        ..limits
+    };
+    let (along, upwards) = (50.0_f64.to_radians().sin() + 0.6, 1.5);
+    let expected = 9.81 * f64::sqrt(along * along + across * across + upwards * upwards);
+    assert!((max_acceleration_mps2(&mirrored) - expected).abs() < 1e-9);
+}
