@@ -147,7 +147,7 @@ pub enum Error {
         reason: String,
     },
     /// A field of the command line is not in the file.
-    #[error("{}: {field}: found no number, expected one that the file gives", file.display())]
+    #[error("{}: {field}: there is no such number in the file", file.display())]
     #[diagnostic(help(
         "give the field in the file, or correct its path; elements of lists go by index or by name: \
         world.cylinders[0].radius_m, world.cylinders.tree-1.radius_m"
@@ -157,6 +157,31 @@ pub enum Error {
         file: PathBuf,
         /// The field.
         field: String,
+    },
+    /// A check is asked for that no verdict of the scenario has.
+    #[error("{}: no check `{check}` in its verdict", file.display())]
+    #[diagnostic(help("{}", closest.as_ref().map_or_else(
+        || "docs/verdict.md lists the checks; those of requirements are flight.requirement.NAME and plan.requirement.NAME".to_owned(),
+        |name| format!("did you mean `{name}`?")
+    )))]
+    NoSuchCheck {
+        /// The scenario's file.
+        file: PathBuf,
+        /// The check.
+        check: String,
+        /// The most similar one.
+        closest: Option<String>,
+    },
+    /// A search has judged no flight.
+    #[error("{}: nothing was judged: {why}", file.display())]
+    #[diagnostic(help(
+        "narrow the ranges of --vary to scenarios that are valid and that the planner solves, or ask for another check"
+    ))]
+    NothingJudged {
+        /// The scenario's file.
+        file: PathBuf,
+        /// What became of the candidates.
+        why: String,
     },
     /// A disturbance from the command line cannot act on the vehicles.
     #[error("{}: {option} has no effect: found {}, expected {}", file.display(), issue.found, issue.expected)]

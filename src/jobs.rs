@@ -142,11 +142,12 @@ fn named_by_scenario(file: &Path, source: &ScenarioFile, scenario: &Scenario) ->
             let expected = "another name for a planner with a `command`: this one is a registered planner";
             return Err(issue(expected.into(), "rename it, or remove `command`".into()).into());
         }
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let beside = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = scenario.planner.folder.as_ref().map_or(beside.to_owned(), |folder| beside.join(folder));
         let planner = ExternalPlanner {
             name: name.clone(),
             command: command.clone(),
-            folder: folder.to_owned(),
+            folder,
             time_limit_s: scenario.planner.time_limit_s,
             in_loop: scenario.planner.in_loop,
         };

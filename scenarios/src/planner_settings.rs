@@ -24,9 +24,12 @@ pub struct PlannerSettings {
     /// Name of the planner. With a `command`, any name: that of the folder for the results.
     pub name: String,
     /// An external planner: program and arguments. It reads one JSON request from standard input and writes one JSON reply to
-    /// standard output. It is started in the folder of the scenario file.
+    /// standard output. It is started in `folder`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<Vec<String>>,
+    /// Folder in which a `command` is started, relative to that of the scenario file. [default: that of the scenario file]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folder: Option<String>,
     /// Time after which a planner with a `command` is terminated, s. [default: 60] In the loop: time for one reply, s.
     /// [default: 10]
     #[serde(skip_serializing_if = "Option::is_none")]

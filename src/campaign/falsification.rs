@@ -73,6 +73,8 @@ pub struct Falsification {
     pub rejected: usize,
     /// Number of candidates for which the planner returned no trajectory.
     pub no_plan: usize,
+    /// Number of flights in which the check that is asked was not answered.
+    pub unanswered: usize,
     /// Number of flights that failed.
     pub failed: usize,
     /// The failures, one of each kind: the one that fails by most, kinds in the order in which they were found.
@@ -155,7 +157,8 @@ fn descend(
     while !record.is_spent() && failures < ENOUGH_FAILURES && search.spread() > SMALLEST_SIGMA {
         let points = search.ask(random);
         let trials = evaluate(&points, record);
-        if record.is_spent() {
+        // The last generation may be cut short.
+        if record.is_spent() || trials.len() < points.len() {
             return;
         }
         let values: Vec<f64> = trials.iter().map(Trial::value).collect();
@@ -192,6 +195,7 @@ impl Record {
             flights: 0,
             rejected: 0,
             no_plan: 0,
+            unanswered: 0,
             failed: 0,
             failures: Vec::new(),
             worst: None,
@@ -214,6 +218,10 @@ impl Record {
             Trial::NoPlan => {
                 result.flights += 1;
                 result.no_plan += 1;
+            }
+            Trial::Unanswered => {
+                result.flights += 1;
+                result.unanswered += 1;
             }
             Trial::Judged(finding) => {
                 result.flights += 1;
@@ -281,6 +289,19 @@ mod tests {
         assert!(guided >= 16 && random <= 8, "{guided} and {random} of 20 searches found a failure");
         let kinds = (0..20).map(|seed| found(Method::CmaEs, seed).failures.len()).sum::<usize>();
         assert!(kinds > guided, "no search found both kinds");
+    }
+
+    /// Near the corner that is not valid, a generation is cut short by the budget without a flight.
+    #[test]
+    fn any_budget_ends_a_search_among_invalid_candidates() {
+        let document = ScenarioDocument::of(&ScenarioFile::new("a.toml", "name = \"a\"\n[a]\nx = 0.99\ny = 0.99\n"));
+        let fields: Vec<VariedField> = ["a.x=0.95..1", "a.y=0.95..1"].map(|text| text.parse().unwrap()).into();
+        let space = Space::new(&document, &fields).unwrap();
+        for flights in 1..20 {
+            let options = SearchOptions { flights, method: Method::CmaEs, seed: 0 };
+            let found = search_with(&space, &pockets, options, &mut |_| {});
+            assert!(found.flights == 0 && found.rejected >= 20 * flights, "{found:?}");
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use scenarios::{LoadError, Scenario, ScenarioFile};
 use toml::{Table, Value};
 
 use crate::plan_source::PlanSource;
+use crate::plan_source::external::ExternalPlanner;
 
 /// The tree of a scenario file.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,13 +101,18 @@ impl ScenarioDocument {
         scenarios::parse(&format!("{}.toml", self.name()), &self.text())
     }
 
-    /// The same scenario, naming a registered planner where that is valid.
+    /// The same scenario, naming its planner where that is valid: a registered one, or a command and the folder in which it is
+    /// started, so that the file gives the same flight from any folder.
     pub fn planned_by(self, source: &PlanSource) -> Self {
-        let PlanSource::Registered(planner) = source else { return self };
+        let fields = match source {
+            PlanSource::Registered(planner) => vec![("name", planner.name.into())],
+            PlanSource::External(planner) => command_fields(planner),
+            PlanSource::Imported(_) => return self,
+        };
         let mut named = self.clone();
         let settings = named.root.entry("planner").or_insert_with(|| Value::Table(Table::new()));
         if let Value::Table(settings) = settings {
-            settings.insert("name".into(), planner.name.into());
+            settings.extend(fields.into_iter().map(|(key, value)| (key.to_owned(), value)));
         }
         if named.scenario().is_ok() { named } else { self }
     }
@@ -248,6 +254,19 @@ fn as_number(value: &Value) -> Option<f64> {
         Value::Integer(number) => Some(*number as f64),
         _ => None,
     }
+}
+
+/// The fields of a scenario that describe a command.
+fn command_fields(planner: &ExternalPlanner) -> Vec<(&'static str, Value)> {
+    let folder = planner.folder.canonicalize().unwrap_or_else(|_| planner.folder.clone());
+    let mut fields = vec![
+        ("name", planner.name.clone().into()),
+        ("command", Value::Array(planner.command.iter().cloned().map(Value::from).collect())),
+        ("folder", folder.display().to_string().into()),
+        ("in_loop", planner.in_loop.into()),
+    ];
+    fields.extend(planner.time_limit_s.map(|time_limit_s| ("time_limit_s", time_limit_s.into())));
+    fields
 }
 
 #[cfg(test)]

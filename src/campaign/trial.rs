@@ -1,5 +1,7 @@
 //! One flight of a changed scenario, and how near it comes to failing.
 
+use std::cmp::Ordering;
+
 use scenarios::Scenario;
 use serde::Serialize;
 
@@ -7,6 +9,9 @@ use crate::campaign::scenario_document::ScenarioDocument;
 use crate::plan_source::PlanSource;
 use crate::verdict::compare::is_smaller;
 use crate::verdict::{Check, Outcome, Status, Verdict};
+
+/// Fails because something else did: a crashed vehicle has no log to the end.
+const CONSEQUENCE: &str = "flight.complete";
 
 /// What is tried, and what is asked of it.
 pub struct TestSystem<'a> {
@@ -25,6 +30,8 @@ pub enum Trial {
     Rejected,
     /// The planner returned no trajectory.
     NoPlan,
+    /// The check that is asked is not answered: it was skipped, or has no margin.
+    Unanswered,
     /// The check that decides.
     Judged(Finding),
 }
@@ -61,7 +68,7 @@ impl TestSystem<'_> {
         if verdict.outcome == Outcome::NoPlan {
             return Trial::NoPlan;
         }
-        Finding::of(&verdict, self.check).map_or(Trial::Rejected, Trial::Judged)
+        Finding::of(&verdict, self.check).map_or(Trial::Unanswered, Trial::Judged)
     }
 
     fn is_unsupported(&self, scenario: &Scenario) -> bool {
@@ -82,7 +89,7 @@ impl Trial {
     pub fn value(&self) -> f64 {
         match self {
             Self::Judged(finding) => finding.relative,
-            Self::Rejected | Self::NoPlan => f64::INFINITY,
+            Self::Rejected | Self::NoPlan | Self::Unanswered => f64::INFINITY,
         }
     }
 }
@@ -113,12 +120,13 @@ impl Finding {
         Some(Self { fails, check: check_name, margin, unit, relative, at_s, between })
     }
 
-    /// A failure is worse than a pass, whatever the margins.
+    /// A failure is worse than a pass, whatever the margins; a log that ends early is only as bad as what ended it.
     fn is_worse_than(&self, other: &Self) -> bool {
-        match (self.fails, other.fails) {
-            (true, false) => true,
-            (false, true) => false,
-            _ => is_smaller(self.relative, other.relative),
+        let rank = |it: &Self| (it.fails, it.check != CONSEQUENCE);
+        match rank(self).cmp(&rank(other)) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal => is_smaller(self.relative, other.relative),
         }
     }
 
@@ -171,6 +179,10 @@ mod tests {
         assert_eq!(found(&[&faultless, &near], None).as_deref(), Some("flight.separation"));
         let failed = check("flight.complete", Status::Fail, [f64::NAN, 0.0]);
         assert_eq!(found(&[&undecided, &failed, &near], None).as_deref(), Some("flight.complete"));
+        let mut crash = check("flight.crash", Status::Fail, [-1.0, 0.0]);
+        crash.between = vec!["uav-1".to_owned(), "mast".to_owned()];
+        let incomplete = check("flight.complete", Status::Fail, [-2.0, 0.0]);
+        assert_eq!(found(&[&incomplete, &crash, &near], None).as_deref(), Some("flight.crash"));
         let advisory = Check { advisory: true, ..failed };
         assert_eq!(found(&[&advisory, &near], None).as_deref(), Some("flight.separation"));
     }

@@ -82,6 +82,7 @@ impl FalsifyCommand {
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
         let space = Space::new(&document, &self.fields)
             .map_err(|field| Error::NoNumber { file: self.scenario.clone(), field: field.to_string() })?;
+        shrink::require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
         let system = TestSystem { source: &job.plan_source, seed: job.seed, check: self.check.as_deref() };
         let found = self.search(job, &space, &system);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
@@ -91,6 +92,9 @@ impl FalsifyCommand {
         if !self.quiet {
             console::print(&self.text(&found))?;
             console::print(&format!("results in {}", folder.display()))?;
+        }
+        if found.worst.is_none() {
+            return Err(Error::NothingJudged { file: self.scenario.clone(), why: counts(&found) });
         }
         Ok(if found.failures.is_empty() { Exit::Passed } else { Exit::Failed })
     }
@@ -134,7 +138,6 @@ impl FalsifyCommand {
     }
 
     fn text(&self, found: &Falsification) -> String {
-        let Falsification { flights, rejected, no_plan, failed, .. } = found;
         let mut lines: Vec<String> = found
             .failures
             .iter()
@@ -144,10 +147,7 @@ impl FalsifyCommand {
         if let Some(worst) = found.worst.as_ref().filter(|_| found.failures.is_empty()) {
             lines.push(format!("nearest to a failure: {}; {}", headline(worst), self.place(worst)));
         }
-        lines.push(format!(
-            "{failed} of {flights} flights failed, {} kinds of failures; no plan for {no_plan}; {rejected} candidates were not valid scenarios",
-            found.failures.len()
-        ));
+        lines.push(counts(found));
         lines.join("\n")
     }
 
@@ -155,6 +155,21 @@ impl FalsifyCommand {
         let fields = self.fields.iter().zip(&found.values);
         fields.map(|(field, value)| format!("{} = {value:.6}", field.path)).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// What became of the candidates, in one line.
+fn counts(found: &Falsification) -> String {
+    let Falsification { flights, rejected, no_plan, unanswered, failed, failures, .. } = found;
+    let kinds = match failures.len() {
+        0 => String::new(),
+        1 => ", all of one kind".to_owned(),
+        count => format!(", of {count} kinds"),
+    };
+    let rest = [(*no_plan, "without a plan"), (*unanswered, "in which the check was skipped")];
+    let rest: String = rest.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("; {n} {what}")).collect();
+    let invalid =
+        if *rejected > 0 { format!("; {rejected} candidates were not valid scenarios") } else { String::new() };
+    format!("{failed} of {flights} flights failed{kinds}{rest}{invalid}")
 }
 
 /// Removes the failures of an earlier search.

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use scenarios::{check_spec, closest_name};
+use scenarios::{Scenario, check_spec, closest_name};
 
 use super::run::PlannerArgs;
 use crate::campaign::scenario_document::ScenarioDocument;
@@ -15,7 +15,7 @@ use crate::progress::Progress;
 
 /// Find the smallest scenario in which a planner still fails
 ///
-/// Vehicles, obstacles and settings of the simulation are removed and numbers rounded, as long as the same check fails. Every
+/// Vehicles, obstacles and settings of the simulation are removed and numbers simplified, as long as the same check fails. Every
 /// change is planned, flown and judged. Models, limits, planner settings and the seed stay as they are. The exit code is 1
 /// if the scenario does not fail.
 #[derive(Args, Debug)]
@@ -53,15 +53,15 @@ impl ShrinkCommand {
     pub fn execute(&self) -> Result<Exit, Error> {
         let job = &jobs::load_one(&self.scenario, &self.planners.sources()?, None)?;
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
+        require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
         let system = TestSystem { source: &job.plan_source, seed: job.seed, check: self.check.as_deref() };
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let finding = match system.try_out(&document) {
             Trial::Judged(finding) if finding.fails => finding,
-            _ => {
+            other => {
                 progress.finish();
-                let check = self.check.as_deref().unwrap_or("no check");
-                let does_not = if self.check.is_some() { "does not fail" } else { "fails" };
-                console::eprint(&format!("{check} {does_not} in {}: there is nothing to shrink", job.scenario.name));
+                let why = self.why_not(&other);
+                console::eprint(&format!("{}: {why}: there is nothing to shrink", job.scenario.name));
                 return Ok(Exit::Failed);
             }
         };
@@ -76,6 +76,32 @@ impl ShrinkCommand {
         }
         Ok(Exit::Passed)
     }
+
+    /// Why a trial is no failure.
+    fn why_not(&self, trial: &Trial) -> String {
+        match (trial, &self.check) {
+            (Trial::NoPlan, _) => "the planner finds no plan".to_owned(),
+            (Trial::Unanswered, Some(check)) => format!("{check} was skipped"),
+            (_, Some(check)) => format!("{check} does not fail"),
+            (_, None) => "no check fails".to_owned(),
+        }
+    }
+}
+
+/// Refuses a check that no verdict of the scenario has.
+pub fn require_check(scenario: &Scenario, file: &Path, check: Option<&str>) -> Result<(), Error> {
+    let Some(check) = check else { return Ok(()) };
+    let of_requirements = scenario
+        .requirements
+        .iter()
+        .flat_map(|it| ["plan", "flight"].map(|group| format!("{group}.requirement.{}", it.name)));
+    let known: Vec<String> =
+        scenarios::check_names(scenario.family()).map(str::to_owned).chain(of_requirements).collect();
+    if known.iter().any(|name| name == check) {
+        return Ok(());
+    }
+    let closest = closest_name(check, known.iter().map(String::as_str)).map(str::to_owned);
+    Err(Error::NoSuchCheck { file: file.to_owned(), check: check.to_owned(), closest })
 }
 
 /// Shrinks with progress.
@@ -93,13 +119,14 @@ pub fn shrunk(
 /// What was shrunk, in one line.
 pub fn headline(shrunk: &Shrunk) -> String {
     let shrinking::Counts { flights, elements, settings, numbers, is_cut_short } = shrunk.counts;
-    let end = if is_cut_short { "; more could go with more flights" } else { "; nothing more can go" };
+    let end = if is_cut_short { "; more flights may remove more" } else { "; nothing more can be removed" };
     let Finding { check, between, .. } = &shrunk.finding;
     let who = if between.is_empty() { String::new() } else { format!(" of {}", between.join(" and ")) };
-    format!(
-        "{check}{who} still fails without {elements} vehicles and obstacles and {settings} settings, and with {numbers} simpler \
-         numbers ({flights} flights){end}"
-    )
+    let done =
+        [(elements, "vehicles and obstacles removed"), (settings, "settings removed"), (numbers, "numbers simplified")];
+    let done: Vec<String> = done.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{n} {what}")).collect();
+    let done = if done.is_empty() { "as it is".to_owned() } else { format!("with {}", done.join(", ")) };
+    format!("{check}{who} still fails {done} ({flights} flights){end}")
 }
 
 /// Writes a scenario under its name, with a comment above it. Returns the path.

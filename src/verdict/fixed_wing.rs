@@ -31,7 +31,10 @@ use crate::verdict::{Check, collision, end, flight_integrity, goal, requirements
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
     let fleet = FleetCase::new(case);
     let mut checks = case.checks(Family::FixedWing, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)));
-    requirements::insert(&mut checks, case, fleet.planned_motions(), fleet.flown_motions());
+    if !case.scenario.requirements.is_empty() {
+        let (planned, flown) = (fleet.planned_mission(), fleet.flown_mission());
+        requirements::insert(&mut checks, case, planned.as_ref().map(Vec::as_slice), flown.as_ref().map(Vec::as_slice));
+    }
     checks
 }
 
@@ -59,8 +62,13 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         let shape = SeparationShape::Horizontal;
         separation::check_with_coast(spec, it.scenario, it.planned_motions(), |motions| Ok(it.coast_of(motions)), shape)
     }),
-    ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.planned_motions())),
-    ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned_motions()?, &it.tubes)),
+    ("plan.clearance", |spec, it| {
+        clearance::check(spec, it.scenario, it.planned_motions(), |motions| Ok(it.coast_of(motions)))
+    }),
+    ("plan.state_limits", |spec, it| {
+        let motions = it.planned_motions()?;
+        limits::check_planned_states(spec, it.scenario, motions, &it.coast_of(motions), &it.tubes)
+    }),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?, it.provenance)),
     ("plan.rollout", |spec, it| dynamics::check_rollout(spec, it.scenario, it.planned()?, it.provenance)),
@@ -78,9 +86,10 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         let shape = SeparationShape::Horizontal;
         separation::check_with_coast(spec, it.scenario, it.flown_motions(), |_| it.flown_coast(), shape)
     }),
-    ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions())),
+    ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions(), |_| it.flown_coast())),
     ("flight.state_limits", |spec, it| {
-        limits::check_flown_states(spec, it.scenario, it.flown()?, it.flown_motions()?, &it.tubes)
+        let motions = (it.flown_motions()?, it.flown_coast()?);
+        limits::check_flown_states(spec, it.scenario, it.flown()?, (motions.0, &motions.1), &it.tubes)
     }),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
@@ -109,6 +118,17 @@ impl<'a> FleetCase<'a> {
     /// The flown motions after the first arrival, until the last.
     fn flown_coast(&self) -> Result<Vec<Motion>, MissingEvidence> {
         coast::flown(self.shared.flight()?, self.shared.flown()?, |index, motion| self.in_tube(index, motion))
+    }
+
+    /// The planned motions until the last arrival, those that arrive earlier flying on.
+    fn planned_mission(&self) -> Result<Vec<Motion>, MissingEvidence> {
+        let motions = self.planned_motions()?;
+        Ok(coast::planned_mission(motions, |index| self.planned_end_error(index)))
+    }
+
+    /// The flown motions until the last arrival, those that arrived earlier flying on.
+    fn flown_mission(&self) -> Result<Vec<Motion>, MissingEvidence> {
+        coast::flown_mission(self.shared.flight()?, self.shared.flown()?, |index, motion| self.in_tube(index, motion))
     }
 
     /// The end of a flown motion in the tube in which it would have been flown: beyond the plan's end, the error of the last

@@ -38,8 +38,25 @@ pub fn insert(
 ) {
     let end_of_plan = checks.iter().position(|check| check.name.starts_with("flight.")).unwrap_or(checks.len());
     let [of_plan, of_flight] = &REQUIREMENT_CHECKS;
-    checks.extend(of_group(of_flight, case, flown));
-    drop(checks.splice(end_of_plan..end_of_plan, of_group(of_plan, case, planned)));
+    let (mut planned, mut flown) = (of_group(of_plan, case, planned), of_group(of_flight, case, flown));
+    for requirement in &case.scenario.requirements {
+        require_answer(requirement, planned.iter_mut().chain(&mut flown));
+    }
+    checks.extend(flown);
+    drop(checks.splice(end_of_plan..end_of_plan, planned));
+}
+
+/// A requirement that neither plan nor flight answers is not kept: its first check fails.
+fn require_answer<'a>(requirement: &Requirement, checks: impl Iterator<Item = &'a mut Check>) {
+    let names = REQUIREMENT_CHECKS.map(|spec| format!("{}.{}", spec.name, requirement.name));
+    let mut own: Vec<&mut Check> = checks.filter(|check| names.contains(&check.name)).collect();
+    if own.iter().all(|check| check.status == Status::Skip)
+        && let Some(first) = own.first_mut()
+    {
+        let why = first.reason.take().unwrap_or_default();
+        first.reason = Some(format!("nothing answers this requirement: {why}"));
+        first.status = Status::Fail;
+    }
 }
 
 fn of_group(spec: &CheckSpec, case: &Case<'_>, motions: Evidence<'_, [Motion]>) -> Vec<Check> {

@@ -1,6 +1,6 @@
 //! `harness falsify` and `harness shrink`.
 
-use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
+use crate::workplace::{PAIR, Workplace, code, has_python, stderr, stdout};
 
 /// Two aircraft whose paths cross, planned with six intervals: nothing keeps them apart between the nodes.
 fn crossing() -> String {
@@ -65,6 +65,51 @@ fn a_scenario_that_passes_cannot_be_shrunk() {
     assert_eq!(code(&output), 1);
     assert!(stderr(&output).contains("nothing to shrink"), "{}", stderr(&output));
     assert!(!workplace.path("out/pair/parallel-scp/pair-small.toml").exists());
+}
+
+/// The planner is a command in another folder than the failures that it leaves.
+#[cfg(unix)]
+#[test]
+fn failures_of_a_command_are_repeated_from_their_own_folder() {
+    if !has_python("numpy") {
+        return;
+    }
+    let planner = include_str!("../../examples/external-planner/planner.py");
+    let scenario = include_str!("../../scenarios/fixed-wing/rendezvous-1.toml");
+    let workplace = Workplace::new(&[("rendezvous-1.toml", scenario), ("spline.py", planner)]);
+    let output = workplace.harness(&[
+        "falsify",
+        "rendezvous-1.toml",
+        "-n",
+        "2",
+        "--planner-command",
+        "python3 spline.py",
+        "--check",
+        "plan.goal",
+        "--vary",
+        "vehicles.uav-1.goal.speed_mps=38..40",
+    ]);
+    assert_eq!(code(&output), 1, "{}{}", stdout(&output), stderr(&output));
+    let scenario = "out/rendezvous-1/spline/failures/rendezvous-1-failure-1.toml";
+    let output = workplace.harness(&["run", scenario, "--record", "none", "-o", "again"]);
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(margin(&workplace, "again/rendezvous-1-failure-1/spline/report.json", "plan.goal").1);
+}
+
+#[test]
+fn a_search_that_judges_nothing_is_no_all_clear() {
+    let workplace = Workplace::new(&[("pair.toml", PAIR)]);
+    for (arguments, wanted) in [
+        (["--vary", "vehicles[0].start.x_m=1e9..2e9"], "nothing was judged"),
+        (["--vary", "vehicles[0].goal.y_m=0..1"], "no check `flight.requirement.nosuch`"),
+    ] {
+        let check = if wanted.contains("nosuch") { &["--check", "flight.requirement.nosuch"][..] } else { &[] };
+        for flights in ["5", "6"] {
+            let output = workplace.harness(&[&["falsify", "pair.toml", "-n", flights][..], &arguments, check].concat());
+            assert_eq!(code(&output), 2, "{}{}", stdout(&output), stderr(&output));
+            assert!(stderr(&output).replace("\n  │ ", " ").contains(wanted), "{}", stderr(&output));
+        }
+    }
 }
 
 #[test]

@@ -1,11 +1,14 @@
 //! Requirements in the user's own words: each goes red, near misses pass, and the page of examples holds.
 
 use harness::verdict::{Check, Status, judge};
+use scenarios::in_loop::Node;
+use scenarios::multirotor::Trajectory;
 use scenarios::requirement::{AppliesTo, Requirement, SIGNALS};
-use scenarios::{Cylinder, Geofence, GeofenceKind, Scenario};
+use scenarios::{Cylinder, Geofence, GeofenceKind, Plan, Scenario};
 
 use crate::fleet::{Case, check};
 
+const HOVERER: &str = include_str!("../scenarios/hoverer.toml");
 const PAGE: &str = include_str!("../../docs/requirements.md");
 
 fn requirement(formula: &str) -> Requirement {
@@ -32,6 +35,60 @@ fn add_places(scenario: &mut Scenario) {
     let polygon_m = vec![[-100.0, -50.0], [850.0, -50.0], [850.0, 450.0], [-100.0, 450.0]];
     scenario.world.cylinders.push(threat);
     scenario.world.geofences.push(Geofence { name: "site".into(), kind: GeofenceKind::StayIn, polygon_m, z_m: None });
+}
+
+/// A formula about a log that nothing was flown for, and one about a plan that was made in the loop.
+#[test]
+fn a_requirement_that_nothing_answers_fails() {
+    let mut case = Case::good();
+    case.scenario.requirements.push(Requirement { applies_to: AppliesTo::Plan, ..requirement("always bank < 40 deg") });
+    let verdict = case.judge();
+    let unanswered = check(&verdict, "plan.requirement.r");
+    assert_eq!(unanswered.status, Status::Fail);
+    let reason = unanswered.reason.unwrap();
+    assert!(reason.contains("nothing answers this requirement") && reason.contains("bank"), "{reason}");
+    // The flight answers what the plan does not.
+    case.scenario.requirements[0].applies_to = AppliesTo::Both;
+    let verdict = case.judge();
+    assert_eq!(check(&verdict, "plan.requirement.r").status, Status::Skip);
+    assert_eq!(check(&verdict, "flight.requirement.r").status, Status::Pass);
+    case.scenario.vehicles.truncate(1);
+    case.scenario.requirements[0].formula = "for all pairs a, b: always distance(a, b) > 1 m".into();
+    let issues = scenarios::validate(&case.scenario);
+    assert!(issues.iter().any(|issue| issue.found == "a quantifier over 2 different vehicles"), "{issues:?}");
+    case.scenario.requirements[0] =
+        Requirement { applies_to: AppliesTo::Plan, ..requirement("always tracking_error < 40 m") };
+    let issues = scenarios::validate(&case.scenario);
+    assert!(issues.iter().any(|issue| issue.field == "requirements[0].applies_to"), "{issues:?}");
+}
+
+/// From rest to rest straight ahead: at rest the direction is unknown, so that only what holds of every direction is certain.
+#[test]
+fn angles_stay_in_their_range_and_are_unknown_at_rest() {
+    let mut scenario = scenarios::parse("hoverer.toml", HOVERER).expect("the smallest multirotor");
+    let name = scenario.vehicles[0].name.clone();
+    let start_m = scenario.vehicles[0].start.position_m();
+    let goal_m = [start_m[0] + 4.0, start_m[1], start_m[2]];
+    let nodes = [Node::at_rest(0.0, start_m), Node::at_rest(4.0, goal_m)];
+    let plan = Plan::new("hoverer", "by-hand", 0, vec![Trajectory::through(&name, &nodes).into()]);
+    let flight = sim::fly(&scenario, &plan, 0, &mut |_| {});
+    let statuses = |scenario: &mut Scenario, formula: &str| {
+        scenario.requirements = vec![requirement(formula)];
+        let verdict = judge(scenario, &plan, Some(&flight));
+        ["plan.requirement.r", "flight.requirement.r"].map(|name| check(&verdict, name))
+    };
+    for tautology in ["always flight_path > -91 deg", "always heading_from(0 deg) < 181 deg"] {
+        for check in statuses(&mut scenario, tautology) {
+            assert_eq!(check.status, Status::Pass, "{tautology}: {check:?}");
+        }
+    }
+    for check in statuses(&mut scenario, "always heading_from(0 deg) < 10 deg") {
+        assert_eq!(check.status, Status::Undecided, "{check:?}");
+        assert!(check.value.unwrap() >= -171.0, "{check:?}");
+    }
+    for check in statuses(&mut scenario, "always (speed > 0.5 m/s implies heading_from(0 deg) < 10 deg)") {
+        assert_eq!(check.status, Status::Pass, "{check:?}");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use harness::metrics::over_time::{clearance_over_time, separation_over_time};
 use harness::metrics::{Metrics, measure};
 use harness::verdict::{FlownMotions, Outcome, SeparationShape, Status, Verdict};
-use scenarios::{CHECKS, PlanStatus};
+use scenarios::{CHECKS, Cylinder, Geofence, GeofenceKind, PlanStatus};
 
 use crate::fleet::{Case, SPEED_MPS, check, factors};
 
@@ -256,16 +256,62 @@ fn distances_over_time_agree_with_the_verdict() {
 
 /// The first aircraft arrives after 10 s, 20° to the north of its course, and would fly on towards the second one, which is
 /// under way for 10 s more.
+/// The first aircraft arrives at 350 m after 10 s, and flies on until the others arrive after 20 s.
+fn first_arrives_halfway() -> Case {
+    let mut case = Case::good();
+    case.scenario.fleet.simultaneous_arrival = false;
+    case.scenario.vehicles[0].goal.x_m = 350.0;
+    let trajectory = case.trajectory(0);
+    trajectory.times_s.truncate(6);
+    trajectory.states.truncate(6);
+    trajectory.controls.truncate(6);
+    case
+}
+
+/// At 20 s it is at 700 m. The others are in the map and clear of the obstacles all the time.
+#[test]
+fn an_aircraft_that_has_arrived_stays_clear_of_obstacles_on_the_map_and_out_of_geofences_until_all_have() {
+    let y_m = first_arrives_halfway().scenario.vehicles[0].start.y_m;
+    let broken = |change: &dyn Fn(&mut scenarios::Scenario), names: [&str; 2]| {
+        let mut case = first_arrives_halfway();
+        assert!(names.map(|name| case.check(name).status).iter().all(|status| *status == Status::Pass));
+        change(&mut case.scenario);
+        for check in names.map(|name| case.check(name)) {
+            assert_eq!(check.status, Status::Fail, "{check:#?}");
+            assert!(check.between.contains(&case.scenario.vehicles[0].name), "{check:#?}");
+            assert!(check.at_s.unwrap() > 10.0, "{check:#?}");
+        }
+    };
+    let pillar = Cylinder { name: "mast".into(), center_m: [600.0, y_m], radius_m: 10.0 };
+    broken(&|it| it.world.cylinders.push(pillar.clone()), ["plan.clearance", "flight.clearance"]);
+    let states = ["plan.state_limits", "flight.state_limits"];
+    let polygon_m = vec![[500.0, y_m - 50.0], [600.0, y_m - 50.0], [600.0, y_m + 50.0], [500.0, y_m + 50.0]];
+    let fence = Geofence { name: "town".into(), kind: GeofenceKind::KeepOut, polygon_m, z_m: None };
+    broken(&|it| it.world.geofences.push(fence.clone()), states);
+    let asked = |scenario: &mut scenarios::Scenario| {
+        let name = scenario.vehicles[0].name.clone();
+        scenario.requirements.push(scenarios::requirement::Requirement {
+            name: "early".into(),
+            formula: format!("always distance({name}, point(700 m, {y_m} m, 400 m)) > 100 m"),
+            description: String::new(),
+            advisory: false,
+            applies_to: scenarios::requirement::AppliesTo::Both,
+        });
+    };
+    let mut case = first_arrives_halfway();
+    asked(&mut case.scenario);
+    for name in ["plan.requirement.early", "flight.requirement.early"] {
+        let check = check(&case.judge(), name);
+        assert_eq!(check.status, Status::Fail, "{check:#?}");
+        assert!((check.value.unwrap() + 100.0).abs() < 0.5, "{check:#?}");
+    }
+}
+
 #[test]
 fn an_aircraft_that_has_arrived_counts_for_the_separation_until_all_have() {
     let arriving = |heading_deg: f64| {
-        let mut case = Case::good();
-        case.scenario.fleet.simultaneous_arrival = false;
-        case.scenario.vehicles[0].goal.x_m = 350.0;
+        let mut case = first_arrives_halfway();
         let trajectory = case.trajectory(0);
-        trajectory.times_s.truncate(6);
-        trajectory.states.truncate(6);
-        trajectory.controls.truncate(6);
         trajectory.states[4].heading_rad = heading_deg.to_radians();
         let north_mps = SPEED_MPS * heading_deg.to_radians().tan();
         for sample in case.samples(0).iter_mut().filter(|sample| sample.t_s > 10.0) {

@@ -1,8 +1,8 @@
 //! Requirements: their names, and their formulas.
 
 use super::identifier;
-use crate::requirement::Requirement;
-use crate::{Issue, Scenario};
+use crate::requirement::{Formula, Requirement};
+use crate::{Group, Issue, Scenario};
 
 /// Malformed names and formulas. Formulas are checked if the scenario has vehicles with models: they refer to them.
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
@@ -16,7 +16,28 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
 }
 
 fn formula_issue(scenario: &Scenario, index: usize, requirement: &Requirement) -> Option<Issue> {
-    let error = requirement.formula(scenario).err()?;
-    let issue = Issue::new(format!("requirements[{index}].formula"), error.found, error.expected);
-    Some(issue.remedy(error.remedy).at_byte(error.span.start))
+    let field = format!("requirements[{index}].formula");
+    match requirement.formula(scenario) {
+        Ok(formula) => unanswerable(scenario, index, requirement, &formula),
+        Err(error) => {
+            let issue = Issue::new(field, error.found, error.expected);
+            Some(issue.remedy(error.remedy).at_byte(error.span.start))
+        }
+    }
+}
+
+/// A formula that no motion of this scenario can keep or break.
+fn unanswerable(scenario: &Scenario, index: usize, requirement: &Requirement, formula: &Formula) -> Option<Issue> {
+    if let Some(signal) = formula.logged_signal().filter(|_| !requirement.applies_to.covers(Group::Flight)) {
+        let expected = format!("`flight` or `both`: {signal} is known in flight only");
+        let issue = Issue::new(format!("requirements[{index}].applies_to"), "`plan`", expected);
+        return Some(issue.remedy("remove `applies_to`"));
+    }
+    let (asked, there) = (formula.quantifiers.iter().map(|it| it.variables.len()).max()?, scenario.vehicles.len());
+    (asked > there).then(|| {
+        let found = format!("a quantifier over {asked} different vehicles");
+        let expected = format!("at most {there}, as the scenario has: with fewer nothing is asked");
+        Issue::new(format!("requirements[{index}].formula"), found, expected)
+            .remedy("remove the requirement, or add vehicles")
+    })
 }

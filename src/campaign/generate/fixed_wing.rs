@@ -34,7 +34,7 @@ pub const KINDS: &[Kind] = &[
     kind("mixed", "Aircraft of three sizes and speed ranges cross each other.", |it| {
         draft(it, &sample_fleet(it, draw::mixed)?)
     }),
-    kind("transit", "Streams from west, east and south cross, and each aircraft leaves its lane for another.", |it| {
+    kind("transit", "Streams from west, east and south cross; each aircraft changes to another lane.", |it| {
         draft(it, &sample_fleet(it, draw::transit)?)
     }),
     kind("uneven", "Aircraft at very different distances gather into a formation.", |it| {

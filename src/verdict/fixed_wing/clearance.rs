@@ -16,25 +16,35 @@ use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
 
 /// Over continuous time.
-pub fn check(spec: &CheckSpec, scenario: &Scenario, motions: Evidence<'_, [Motion]>) -> CheckResult {
-    against_obstacles(spec, scenario, motions, |motions| closest(scenario, motions))
+///
+/// - `coast`: how the vehicles go on after the first arrival, until the last
+pub fn check(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: Evidence<'_, [Motion]>,
+    coast: impl Fn(&[Motion]) -> Result<Vec<Motion>, MissingEvidence>,
+) -> CheckResult {
+    against_obstacles(spec, scenario, motions, |motions| {
+        let coast = coast(motions)?;
+        Ok([motions, &coast].into_iter().filter_map(|part| closest(scenario, part)).reduce(closer))
+    })
 }
 
 /// At the planner's nodes.
 pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, plan: Evidence<'_, Plan>) -> CheckResult {
-    against_obstacles(spec, scenario, plan, |plan| at_nodes(scenario, plan))
+    against_obstacles(spec, scenario, plan, |plan| Ok(at_nodes(scenario, plan)))
 }
 
 fn against_obstacles<T: ?Sized>(
     spec: &CheckSpec,
     scenario: &Scenario,
     evidence: Evidence<'_, T>,
-    measure: impl Fn(&T) -> Option<ClosestApproach>,
+    measure: impl Fn(&T) -> Result<Option<ClosestApproach>, MissingEvidence>,
 ) -> CheckResult {
     if scenario.world.cylinders.is_empty() && scenario.world.ground_m.is_none() {
         return Ok(spec.skip("there are no obstacles"));
     }
-    let closest = measure(evidence?).ok_or(MissingEvidence::NoApproach)?;
+    let closest = measure(evidence?)?.ok_or(MissingEvidence::NoApproach)?;
     let [vehicle, obstacle] = names(scenario, &closest);
     Ok(spec.at_least(Measurement::approach(&closest).with(vehicle).with(obstacle), 0.0))
 }

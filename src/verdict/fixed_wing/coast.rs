@@ -1,7 +1,7 @@
 //! The flight of fixed wings after they have arrived, until the last one has: straight on, at the velocity of the arrival.
 //!
-//! An aircraft does not vanish at its goal. Its plan ends there, so that its limits and clearances do, but the others have to
-//! stay separate from it until the mission ends for all.
+//! An aircraft does not vanish at its goal. Until the mission ends for all, it has to stay clear of obstacles and of the others,
+//! on the map, and on the right side of geofences.
 
 use sim::Flight;
 
@@ -18,7 +18,19 @@ const LEAD_SAMPLES: usize = 3;
 ///
 /// - `end_error`: how far the true end of a vehicle's plan may be from this one
 pub fn planned(motions: &[Motion], end_error: impl Fn(usize) -> EndError) -> Vec<Motion> {
-    let Some([from_s, to_s]) = first_and_last(motions.iter().map(Motion::end_s)) else { return Vec::new() };
+    let Some(span_s) = first_and_last(motions.iter().map(Motion::end_s)) else { return Vec::new() };
+    planned_during(span_s, motions, end_error)
+}
+
+/// The planned motions from their beginning until the last arrival, those that have arrived flying on.
+///
+/// - `end_error`: how far the true end of a vehicle's plan may be from this one
+pub fn planned_mission(motions: &[Motion], end_error: impl Fn(usize) -> EndError) -> Vec<Motion> {
+    let last_s = motions.iter().map(Motion::end_s).fold(0.0, f64::max);
+    planned_during([0.0, last_s], motions, end_error)
+}
+
+fn planned_during([from_s, to_s]: [f64; 2], motions: &[Motion], end_error: impl Fn(usize) -> EndError) -> Vec<Motion> {
     let coast = |(index, motion): (usize, &Motion)| motion.coasting(from_s, to_s, end_error(index).velocity_mps);
     motions.iter().enumerate().map(coast).collect()
 }
@@ -35,8 +47,34 @@ pub fn flown(
     flown: &FlownMotions<'_>,
     surround: impl Fn(usize, Motion) -> Motion,
 ) -> Result<Vec<Motion>, MissingEvidence> {
-    let ends_s = flown.vehicles.iter().map(|vehicle| vehicle.judged_end_s);
-    let Some([from_s, to_s]) = first_and_last(ends_s) else { return Ok(Vec::new()) };
+    match first_and_last(flown.vehicles.iter().map(|vehicle| vehicle.judged_end_s)) {
+        Some(span_s) => flown_during(span_s, flight, flown, surround),
+        None => Ok(Vec::new()),
+    }
+}
+
+/// The flown motions from their beginning until the last arrival, those that have arrived flying on.
+///
+/// - `surround`: the motion of a vehicle in the tube in which it would have flown
+///
+/// # Errors
+///
+/// A log holds values that cannot be judged.
+pub fn flown_mission(
+    flight: &Flight,
+    flown: &FlownMotions<'_>,
+    surround: impl Fn(usize, Motion) -> Motion,
+) -> Result<Vec<Motion>, MissingEvidence> {
+    let last_s = flown.vehicles.iter().map(|vehicle| vehicle.judged_end_s).fold(0.0, f64::max);
+    flown_during([0.0, last_s], flight, flown, surround)
+}
+
+fn flown_during(
+    [from_s, to_s]: [f64; 2],
+    flight: &Flight,
+    flown: &FlownMotions<'_>,
+    surround: impl Fn(usize, Motion) -> Motion,
+) -> Result<Vec<Motion>, MissingEvidence> {
     let coast = |(index, motion): (usize, &Motion)| {
         let samples = &flight.vehicles[index].samples;
         let end = (samples.partition_point(|sample| sample.t_s < to_s) + 1).min(samples.len());

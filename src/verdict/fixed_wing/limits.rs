@@ -49,13 +49,17 @@ pub fn check_node_states(spec: &CheckSpec, scenario: &Scenario, plan: &Plan, pro
 }
 
 /// States of the continuous plan against the physical limits.
+///
+/// - `coast`: how the vehicles go on after the first arrival, until the last
 pub fn check_planned_states(
     spec: &CheckSpec,
     scenario: &Scenario,
     motions: &[Motion],
+    coast: &[Motion],
     tubes: &[RowTube],
 ) -> CheckResult {
     check_limits(spec, |worst| {
+        limited_vehicles(scenario, physical).zip(coast).for_each(|(limited, motion)| limited.path(worst, motion));
         for ((limited, motion), tube) in limited_vehicles(scenario, physical).zip(motions).zip(tubes) {
             limited.path(worst, motion);
             for knot in motion.knots() {
@@ -66,14 +70,17 @@ pub fn check_planned_states(
 }
 
 /// Flown states against the physical limits.
+///
+/// - `motions`, `coast`: until the arrivals, and from the first arrival until the last
 pub fn check_flown_states(
     spec: &CheckSpec,
     scenario: &Scenario,
     flown: &FlownMotions<'_>,
-    motions: &[Motion],
+    (motions, coast): (&[Motion], &[Motion]),
     tubes: &[RowTube],
 ) -> CheckResult {
     check_limits(spec, |worst| {
+        limited_vehicles(scenario, physical).zip(coast).for_each(|(limited, motion)| limited.path(worst, motion));
         let logs = motions.iter().zip(&flown.vehicles).zip(tubes);
         for (limited, ((motion, vehicle), tube)) in limited_vehicles(scenario, physical).zip(logs) {
             limited.path(worst, motion);

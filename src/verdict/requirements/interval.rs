@@ -172,6 +172,13 @@ impl Jet {
         Self { value, slope: Interval::ALL, error }
     }
 
+    /// A function with values in `range` alone, whatever its error.
+    pub fn inside(self, range: Interval) -> Self {
+        let error = self.error.min(0.5 * range.width());
+        let ends = Interval::new(range.min + error, range.max - error);
+        Self { value: self.value.intersection(ends), error, ..self }
+    }
+
     pub fn negate(self) -> Self {
         Self { value: -self.value, slope: -self.slope, error: self.error }
     }

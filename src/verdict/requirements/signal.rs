@@ -152,13 +152,15 @@ fn of_motion(signal: &Signal, it: &Enclosure) -> Jet {
         let slope = (dot(velocity, acceleration) / value).intersection(Interval::within(norm(acceleration).max));
         Jet { value, slope, error: it.errors[1] }
     };
-    // A velocity turns by no more than its change over its magnitude.
-    let turning = |value: Interval, velocity: &[Interval], acceleration: &[Interval]| {
+    // A velocity turns by no more than its change over its magnitude. At rest it may have any direction.
+    let turning = |value: Interval, velocity: &[Interval], acceleration: &[Interval], range: Interval| {
         let speed = norm(velocity);
         let certain_mps = speed.min - it.errors[1];
-        let error = if certain_mps > 0.0 { 1.6 * it.errors[1] / certain_mps } else { std::f64::consts::PI };
-        let slope = if speed.min > 0.0 { norm(acceleration).max / speed.min } else { f64::INFINITY };
-        Jet { value, slope: Interval::within(slope), error: if it.errors[1] == 0.0 { 0.0 } else { error } }
+        if certain_mps <= 0.0 {
+            return Jet::rough(range, f64::INFINITY).inside(range);
+        }
+        let (error, slope) = (1.6 * it.errors[1] / certain_mps, norm(acceleration).max / speed.min);
+        Jet { value, slope: Interval::within(slope), error }.inside(range)
     };
     match signal.quantity {
         Quantity::East => coordinate(it, 0),
@@ -170,14 +172,15 @@ fn of_motion(signal: &Signal, it: &Enclosure) -> Jet {
         Quantity::FlightPath => {
             let [climb, forward] = [it.velocity[2], horizontal(&it.velocity)];
             let upward = |climb: Interval| angle(climb.maximum(Interval::point(0.0)), forward);
-            turning(upward(climb) - upward(-climb), &it.velocity, &it.acceleration)
+            let range = Interval::within(std::f64::consts::FRAC_PI_2);
+            turning(upward(climb) - upward(-climb), &it.velocity, &it.acceleration, range)
         }
         Quantity::HeadingFrom => {
             let Some(Target::Bearing(bearing_rad)) = signal.target else { return Jet::rough(Interval::ALL, 0.0) };
             let [along, across] = [bearing_rad.cos(), bearing_rad.sin()].map(Interval::point);
             let [east, north, _] = it.velocity;
             let value = angle(east * across - north * along, east * along + north * across);
-            turning(value, &it.velocity[..2], &it.acceleration[..2])
+            turning(value, &it.velocity[..2], &it.acceleration[..2], Interval::new(0.0, std::f64::consts::PI))
         }
         Quantity::Acceleration => Jet::rough(norm(&it.acceleration), it.errors[2]),
         _ => Jet::rough(Interval::ALL, 0.0),
@@ -222,5 +225,5 @@ fn swing(load: &Enclosure) -> Jet {
     let slope = if distance_m.min > 0.0 { speed_mps / distance_m.min } else { f64::INFINITY };
     let error = 1.6 * load.errors[0] / (distance_m.min - load.errors[0]).max(f64::MIN_POSITIVE);
     let slope = if load.jumps { Interval::ALL } else { Interval::within(slope) };
-    Jet { value, slope, error: error.min(std::f64::consts::PI) }
+    Jet { value, slope, error }.inside(Interval::new(0.0, std::f64::consts::PI))
 }
