@@ -112,3 +112,23 @@ fn multirotors_may_start_above_each_other_and_fixed_wings_may_not() {
     let error = stacked("3.4").expect_err("0.1 m too close").to_string();
     assert!(!error.is_empty());
 }
+
+#[test]
+fn parameters_of_a_search_have_ranges_and_so_has_its_size() {
+    let rejects = |options: &str, field: &str, found: &str, expected: &str| {
+        let planner = format!("name = \"any\"\n\n[planner.horizon]\n{options}");
+        assert_issue("name = \"any\"", &planner, &format!("planner.horizon.{field}"), found, expected);
+    };
+    rejects("swarm = { cognitive = -1 }", "swarm.cognitive", "-1", "0 or more");
+    rejects("swarm = { social = -1 }", "swarm.social", "-1", "0 or more");
+    rejects("swarm = { inertia_max = 0.3 }", "swarm.inertia_min", "0.4", "0.3, inertia_max, or less");
+    rejects("swarm = { velocity_fraction = 0 }", "swarm.velocity_fraction", "0", "greater than 0 and at most 1");
+    rejects("violation_weights = { speed = 0 }", "violation_weights.speed", "0", "greater than 0");
+    rejects("stage_weight = -1", "stage_weight", "-1", "0 or more");
+    rejects("steps = 101", "steps", "101", "from 1 to 100");
+    let huge = "steps = 100\nparticles = 10000\niterations = 101";
+    rejects(huge, "iterations", "101 iterations of 10000 particles over 100 steps", "at most 100000000");
+    let largest = huge.replace("101", "100");
+    let text = TEXT.replace("name = \"any\"", &format!("name = \"any\"\n\n[planner.horizon]\n{largest}"));
+    assert!(parse("quad.toml", &text).is_ok());
+}

@@ -20,6 +20,12 @@ const STEPS: std::ops::RangeInclusive<usize> = 1..=100;
 const PARTICLES: std::ops::RangeInclusive<usize> = 4..=10_000;
 const ITERATIONS: std::ops::RangeInclusive<usize> = 1..=10_000;
 
+/// Largest number of steps in one search: some seconds of computing.
+const MAX_SEARCH_STEPS: usize = 100_000_000;
+
+/// Default numbers of steps, particles and iterations.
+const DEFAULT_SEARCH: [usize; 3] = [12, 40, 60];
+
 /// Default inertia weights of a swarm.
 const MAX_INERTIA: f64 = 0.9;
 const MIN_INERTIA: f64 = 0.4;
@@ -187,7 +193,21 @@ fn horizon(options: &Horizon) -> Vec<Issue> {
     ];
     let quantities = quantities.into_iter().chain(weights).flatten();
     let swarm = options.swarm.iter().flat_map(swarm);
-    out_of_range("horizon", counts).into_iter().chain(quantities).chain(swarm).collect()
+    let too_large = search_size(options);
+    out_of_range("horizon", counts).into_iter().chain(quantities).chain(swarm).chain(too_large).collect()
+}
+
+/// A search that would not end in a reasonable time, though each of its numbers is allowed.
+fn search_size(options: &Horizon) -> Option<Issue> {
+    let given = [options.steps, options.particles, options.iterations];
+    let max = [*STEPS.end(), *PARTICLES.end(), *ITERATIONS.end()];
+    // what is out of its own range is another issue
+    let [steps, particles, iterations] = std::array::from_fn(|k| given[k].unwrap_or(DEFAULT_SEARCH[k]).min(max[k]));
+    (steps * particles * iterations > MAX_SEARCH_STEPS).then(|| {
+        let found = format!("{iterations} iterations of {particles} particles over {steps} steps");
+        let expected = format!("a product of at most {MAX_SEARCH_STEPS}");
+        Issue::new("planner.horizon.iterations", found, expected).remedy("reduce `iterations`, `particles` or `steps`")
+    })
 }
 
 fn swarm(options: &Swarm) -> Vec<Issue> {
