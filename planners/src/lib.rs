@@ -6,6 +6,7 @@
 #![expect(confusable_idents, reason = "γ is the flight-path angle and y a multiplier, as in the papers")]
 
 pub mod convex;
+mod decoupled_lgr;
 pub mod free_space;
 pub mod horizon;
 pub mod multirotor;
@@ -24,7 +25,8 @@ use std::sync::LazyLock;
 pub use planner::{Planner, PlanningMode, Progress};
 
 /// The families of planners, in the order in which they are listed.
-const FAMILIES: [&[Planner]; 4] = [scp::PLANNERS, slung::PLANNERS, horizon::PLANNERS, search::PLANNERS];
+const FAMILIES: [&[Planner]; 5] =
+    [scp::PLANNERS, decoupled_lgr::PLANNERS, slung::PLANNERS, horizon::PLANNERS, search::PLANNERS];
 
 /// All planners.
 pub fn registry() -> &'static [Planner] {

@@ -36,6 +36,7 @@ mod transcription_tests;
 
 pub use envelope::{Envelope, envelope};
 pub use guess::Guess;
+pub(crate) use jet::Jet;
 pub use optimise::{Candidate, MeshIteration, Options, optimise};
 pub use planner::{PLANNER, candidate_routes, route_name};
 pub use polygon::Polygon;

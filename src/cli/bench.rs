@@ -17,7 +17,7 @@ use crate::output;
 /// `ipm`: interior-point methods on subproblems of the planner parallel-scp: the block-structured factorisation of the
 /// harness, the paper's three methods for the Newton direction, and a general solver (Clarabel).
 ///
-/// `cooperative`: fleets of one to seven aircraft on two missions, with both solvers.
+/// `cooperative`: fleets of one to seven aircraft on two missions, with both solvers and by the planner decoupled-lgr.
 ///
 /// `fleets`: the papers' decoupling methods and fleet-scp, over several fleet sizes, and the growth of the cost of
 /// fleet-scp with the size of the fleet.
@@ -50,6 +50,9 @@ pub struct Bench {
     /// Number of geometries of each fleet of `fleets`, each with a seed of its own
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     geometries: u32,
+    /// Experiment of `horizon` [default: all]
+    #[arg(long, value_enum, value_name = "NAME")]
+    experiment: Option<horizon::Experiment>,
     /// Print errors only
     #[arg(short, long)]
     quiet: bool,
@@ -61,12 +64,13 @@ const EXAMPLES: &str = "\
 Examples:
   harness bench ipm            takes about a minute, on an otherwise idle machine
   harness bench ipm --quick
-  harness bench cooperative    takes about a minute
+  harness bench cooperative    takes several minutes, most of them in Clarabel
   harness bench fleets         takes several minutes: some entries reach their time limit
   harness bench fleets --geometries 10
                                the same for ten geometries of each fleet, with means
   harness bench slung          takes about a minute
   harness bench horizon        takes several minutes
+  harness bench horizon --experiment dynamic-map
   harness bench suite          takes about half an hour
   harness bench suite --family multirotor --seeds 5
   harness bench suite --kind forest --density 0.25 -p rhc -p sparse-astar
@@ -75,7 +79,7 @@ Results:
   out/bench/ipm.json           one row per subproblem and backend
   out/bench/ipm.md             the same as a page in Markdown
   out/bench/ipm.svg            operation counts (the paper's figure 4) and measured times
-  out/bench/cooperative.json, .md  one row per mission, fleet and solver
+  out/bench/cooperative.json, .md  one row per mission, fleet and method
   out/bench/fleets.json, .md   one row per mission, fleet and planner
   out/bench/slung.json, .md    one row per mesh and formulation
   out/bench/horizon.json, .md  one row per case
@@ -145,6 +149,7 @@ impl Bench {
             trap: self.multirotor("trap")?,
             pop_up: self.multirotor("pop-up")?,
             seeds: if self.quick { 2 } else { 20 },
+            experiment: self.experiment,
         };
         let results = horizon::run(&plan, &mut |case| self.tell(case));
         self.publish("horizon", &results, &horizon::markdown(&results), &horizon::text(&results))

@@ -43,16 +43,32 @@ fn bench_ipm_measures_every_backend_on_every_subproblem() {
 const SHIPPED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing");
 
 #[test]
-fn bench_cooperative_measures_both_solvers_on_both_missions() {
+fn bench_horizon_measures_one_experiment_where_asked() {
+    let workplace = Workplace::new(&[]);
+    let output = workplace.harness(&["bench", "horizon", "--experiment", "cost-maps", "--quick"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let results = workplace.json("out/bench/horizon.json");
+    let rows = results["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 5);
+    assert!(rows.iter().all(|row| row["experiment"] == "cost-maps" && row["scenario"] == "paper-map"), "{rows:?}");
+    assert_eq!(results["seeds"], 2);
+    let unknown = workplace.harness(&["bench", "horizon", "--experiment", "cost-map"]);
+    assert_eq!(code(&unknown), 2);
+    assert!(stderr(&unknown).contains("cost-maps"), "{}", stderr(&unknown));
+}
+
+#[test]
+fn bench_cooperative_measures_every_method_on_both_missions() {
     let workplace = Workplace::new(&[]);
     let output = workplace.harness(&["bench", "cooperative", SHIPPED, "--quick"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert_eq!(workplace.files("out/bench"), ["cooperative.json", "cooperative.md"]);
     let results = workplace.json("out/bench/cooperative.json");
     let rows = results["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), 2 * 2 * 2);
-    for pair in rows.chunks(2) {
-        assert_eq!((&pair[0]["solver"], &pair[1]["solver"]), (&"block".into(), &"clarabel".into()));
+    assert_eq!(rows.len(), 2 * 2 * 3);
+    for pair in rows.chunks(3) {
+        let methods = [0, 1, 2].map(|k| pair[k]["solver"].as_str().unwrap());
+        assert_eq!(methods, ["block", "clarabel", "decoupled-lgr"]);
         let flight_time_s = |row: &Value| row["metrics"]["flight_time_s"].as_f64();
         let own_s = flight_time_s(&pair[0]).unwrap();
         // Clarabel's plan may miss its start: then it has no figures.
@@ -61,7 +77,7 @@ fn bench_cooperative_measures_both_solvers_on_both_missions() {
         assert!(pair.iter().all(|row| row["planning_s"].as_f64().unwrap() > 0.0));
     }
     assert!(rows.iter().filter(|row| row["metrics"]["flight_time_s"].is_number()).count() >= 6, "{rows:?}");
-    assert_eq!(results["means"].as_array().unwrap().len(), 4);
+    assert_eq!(results["means"].as_array().unwrap().len(), 6);
     assert!(stdout(&output).contains("reconfiguration-7"));
 }
 

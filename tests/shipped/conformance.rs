@@ -59,7 +59,7 @@ fn for_every_claim(check: impl Fn(&Scenario, &Plan)) {
 /// Largest fleet of this test.
 fn largest_fleet(planner: &str) -> usize {
     match planner {
-        "coupled-scp" => 2,
+        "coupled-scp" | "decoupled-lgr" => 2,
         "serial-scp" => 3,
         _ => 15,
     }

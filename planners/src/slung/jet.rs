@@ -81,6 +81,13 @@ impl<const N: usize> Jet<N> {
         self * self.value.signum()
     }
 
+    /// Square root of a positive value.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, 0.5 / root, -0.25 / (root * self.value))
+    }
+
     /// Square.
     #[inline(always)]
     pub fn square(self) -> Self {

@@ -1,5 +1,5 @@
-//! `harness bench cooperative`: fleets of one to seven on two missions, with the block interior-point method and with a
-//! general solver (Wang, Xu, Long 2020, section 5, figures 11 to 18).
+//! `harness bench cooperative`: fleets of one to seven on two missions, with the block interior-point method, with a general
+//! solver, and by the decoupled pseudospectral planner (Wang, Xu, Long 2020, section 5, figures 11 to 18).
 
 mod show;
 
@@ -13,8 +13,25 @@ use crate::metrics::PlanMetrics;
 use crate::statistics;
 pub use show::{markdown, text};
 
-/// The solvers and their names; the baseline is the last.
-const SOLVERS: [(Solver, &str); 2] = [(Solver::Block, "block"), (Solver::Clarabel, "clarabel")];
+/// A planner with a solver.
+#[derive(Clone, Copy)]
+struct Method {
+    /// Its name in the tables.
+    name: &'static str,
+    planner: &'static str,
+    /// Solver of the subproblems; `None`: the planner's own.
+    solver: Option<Solver>,
+}
+
+/// Name of the method to whose planning time the others are compared.
+const BASELINE: &str = "clarabel";
+
+/// The methods.
+const METHODS: [Method; 3] = [
+    Method { name: "block", planner: PLANNER.name, solver: Some(Solver::Block) },
+    Method { name: BASELINE, planner: PLANNER.name, solver: Some(Solver::Clarabel) },
+    Method { name: "decoupled-lgr", planner: "decoupled-lgr", solver: None },
+];
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -49,7 +66,7 @@ pub struct Row {
     pub mission: String,
     /// Number of its vehicles.
     pub vehicles: usize,
-    /// Solver of the subproblems.
+    /// Solver of the subproblems, or the planner that has none.
     pub solver: &'static str,
     /// Its outcome.
     #[serde(rename = "ending")]
@@ -88,24 +105,24 @@ pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Result<Results, Error
     let mut rows = Vec::new();
     for mission in &plan.missions {
         for &vehicles in &plan.sizes {
-            for (solver, name) in SOLVERS {
-                progress(&format!("{vehicles} vehicles of {} with {name}", mission.name));
-                rows.push(row(mission, vehicles, solver, name, plan.limit_s)?);
+            for method in METHODS {
+                progress(&format!("{vehicles} vehicles of {} with {}", mission.name, method.name));
+                rows.push(row(mission, vehicles, method, plan.limit_s)?);
             }
         }
     }
-    let means = plan.missions.iter().flat_map(|mission| SOLVERS.map(|(_, solver)| mean(&rows, &mission.name, solver)));
+    let means = plan.missions.iter().flat_map(|mission| METHODS.map(|method| mean(&rows, &mission.name, method.name)));
     let means = means.collect();
     Ok(Results { schema: 1, limit_s: plan.limit_s, threads: rayon::current_num_threads(), rows, means })
 }
 
-fn row(mission: &Scenario, vehicles: usize, solver: Solver, name: &'static str, limit_s: f64) -> Result<Row, Error> {
+fn row(mission: &Scenario, vehicles: usize, method: Method, limit_s: f64) -> Result<Row, Error> {
     let mut fleet = mission.clone();
     fleet.vehicles.truncate(vehicles);
     // All other settings are defaults, which are the paper's.
-    fleet.planner =
-        PlannerSettings { name: PLANNER.name.to_owned(), solver: Some(solver), ..PlannerSettings::default() };
-    let Entry { outcome, report } = entry::run(&fleet, PLANNER.name, limit_s)?;
+    let Method { name, planner, solver } = method;
+    fleet.planner = PlannerSettings { name: planner.to_owned(), solver, ..PlannerSettings::default() };
+    let Entry { outcome, report } = entry::run(&fleet, planner, limit_s)?;
     Ok(Row {
         mission: mission.name.clone(),
         vehicles,
@@ -122,7 +139,7 @@ fn mean(rows: &[Row], mission: &str, solver: &'static str) -> Mean {
     let baseline = |own: &Row| {
         let other = rows
             .iter()
-            .find(|row| row.mission == own.mission && row.vehicles == own.vehicles && row.solver == SOLVERS[1].1);
+            .find(|row| row.mission == own.mission && row.vehicles == own.vehicles && row.solver == BASELINE);
         other.and_then(|other| Some(other.planning_s? / own.planning_s?))
     };
     Mean {
