@@ -10,7 +10,9 @@ mod papers;
 mod studies;
 mod swarms;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use scenarios::{LoadError, Scenario, shipped};
 
 use super::bench::ipm;
 use crate::error::Error;
@@ -23,12 +25,22 @@ const OPERATION_COUNTS: &str = "1-operation-counts";
 /// What to draw.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Folder of the scenarios.
-    pub scenarios: PathBuf,
+    /// Folder of the scenarios; `None`: the shipped ones.
+    pub scenarios: Option<PathBuf>,
     /// Number of the paper; `None`: all.
     pub paper: Option<u8>,
     /// Small fleets and few sizes: a smoke test.
     pub is_quick: bool,
+}
+
+impl Options {
+    /// The scenario of a file below the folder.
+    fn load(&self, file: &str) -> Result<Scenario, LoadError> {
+        match &self.scenarios {
+            Some(folder) => scenarios::load(&folder.join(file)),
+            None => scenarios::load(Path::new(&format!("{}{file}", shipped::PREFIX))),
+        }
+    }
 }
 
 /// A figure.
@@ -87,7 +99,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Vec<Figu
 }
 
 fn operation_counts(options: &Options) -> Result<Figure, Error> {
-    let scenario = scenarios::load(&options.scenarios.join("fixed-wing/rendezvous-7.toml"))?;
+    let scenario = options.load("fixed-wing/rendezvous-7.toml")?;
     let plan = match options.is_quick {
         true => ipm::Plan::quick(),
         false => ipm::Plan { intervals: vec![4, 8, 20, 40], repetitions: 3, max_solve_s: 1.0 },

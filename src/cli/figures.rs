@@ -15,9 +15,9 @@ use crate::output::page;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct FiguresCommand {
-    /// Folder of the scenarios
-    #[arg(value_name = "SCENARIOS", default_value = "scenarios")]
-    scenarios: PathBuf,
+    /// Folder of the scenarios [default: those of the papers]
+    #[arg(value_name = "SCENARIOS")]
+    scenarios: Option<PathBuf>,
     /// Only the figures of one paper
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=4))]
     paper: Option<u8>,

@@ -171,8 +171,7 @@ fn an_earlier_flight_is_shown_as_a_ghost() {
 #[test]
 fn the_papers_figures_are_drawn() {
     let workplace = Workplace::new(&[]);
-    let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
-    let output = workplace.harness(&["figures", scenarios.to_str().unwrap(), "--quick", "-q", "-o", "drawn", "--html"]);
+    let output = workplace.harness(&["figures", "--quick", "-q", "-o", "drawn", "--html"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let names: Vec<String> = harness::campaign::figures::names().iter().map(|name| format!("{name}.svg")).collect();
     assert_eq!(workplace.files("drawn/figures"), names);

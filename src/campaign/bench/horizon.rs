@@ -27,6 +27,8 @@ pub struct Plan {
     pub pop_up: Scenario,
     /// Flights of every case, each with a seed of its own.
     pub seeds: u64,
+    /// The experiment; `None`: all.
+    pub experiment: Option<Experiment>,
 }
 
 /// The results.
@@ -92,7 +94,7 @@ pub struct InLoop {
 ///
 /// All cases fly once per seed in turn, so that a change of the machine's speed affects all of them.
 pub fn run(plan: &Plan, progress: &mut dyn FnMut(&str)) -> Results {
-    let cases = cases::all(plan);
+    let cases = cases::selected(plan);
     let mut flown: Vec<Vec<CaseFlight>> = cases.iter().map(|_| Vec::new()).collect();
     for seed in 0..plan.seeds {
         for (case, flown) in cases.iter().zip(&mut flown) {

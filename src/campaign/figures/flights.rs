@@ -1,7 +1,6 @@
 //! Figures of single flights, drawn from the scene that the recordings show.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use planners::Planner;
 use scenarios::slung_load::State;
@@ -100,7 +99,7 @@ impl FlightFigures {
     ///
     /// A scenario that cannot be loaded, a planner that is not registered.
     pub fn draw(&self, options: &Options) -> Result<Vec<Figure>, Error> {
-        let flown = fly(self, &options.scenarios, options.is_quick)?;
+        let flown = fly(self, options)?;
         let run = flown.run();
         let scene = builder::build(&run);
         let figure = |view: &View| Figure {
@@ -134,9 +133,9 @@ impl FlownPlan {
     }
 }
 
-fn fly(figures: &FlightFigures, folder: &Path, is_quick: bool) -> Result<FlownPlan, Error> {
-    let mut scenario = scenarios::load(&folder.join(figures.scenario))?;
-    if is_quick {
+fn fly(figures: &FlightFigures, options: &Options) -> Result<FlownPlan, Error> {
+    let mut scenario = options.load(figures.scenario)?;
+    if options.is_quick {
         scenario.vehicles.truncate(QUICK_FLEET);
     }
     figures.change.apply(&mut scenario);

@@ -106,7 +106,7 @@ impl Study {
     }
 
     fn measure(&self, method: &Method, options: &Options) -> Result<Vec<Measured>, Error> {
-        let largest = scenarios::load(&options.scenarios.join(self.scenario))?;
+        let largest = options.load(self.scenario)?;
         let sizes = method.sizes.iter().take(if options.is_quick { 2 } else { usize::MAX });
         Ok(sizes.map(|&vehicles| plan(&largest, method, vehicles)).collect())
     }

@@ -27,7 +27,7 @@ const SWARMS: [(&str, &str, [u8; 3]); 2] = [("rhc-pso", "PSO", [214, 120, 20]), 
 ///
 /// A scenario that cannot be loaded.
 pub fn draw(options: &Options) -> Result<[Figure; 2], Error> {
-    let scenario = scenarios::load(&options.scenarios.join("multirotor/paper-map.toml"))?;
+    let scenario = options.load("multirotor/paper-map.toml")?;
     Ok([replan_times(&scenario), convergence(scenario, if options.is_quick { 2 } else { SEARCHES })])
 }
 

@@ -1,5 +1,6 @@
 //! The cases of every experiment.
 
+use clap::ValueEnum;
 use planners::Planner;
 use scenarios::{
     AttractionAlong, CostMap, Horizon, PathTiming, PotentialField, PotentialFieldForm, RepelledBy, RepulsionForm,
@@ -14,7 +15,7 @@ use super::Plan;
 const STALL: usize = 10;
 
 /// The experiments of section 5 of the paper, and a comparison of samplers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Experiment {
     /// Voronoi against visibility.
@@ -67,8 +68,14 @@ pub const FPSO_ALL: &str = "FPSO, cost of all";
 /// See above.
 pub const FPSO_SKIP: &str = "FPSO, infeasible skipped";
 
+/// The cases of a plan.
+pub fn selected(plan: &Plan) -> Vec<Case> {
+    let is_selected = |case: &Case| plan.experiment.is_none_or(|experiment| experiment == case.experiment);
+    all(plan).into_iter().filter(is_selected).collect()
+}
+
 /// Every case.
-pub fn all(plan: &Plan) -> Vec<Case> {
+fn all(plan: &Plan) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |experiment, scenario: &Scenario, name, planner: &str, options: Horizon| {
         let planner = planners::find(planner).expect("a planner of the registry");

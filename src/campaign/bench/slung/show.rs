@@ -1,6 +1,6 @@
 //! The results as a table on the terminal and as a page in Markdown.
 
-use super::{Results, RouteResult, Row};
+use super::{REPEATING_S, Results, RouteResult, Row};
 use crate::output::report::table;
 
 const HEADER: [&str; 13] = [
@@ -70,8 +70,10 @@ fn notes(results: &Results) -> Vec<String> {
          refined: from a graded mesh, until error, clearance and thrusts hold between the nodes as well."
             .to_owned(),
         format!(
-            "ms: from a cold start, fastest of {} solves after a warm-up; one route on one thread, and all routes on {} threads.",
-            results.repetitions, results.threads
+            "ms: from a cold start, fastest of {} solves, or of those that {REPEATING_S} s admit; one route on one thread, and \
+             all routes on {} threads.",
+            results.repetitions + 1,
+            results.threads
         ),
         "its: Newton steps, and the number of meshes. variables, segments: on the last mesh.".to_owned(),
         "error: of the states between the nodes, relative to 1 + their magnitude. clearance: of the envelope circle (eq. 14), \
