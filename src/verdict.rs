@@ -30,6 +30,7 @@ mod map_bounds;
 mod missing_evidence;
 mod motion;
 pub mod multirotor;
+pub mod obstacle_approach;
 mod physics;
 mod provenance;
 #[cfg(test)]

@@ -108,11 +108,17 @@ pub(crate) fn ignored_geofence(scenario: &Scenario) -> Option<String> {
     Some(format!("it does not plan around geofences such as `{}`", fence.name))
 }
 
+/// Why a planner that models upright obstacles only cannot handle a scenario; `None` if there are no others.
+pub(crate) fn ignored_solid(scenario: &Scenario) -> Option<String> {
+    let solid = scenario.world.solids().into_iter().next()?;
+    Some(format!("it does not plan around `{}`, {}", solid.name(), solid.kind()))
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
-    use scenarios::{Geofence, GeofenceKind, Scenario};
+    use scenarios::{Geofence, GeofenceKind, Scenario, Sphere};
 
     #[test]
     fn every_planner_refuses_geofences_by_name() {
@@ -129,6 +135,20 @@ mod tests {
             assert_eq!(fitting(&scenario), 0, "{file}");
             let planner = crate::find(&scenario.planner.name).unwrap();
             assert!((planner.unsupported_reason)(&scenario).unwrap().contains("`airport`"), "{file}");
+        }
+    }
+
+    #[test]
+    fn planners_that_know_upright_obstacles_only_refuse_others_by_name() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+        for (file, refuse) in
+            [("slung/rectangle.toml", true), ("fixed-wing/rendezvous-7.toml", true), ("multirotor/trap.toml", false)]
+        {
+            let mut scenario = scenarios::load(&folder.join(file)).unwrap();
+            scenario.world.spheres.push(Sphere { name: "balloon".into(), center_m: [0.0; 3], radius_m: 1.0 });
+            let planner = crate::find(&scenario.planner.name).unwrap();
+            let reason = (planner.unsupported_reason)(&scenario);
+            assert_eq!(reason.as_deref(), refuse.then_some("it does not plan around `balloon`, a sphere"), "{file}");
         }
     }
 }

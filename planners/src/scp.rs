@@ -27,17 +27,23 @@ mod trapezoid;
 
 use scenarios::{Scenario, Vehicle};
 
-use crate::planner::{Planner, ignored_geofence};
+use crate::planner::{Planner, ignored_geofence, ignored_solid};
 
 /// The planners of the fixed-wing family.
 pub(crate) const PLANNERS: &[Planner] =
     &[fleet::PLANNER, coupled::PLANNER, serial::PLANNER, parallel::PLANNER, dynamic_priority::PLANNER];
+
+/// These planners know cylinders only.
+fn ignored_flat_face(scenario: &Scenario) -> Option<String> {
+    let prisms = scenario.world.prism_obstacles();
+    Some(format!("it plans around cylinders, not around boxes and prisms such as `{}`", prisms.first()?.name))
+}
 
 /// Why these planners cannot handle a scenario, if they cannot.
 pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let is_other = |vehicle: &&Vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model);
     match scenario.vehicles.iter().find(is_other) {
         Some(other) => Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name)),
-        None => ignored_geofence(scenario),
+        None => ignored_geofence(scenario).or_else(|| ignored_flat_face(scenario)).or_else(|| ignored_solid(scenario)),
     }
 }

@@ -4,7 +4,7 @@ use harness::verdict::{self, Knot, Motion, SeparationShape};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use sim::multirotor::Obstacles;
+use sim::Obstacles;
 
 use crate::arrays::{bytes, numbers, triples};
 use crate::error::invalid;

@@ -14,6 +14,7 @@ mod families;
 mod find;
 pub mod fixed_wing;
 mod fleet;
+pub mod geometry;
 pub mod in_loop;
 mod issue;
 mod load;
@@ -56,7 +57,10 @@ pub use trajectory::{Interpolation, TrajectoryNodes};
 pub use validate::{validate, wind_without_effect};
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
-pub use world::{BoxObstacle, Cylinder, Gate, Geofence, GeofenceKind, Map, MovingCylinder, Prism, Window, World};
+pub use world::{
+    BoxObstacle, Capsule, Cuboid, Cylinder, Gate, Geofence, GeofenceKind, Map, Mesh, MovingCylinder, Prism, Sphere,
+    Terrain, Window, World,
+};
 
 /// Gravitational acceleration, m/s², as in all four papers.
 pub const GRAVITY_MPS2: f64 = 9.81;

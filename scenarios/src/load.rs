@@ -1,12 +1,13 @@
 //! Loading: from the text of a file to a valid scenario, or to the list of all its issues.
 
 mod error;
+mod files;
 mod finite;
 mod position;
 mod shape;
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -82,6 +83,11 @@ impl ScenarioFile {
         &self.text
     }
 
+    /// Where a file lies that it refers to: absolute, or below `shipped:`.
+    pub fn resolve(&self, file: &str) -> PathBuf {
+        files::resolved(file, Path::new(&self.name))
+    }
+
     /// Line of the value of `field`, from 1; `None` if the file does not give it.
     pub fn line_of(&self, field: &str) -> Option<usize> {
         let tree = DeTable::parse(&self.text).ok()?;
@@ -102,8 +108,9 @@ impl ScenarioFile {
         let known = position::without(&tree, unknown_keys.map(|(issue, _)| issue.field.as_str()));
         issues.extend(finite::issues(tree.get_ref()));
         match Scenario::deserialize(Deserializer::from(known)) {
-            Ok(scenario) => {
-                let semantic = self.name_issue(&scenario).into_iter().chain(validate(&scenario));
+            Ok(mut scenario) => {
+                let unread = files::read(&mut scenario.world, Path::new(&self.name));
+                let semantic = self.name_issue(&scenario).into_iter().chain(unread).chain(validate(&scenario));
                 let fresh: Vec<Issue> = semantic.filter(|issue| !is_reported(&issue.field, &issues)).collect();
                 issues.extend(fresh.into_iter().map(|issue| locate(&self.text, tree.get_ref(), issue)));
                 if issues.is_empty() { Ok(scenario) } else { Err(self.invalid(issues)) }

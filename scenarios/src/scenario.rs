@@ -77,7 +77,9 @@ impl Scenario {
         let world = &self.world;
         let ends = world.boxes.iter().map(|it| it.z_m).chain(world.prisms.iter().map(|it| it.z_m));
         let is_level = |vehicle: &Vehicle| vehicle.start.z_m == vehicle.goal.z_m;
-        ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none()) && self.vehicles.iter().all(is_level)
+        ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none())
+            && world.solids().is_empty()
+            && self.vehicles.iter().all(is_level)
     }
 
     /// Limits of the verdict: those of the file, and the defaults of the family for those that it omits.

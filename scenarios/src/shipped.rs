@@ -12,6 +12,9 @@ pub const PREFIX: &str = "shipped:";
 /// Paths below the folder `scenarios`, sorted, and texts.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
+/// The files beside them, such as meshes: paths below the folder `scenarios`, sorted, and contents.
+const ATTACHED: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/attached.rs"));
+
 /// A shipped scenario file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShippedFile {
@@ -37,6 +40,11 @@ impl ShippedFile {
 /// All shipped scenario files, sorted by path.
 pub fn all() -> impl Iterator<Item = ShippedFile> {
     FILES.iter().map(|(path, text)| ShippedFile { path, text })
+}
+
+/// The content of a file beside the shipped scenarios, by its path below their folder: `multirotor/house.stl`.
+pub fn attached(path: &str) -> Option<&'static [u8]> {
+    ATTACHED.iter().find(|(attached, _)| *attached == path).map(|(_, content)| *content)
 }
 
 /// What comes after `shipped:` in a path; `None` for other paths.

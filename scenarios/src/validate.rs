@@ -9,6 +9,7 @@ mod planner;
 pub(crate) mod quantity;
 mod requirement;
 mod simulation;
+mod solids;
 mod vehicle;
 mod verdict;
 mod world;

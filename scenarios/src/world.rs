@@ -2,16 +2,19 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::Range;
+use crate::geometry::Solid;
 
 mod gate;
 mod geofence;
 mod moving_cylinder;
 mod prism;
+mod solid;
 
 pub use gate::{Gate, Window};
 pub use geofence::{Geofence, GeofenceKind};
 pub use moving_cylinder::MovingCylinder;
 pub use prism::{BoxObstacle, Prism};
+pub use solid::{Capsule, Cuboid, Mesh, Sphere, Terrain};
 
 /// Wildcard in [`World::hidden`]: all static obstacles.
 const EVERY_OBSTACLE: &str = "*";
@@ -31,6 +34,21 @@ pub struct World {
     /// Vertical prisms over convex polygons.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prisms: Vec<Prism>,
+    /// Balls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spheres: Vec<Sphere>,
+    /// Straight bars with round ends, at any attitude.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub capsules: Vec<Capsule>,
+    /// Boxes at any attitude.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cuboids: Vec<Cuboid>,
+    /// Triangle meshes from files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub meshes: Vec<Mesh>,
+    /// Ground of varying height from a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<Terrain>,
     /// Altitude of the level ground, m: a load may lie on it, an aircraft crashes into it. Absent: no ground.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ground_m: Option<f64>,
@@ -57,6 +75,11 @@ impl World {
             cylinders: Vec::new(),
             boxes: Vec::new(),
             prisms: Vec::new(),
+            spheres: Vec::new(),
+            capsules: Vec::new(),
+            cuboids: Vec::new(),
+            meshes: Vec::new(),
+            terrain: None,
             ground_m: None,
             gates: Vec::new(),
             geofences: Vec::new(),
@@ -75,12 +98,18 @@ impl World {
         self.with_static_obstacles(|name| !self.is_hidden(name))
     }
 
-    /// The same map with the static obstacles whose names are `wanted`, in the same order. None of them is hidden.
+    /// The same map with the cylinders, boxes and prisms whose names are `wanted`, in the same order, and with all obstacles of
+    /// other shapes at rest. None of them is hidden.
     pub fn with_static_obstacles(&self, wanted: impl Fn(&str) -> bool) -> Self {
         Self {
             cylinders: self.cylinders.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),
+            spheres: self.spheres.clone(),
+            capsules: self.capsules.clone(),
+            cuboids: self.cuboids.clone(),
+            meshes: self.meshes.clone(),
+            terrain: self.terrain.clone(),
             ground_m: self.ground_m,
             gates: self.gates.clone(),
             geofences: self.geofences.clone(),
@@ -94,14 +123,43 @@ impl World {
         self.boxes.iter().map(BoxObstacle::as_prism).chain(prisms).collect()
     }
 
-    /// The names of all obstacles: cylinders, boxes, prisms, moving cylinders.
+    /// The obstacles of other shapes at rest: spheres, capsules, cuboids, meshes, terrain. Those whose files have not been read
+    /// are missing; [`load`](crate::load()) reads them.
+    pub fn solids(&self) -> Vec<Solid> {
+        let closed_form = self.spheres.iter().map(Sphere::solid).chain(self.capsules.iter().map(Capsule::solid));
+        let closed_form = closed_form.chain(self.cuboids.iter().map(Cuboid::solid));
+        closed_form
+            .chain(self.meshes.iter().filter_map(Mesh::solid))
+            .chain(self.terrain.iter().filter_map(Terrain::solid))
+            .collect()
+    }
+
+    /// The lists of obstacles by their keys, each with the names in it. The first three may be hidden.
+    pub fn obstacle_lists(&self) -> [(&'static str, Vec<&str>); 9] {
+        fn names<T>(list: &[T], name: fn(&T) -> &String) -> Vec<&str> {
+            list.iter().map(|it| name(it).as_str()).collect()
+        }
+        [
+            ("cylinders", names(&self.cylinders, |it| &it.name)),
+            ("boxes", names(&self.boxes, |it| &it.name)),
+            ("prisms", names(&self.prisms, |it| &it.name)),
+            ("moving", names(&self.moving, |it| &it.name)),
+            ("spheres", names(&self.spheres, |it| &it.name)),
+            ("capsules", names(&self.capsules, |it| &it.name)),
+            ("cuboids", names(&self.cuboids, |it| &it.name)),
+            ("meshes", names(&self.meshes, |it| &it.name)),
+            ("terrain", names(self.terrain.as_slice(), |it| &it.name)),
+        ]
+    }
+
+    /// The names of all obstacles: cylinders, boxes, prisms, moving cylinders, then the other shapes.
     pub fn obstacle_names(&self) -> impl Iterator<Item = &str> {
-        let cylinders = self.cylinders.iter().map(|cylinder| cylinder.name.as_str());
-        let boxes = self.boxes.iter().map(|block| block.name.as_str());
-        cylinders
-            .chain(boxes)
-            .chain(self.prisms.iter().map(|prism| prism.name.as_str()))
-            .chain(self.moving.iter().map(|moving| moving.name.as_str()))
+        self.obstacle_lists().into_iter().flat_map(|(_, names)| names)
+    }
+
+    /// The names of the obstacles that may be hidden: cylinders, boxes and prisms.
+    pub fn names_that_may_be_hidden(&self) -> impl Iterator<Item = &str> {
+        self.obstacle_lists().into_iter().take(3).flat_map(|(_, names)| names)
     }
 }
 

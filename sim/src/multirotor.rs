@@ -6,7 +6,6 @@ mod arrival;
 mod fleet;
 mod in_loop;
 mod multirotor_sim;
-mod obstacles;
 mod recorded;
 mod reference;
 mod replay;
@@ -14,7 +13,6 @@ mod simulate;
 mod state;
 mod tracker;
 
-pub use obstacles::Obstacles;
 pub use reference::{Reference, ReferencePoint};
 pub use replay::{AppliedControls, Replay};
 pub(crate) use simulate::simulate;

@@ -76,10 +76,32 @@ impl fmt::Display for FieldPath {
     }
 }
 
+/// The fields of a world that name files.
+fn file_fields(world: &mut Table) -> Vec<&mut Value> {
+    let mut fields = Vec::new();
+    for (key, value) in world {
+        let tables: Vec<&mut Table> = match (key.as_str(), value) {
+            ("meshes", Value::Array(meshes)) => meshes.iter_mut().filter_map(Value::as_table_mut).collect(),
+            ("terrain", Value::Table(terrain)) => vec![terrain],
+            _ => Vec::new(),
+        };
+        fields.extend(tables.into_iter().filter_map(|table| table.get_mut("file")));
+    }
+    fields
+}
+
 impl ScenarioDocument {
-    /// The tree of a file that holds a valid scenario.
+    /// The tree of a file that holds a valid scenario. The paths in it become absolute, so that it can be written elsewhere.
     pub fn of(file: &ScenarioFile) -> Self {
-        Self { root: file.text().parse().expect("the text of a valid scenario is TOML") }
+        let mut root: Table = file.text().parse().expect("the text of a valid scenario is TOML");
+        let resolve = |field: &mut Value| {
+            if let Value::String(path) = field {
+                *path = file.resolve(path).to_string_lossy().into_owned();
+            }
+        };
+        let world = root.get_mut("world").and_then(Value::as_table_mut);
+        world.into_iter().flat_map(file_fields).for_each(resolve);
+        Self { root }
     }
 
     /// Name of the scenario.

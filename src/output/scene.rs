@@ -34,6 +34,7 @@ mod paths;
 mod series;
 mod shape;
 pub mod slung_load;
+mod solids;
 mod wind;
 
 use serde::Serialize;

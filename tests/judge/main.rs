@@ -15,5 +15,6 @@ mod requirements;
 mod roundabout;
 mod rules;
 mod simulated;
+mod solids;
 mod sparse_rows;
 mod submitted;

@@ -7,4 +7,5 @@ mod edges;
 mod gusts;
 mod in_loop;
 mod plans;
+mod solids;
 mod together;

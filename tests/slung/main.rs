@@ -11,3 +11,4 @@ mod edges;
 mod flatness;
 #[cfg(feature = "rrd")]
 mod recording;
+mod solids;

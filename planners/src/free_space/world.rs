@@ -18,7 +18,7 @@ pub fn bounds_m(world: &World, is_planar: bool) -> [[f64; 2]; 3] {
     [x, y, if is_planar { altitude_range_m(None) } else { z }]
 }
 
-/// Every static obstacle, with its name.
+/// Every static obstacle, with its name. Those of other shapes are replaced by prisms that contain them.
 pub fn static_obstacles(world: &World) -> impl Iterator<Item = (String, Obstacle)> {
     let cylinders = world.cylinders.iter().map(|cylinder| {
         (cylinder.name.clone(), Obstacle::cylinder(cylinder.center_m, cylinder.radius_m, altitude_range_m(None)))
@@ -27,7 +27,8 @@ pub fn static_obstacles(world: &World) -> impl Iterator<Item = (String, Obstacle
         let obstacle = Obstacle::prism(&prism.corners_m, altitude_range_m(prism.z_m));
         (prism.name, obstacle)
     };
-    cylinders.chain(world.prism_obstacles().into_iter().map(prism))
+    let enclosing = world.solids().into_iter().flat_map(|solid| solid.enclosing_prisms());
+    cylinders.chain(world.prism_obstacles().into_iter().chain(enclosing).map(prism))
 }
 
 /// Lowest and highest altitude, m; infinite where absent.

@@ -23,6 +23,7 @@ mod conflict_detection;
 mod detour;
 mod dubins;
 mod grid;
+mod high_ground;
 mod holding;
 mod initial_guess;
 mod initial_route;
@@ -38,7 +39,7 @@ mod speed;
 
 use std::time::{Duration, Instant};
 
-use scenarios::{FleetRules, Plan, PlanStatus, Scenario, Transcription};
+use scenarios::{FleetRules, Plan, PlanStatus, Scenario, Transcription, World};
 
 use super::options::Options;
 use super::plan;
@@ -51,7 +52,7 @@ use scp_solver::{Coarse, FleetSolution, NoSolution, ScpSolver};
 pub const PLANNER: Planner = Planner {
     name: NAME,
     summary: "Sequential convex programming that holds between the nodes: shooting, rows at closest approach",
-    handles: "fixed-wing fleets among cylinders",
+    handles: "fixed-wing fleets among cylinders and around high ground of a terrain",
     unsupported_reason,
     mode: PlanningMode::BeforeFlight(plan),
 };
@@ -71,6 +72,7 @@ pub fn plan_and_inspect(
     inspect: &dyn Fn(&[Program], &[Solution]),
 ) -> Plan {
     let begin = Instant::now();
+    let scenario = &*high_ground::as_cylinders(scenario);
     let options = Options::fleet(&scenario.planner);
     let max_iterations = options.max_iterations;
     let together = arriving_together(scenario);
@@ -128,5 +130,7 @@ fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     if scenario.planner.transcription == Some(Transcription::Trapezoid) && scenario.planner.name == NAME {
         return Some("its dynamics are `shooting`, not `trapezoid`".to_string());
     }
-    super::unsupported_reason(scenario)
+    let world = World { terrain: None, ..scenario.world.clone() };
+    let above_ground = Scenario { world, ..scenario.clone() };
+    super::unsupported_reason(&above_ground).or_else(|| high_ground::unsupported_reason(scenario))
 }

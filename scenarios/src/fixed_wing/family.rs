@@ -68,12 +68,9 @@ impl Scenario {
 
 fn unsupported(scenario: &Scenario) -> Vec<Issue> {
     let world = &scenario.world;
-    let (shape, enclose) = ("none: fixed wings fly among cylinders", "enclose them in cylinders");
     let sensing = "none: only multirotors sense obstacles";
     let gates = "none: gates are for quadrotors with slung loads";
     let rules = [
-        surplus("world.boxes", world.boxes.len(), 0, shape, enclose),
-        surplus("world.prisms", world.prisms.len(), 0, shape, enclose),
         surplus("world.hidden", world.hidden.len(), 0, sensing, ""),
         surplus("world.moving", world.moving.len(), 0, sensing, ""),
         surplus("world.gates", world.gates.len(), 0, gates, ""),

@@ -9,8 +9,8 @@ use toml::de::{DeTable, DeValue};
 use crate::Issue;
 
 /// Quantities of either sign, where scripts write rounding in place of 0.
-const SIGNED: [&str; 9] =
-    ["x_m", "y_m", "z_m", "center_m", "corners_m", "offset_m", "position_m", "path_m", "velocity_mps"];
+const SIGNED: [&str; 10] =
+    ["x_m", "y_m", "z_m", "center_m", "corners_m", "offset_m", "position_m", "path_m", "ends_m", "velocity_mps"];
 const SIGNED_UNIT: &str = "_deg";
 
 /// Magnitudes of non-zero quantities, in their own units.

@@ -3,6 +3,7 @@
 use super::body::{beyond_geofences, too_near_edges};
 use super::identifier::entity_names;
 use super::quantity::inside;
+use crate::geometry::Solid;
 use crate::{Issue, Scenario, Vehicle, World, closest_name};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
@@ -68,6 +69,13 @@ pub(crate) fn outside_map(world: &World, field: &str, position_m: [f64; 3]) -> V
     axes.filter_map(|((axis, value), range)| inside(&format!("{field}.{axis}"), value, range, "the map")).collect()
 }
 
+fn inside_solid(solid: &Solid, field: &str, point_m: [f64; 3]) -> Issue {
+    let ([x_m, y_m, z_m], side) = (point_m, if solid.is_terrain() { "below" } else { "inside" });
+    let depth_m = solid.signed_distance_m(point_m).abs();
+    let found = format!("({x_m}, {y_m}, {z_m}) m, {side} `{}`, {depth_m:.3} m from its surface", solid.name());
+    Issue::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
+}
+
 pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64; 3]) -> Vec<Issue> {
     let cylinders =
         world.cylinders.iter().map(|cylinder| (cylinder.name.clone(), cylinder.signed_distance_m(x_m, y_m)));
@@ -78,5 +86,7 @@ pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64;
         let found = format!("({x_m}, {y_m}) m, {:.3} m inside `{name}`", -distance_m);
         Issue::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
     };
-    cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(issue).collect()
+    let upright = cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(issue);
+    let enclosing = world.solids().into_iter().filter(|solid| solid.encloses([x_m, y_m, z_m]));
+    upright.chain(enclosing.map(|solid| inside_solid(&solid, field, [x_m, y_m, z_m]))).collect()
 }

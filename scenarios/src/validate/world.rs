@@ -23,6 +23,7 @@ pub(super) fn issues(world: &World) -> Vec<Issue> {
     issues.extend(world.gates.iter().enumerate().flat_map(|(index, gate)| gate_issues(index, gate)));
     issues.extend(entity_names("world.geofences", world.geofences.iter().map(|fence| fence.name.as_str())));
     issues.extend(world.geofences.iter().enumerate().flat_map(|(index, fence)| geofence_issues(index, fence)));
+    issues.extend(super::solids::issues(world));
     issues.extend(names_in_two_lists(world));
     issues.extend(world.hidden.iter().enumerate().filter_map(|(index, name)| unknown_hidden(world, index, name)));
     issues
@@ -45,14 +46,13 @@ fn moving_issues(index: usize, moving: &MovingCylinder) -> Vec<Issue> {
 
 /// The name of a hidden obstacle must exist.
 fn unknown_hidden(world: &World, index: usize, name: &str) -> Option<Issue> {
-    let static_world = World { moving: Vec::new(), ..world.clone() };
-    let names: Vec<&str> = static_world.obstacle_names().collect();
+    let names: Vec<&str> = world.names_that_may_be_hidden().collect();
     let expected = "the name of a cylinder, a box or a prism, or \"*\" for all of them";
     let issue = Issue::new(format!("world.hidden[{index}]"), format!("\"{name}\""), expected);
     let is_known = name == "*" || names.contains(&name);
     (!is_known).then(|| match closest_name(name, names) {
         Some(known) => issue.remedy(format!("did you mean \"{known}\"?")),
-        None => issue.remedy("moving obstacles are always sensed"),
+        None => issue.remedy("moving obstacles are always sensed; obstacles of other shapes are always known"),
     })
 }
 
@@ -103,19 +103,15 @@ fn prism_issues(index: usize, prism: &Prism) -> Vec<Issue> {
 
 /// Names shared by obstacles of two kinds. Duplicates within one kind are reported with that kind.
 fn names_in_two_lists(world: &World) -> Vec<Issue> {
-    let kinds: [(&str, Vec<&str>); 4] = [
-        ("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str()).collect()),
-        ("world.boxes", world.boxes.iter().map(|block| block.name.as_str()).collect()),
-        ("world.prisms", world.prisms.iter().map(|prism| prism.name.as_str()).collect()),
-        ("world.moving", world.moving.iter().map(|moving| moving.name.as_str()).collect()),
-    ];
+    let kinds = world.obstacle_lists().map(|(list, names)| (format!("world.{list}"), names));
     let mut issues = Vec::new();
     for (later, (kind, names)) in kinds.iter().enumerate() {
+        let field = |index| if kind == "world.terrain" { kind.clone() } else { format!("{kind}[{index}]") };
         for (index, name) in names.iter().enumerate() {
             if let Some((earlier, _)) = kinds[..later].iter().find(|(_, others)| others.contains(name)) {
                 let expected = format!("a unique name; an obstacle in {earlier} has the same");
                 issues.push(
-                    Issue::new(format!("{kind}[{index}].name"), format!("\"{name}\""), expected)
+                    Issue::new(format!("{}.name", field(index)), format!("\"{name}\""), expected)
                         .remedy("rename one of them"),
                 );
             }

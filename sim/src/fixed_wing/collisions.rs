@@ -3,6 +3,7 @@ use scenarios::Cylinder;
 
 use crate::collision::time_of_impact;
 use crate::flight::Sample;
+use crate::obstacles::Obstacles as OtherObstacles;
 
 /// First contact of two aircraft, or of an aircraft and an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,13 +23,15 @@ pub(super) struct Collision {
 pub(super) enum Obstacle {
     Aircraft(usize),
     Cylinder(usize),
+    Other(usize),
     Ground,
 }
 
 /// What aircraft collide with, beside each other.
-#[derive(Clone, Copy)]
 pub(super) struct Obstacles<'a> {
     pub cylinders: &'a [Cylinder],
+    /// Those of all other shapes, at rest.
+    pub others: OtherObstacles,
     /// Altitude of the ground, if there is one, m.
     pub ground_m: Option<f64>,
 }
@@ -45,7 +48,7 @@ pub(super) struct SweptPath<'a> {
 /// contact only. Contacts between two steps are found, too.
 ///
 /// Candidate pairs are found by sweep and prune along x.
-pub(super) fn collisions(paths: &[SweptPath<'_>], obstacles: Obstacles<'_>) -> Vec<Collision> {
+pub(super) fn collisions(paths: &[SweptPath<'_>], obstacles: &Obstacles<'_>) -> Vec<Collision> {
     let mut swept: Vec<BoundedPath<'_>> = paths.iter().map(|path| BoundedPath::new(*path)).collect();
     swept.sort_by(|a, b| a.west_m().total_cmp(&b.west_m()));
     let mut found: Vec<Collision> = Vec::new();
@@ -54,6 +57,7 @@ pub(super) fn collisions(paths: &[SweptPath<'_>], obstacles: Obstacles<'_>) -> V
         found.extend(overlapping.filter_map(|second| first.collision(second)));
         let cylinders = obstacles.cylinders.iter().enumerate();
         found.extend(cylinders.filter_map(|(index, cylinder)| first.collision_with_cylinder(index, cylinder)));
+        found.extend(first.collision_with_others(&obstacles.others));
         found.extend(obstacles.ground_m.and_then(|ground_m| first.collision_with_ground(ground_m)));
     }
     let when = |collision: &Collision| collision.step as f64 + collision.fraction;
@@ -106,6 +110,19 @@ impl<'a> BoundedPath<'a> {
         let (step, fraction) =
             self.first_step(|step| time_of_impact(&relative_m(step), &relative_m(step + 1), reach_m))?;
         Some(Collision { step, fraction, aircraft: self.path.aircraft, with: Obstacle::Cylinder(index) })
+    }
+
+    /// The first contact with an obstacle of another shape.
+    fn collision_with_others(&self, others: &OtherObstacles) -> Option<Collision> {
+        let is_near = |other| others.distance_m(other, 0.0, self.center_m.into()) <= self.reach_m;
+        if !(0..others.count()).any(is_near) {
+            return None;
+        }
+        let ends_m = |step: usize| [step, step + 1].map(|index| position_m(&self.path.samples[index]));
+        let contact = |step: usize| others.time_of_impact([0.0, 1.0], ends_m(step), self.path.radius_m);
+        let (step, (fraction, other)) =
+            (0..self.path.samples.len() - 1).find_map(|step| Some((step, contact(step)?)))?;
+        Some(Collision { step, fraction, aircraft: self.path.aircraft, with: Obstacle::Other(other) })
     }
 
     fn collision_with_ground(&self, ground_m: f64) -> Option<Collision> {

@@ -8,6 +8,7 @@ use super::collisions::{Collision, Obstacle, Obstacles, SweptPath, collisions};
 use crate::collision::GROUND;
 use crate::flight::{Event, EventKind, FleetLog};
 use crate::kinematics::PointState;
+use crate::obstacles::Obstacles as OtherObstacles;
 use crate::request::FlightRequest;
 use crate::start;
 
@@ -56,7 +57,9 @@ impl<'a> Fleet<'a> {
             batch.add(aircraft, scenario.simulation.mismatch.mass_ratio, &start);
         }
         batches.par_iter_mut().for_each(AircraftBatch::begin);
-        let obstacles = Obstacles { cylinders: &scenario.world.cylinders, ground_m: scenario.world.ground_m };
+        let world = &scenario.world;
+        let others = OtherObstacles::beyond_cylinders(world);
+        let obstacles = Obstacles { cylinders: &world.cylinders, others, ground_m: world.ground_m };
         Self { batches, obstacles, step_s, events: Vec::new() }
     }
 
@@ -83,7 +86,7 @@ impl<'a> Fleet<'a> {
                 samples: &aircraft.samples()[first..],
             })
             .collect();
-        collisions(&paths, self.obstacles)
+        collisions(&paths, &self.obstacles)
     }
 
     /// Removes the aircraft that collided, unless one of them had been removed before.
@@ -91,6 +94,7 @@ impl<'a> Fleet<'a> {
         let (crashed, obstacle) = match collision.with {
             Obstacle::Aircraft(other) => (vec![collision.aircraft, other], None),
             Obstacle::Cylinder(index) => (vec![collision.aircraft], Some(self.obstacles.cylinders[index].name.clone())),
+            Obstacle::Other(index) => (vec![collision.aircraft], Some(self.obstacles.others.name(index).to_owned())),
             Obstacle::Ground => (vec![collision.aircraft], Some(GROUND.to_owned())),
         };
         if !crashed.iter().all(|index| self.aircraft(*index).is_flying()) {

@@ -1,11 +1,11 @@
 use scenarios::multirotor::Plant;
 
 use super::multirotor_sim::MultirotorSim;
-use super::obstacles::Obstacles;
 use super::reference::Reference;
 use super::state::{MultirotorState, NavigationState};
 use crate::collision::time_of_impact;
 use crate::flight::{Event, EventKind, VehicleLog};
+use crate::obstacles::Obstacles;
 use crate::plant_steps::PlantSteps;
 use crate::rapier_world::RapierWorld;
 use crate::request::FlightRequest;

@@ -5,13 +5,16 @@ mod distance;
 mod golden_section;
 mod own_body;
 mod penetration;
+mod solid;
 
 use scenarios::Prism;
+use scenarios::geometry::Solid;
 use scenarios::slung_load::Model;
 
 use self::convex_part::ConvexPart;
 pub use self::distance::{OVERHANG_M, SeparatingPlane};
 use self::distance::{point_to_prism_m, to_prism, to_prism_m};
+use self::solid::{to_solid_lower_bound_m, to_solid_m};
 use super::state::SlungLoadState;
 
 /// A part of a quadrotor with a load.
@@ -56,32 +59,18 @@ impl Parts {
 
     /// Signed distance between a part and an obstacle, whose corners are counterclockwise, m: negative if they overlap.
     pub fn distance_m(&self, part: Part, state: &SlungLoadState, obstacle: &Prism) -> f64 {
-        match part {
-            Part::Body => {
-                let disc = ConvexPart::Disc {
-                    center_m: state.position_m,
-                    axis: state.thrust_axis(),
-                    radius_m: self.body_radius_m,
-                };
-                to_prism_m(&disc, obstacle)
-            }
-            Part::Cable => {
-                to_prism_m(&ConvexPart::Line { ends_m: [state.position_m, state.load_position_m] }, obstacle)
-            }
-            Part::Load => point_to_prism_m(&state.load_position_m, obstacle) - self.load_radius_m,
+        match self.convex_part(part, state) {
+            Some(convex) => to_prism_m(&convex, obstacle),
+            None => point_to_prism_m(&state.load_position_m, obstacle) - self.load_radius_m,
         }
     }
 
     /// Signed distance as [`distance_m`](Self::distance_m), and the plane that separates obstacle and part (for the load, its
     /// centre) best, if they do not overlap, or least badly.
     pub fn distance_and_plane(&self, part: Part, state: &SlungLoadState, obstacle: &Prism) -> (f64, SeparatingPlane) {
-        match part {
-            Part::Body => {
-                let (center_m, axis) = (state.position_m, state.thrust_axis());
-                to_prism(&ConvexPart::Disc { center_m, axis, radius_m: self.body_radius_m }, obstacle)
-            }
-            Part::Cable => to_prism(&ConvexPart::Line { ends_m: [state.position_m, state.load_position_m] }, obstacle),
-            Part::Load => {
+        match self.convex_part(part, state) {
+            Some(convex) => to_prism(&convex, obstacle),
+            None => {
                 let plane = to_prism(&ConvexPart::Line { ends_m: [state.load_position_m; 2] }, obstacle).1;
                 (self.distance_m(part, state, obstacle), plane)
             }
@@ -97,6 +86,32 @@ impl Parts {
                 point_to_prism_m(&middle_m, obstacle) - state.cable_m().norm() / 2.0
             }
             Part::Load => self.distance_m(part, state, obstacle),
+        }
+    }
+
+    /// Signed distance between a part and an obstacle of any shape, m: negative if they overlap.
+    pub fn distance_to_solid_m(&self, part: Part, state: &SlungLoadState, solid: &Solid) -> f64 {
+        match self.convex_part(part, state) {
+            Some(convex) => to_solid_m(&convex, solid),
+            None => solid.signed_distance_m(state.load_position_m.into()) - self.load_radius_m,
+        }
+    }
+
+    /// A cheap lower bound of [`distance_to_solid_m`](Self::distance_to_solid_m), m.
+    pub fn distance_to_solid_lower_bound_m(&self, part: Part, state: &SlungLoadState, solid: &Solid) -> f64 {
+        match self.convex_part(part, state) {
+            Some(convex) => to_solid_lower_bound_m(&convex, solid),
+            None => self.distance_to_solid_m(part, state, solid),
+        }
+    }
+
+    /// Disc or line; `None` for the load, which is a ball.
+    fn convex_part(&self, part: Part, state: &SlungLoadState) -> Option<ConvexPart> {
+        let (center_m, axis, radius_m) = (state.position_m, state.thrust_axis(), self.body_radius_m);
+        match part {
+            Part::Body => Some(ConvexPart::Disc { center_m, axis, radius_m }),
+            Part::Cable => Some(ConvexPart::Line { ends_m: [state.position_m, state.load_position_m] }),
+            Part::Load => None,
         }
     }
 

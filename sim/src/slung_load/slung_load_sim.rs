@@ -1,4 +1,5 @@
 use nalgebra::{Vector3, Vector4};
+use scenarios::geometry::Solid;
 use scenarios::slung_load::{Cable, Control, Model, Trajectory};
 use scenarios::{Plan, Prism, Vehicle};
 
@@ -49,6 +50,7 @@ struct SlungLoadSim {
     delay: Delay<SlungLoadState>,
     air: Air,
     obstacles: Vec<Prism>,
+    solids: Vec<Solid>,
     parts: Parts,
     ground_m: Option<f64>,
     step_s: f64,
@@ -84,6 +86,7 @@ impl SlungLoadSim {
             delay: Delay::new(settings.sensors.delay_s, settings.step_s),
             air: Air::new(request, vehicle, &start.quadrotor()),
             obstacles: scenario.world.prism_obstacles(),
+            solids: scenario.world.solids(),
             parts: Parts::new(&model),
             ground_m: scenario.world.ground_m,
             step_s: settings.step_s,
@@ -192,7 +195,16 @@ impl SlungLoadSim {
         };
         let ground =
             self.ground_m.filter(|ground_m| self.parts.height_m(&state) <= *ground_m).map(|_| GROUND.to_owned());
-        ground.or_else(|| self.obstacles.iter().find(touches).map(|obstacle| obstacle.name.clone()))
+        let touches_solid = |solid: &&Solid| {
+            let is_clear = |part: &Part| {
+                self.parts.distance_to_solid_lower_bound_m(*part, &state, solid) > 0.0
+                    || self.parts.distance_to_solid_m(*part, &state, solid) > 0.0
+            };
+            !Part::ALL.iter().all(is_clear)
+        };
+        let prism = || self.obstacles.iter().find(touches).map(|obstacle| obstacle.name.clone());
+        let solid = || self.solids.iter().find(touches_solid).map(|solid| solid.name().to_owned());
+        ground.or_else(prism).or_else(solid)
     }
 
     /// Advances the plant by one step under commanded thrusts, N, or until it touches something: returns the time, s, and

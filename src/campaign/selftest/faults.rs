@@ -2,6 +2,7 @@ mod conditions;
 pub mod log;
 pub mod places;
 pub mod plan;
+mod solids;
 pub mod tightened_limits;
 
 use self::tightened_limits::FamilyLimits;

@@ -22,19 +22,22 @@ pub(super) fn candidates(check: &Check, scenario: &Scenario) -> Vec<String> {
 /// The obstacles concerned; the map and the ground limit vehicles too.
 fn obstacles(check: &Check, scenario: &Scenario) -> Vec<String> {
     let world = &scenario.world;
-    let named = [
-        list("cylinders", check, world.cylinders.iter().map(|cylinder| &cylinder.name)),
-        list("boxes", check, world.boxes.iter().map(|box_obstacle| &box_obstacle.name)),
-        list("prisms", check, world.prisms.iter().map(|prism| &prism.name)),
-        list("moving", check, world.moving.iter().map(|moving| &moving.name)),
-    ];
+    let named = world.obstacle_lists().into_iter().flat_map(|(key, names)| match key {
+        "terrain" => names
+            .iter()
+            .any(|name| check.between.iter().any(|it| it == name))
+            .then(|| "world.terrain.file".to_owned())
+            .into_iter()
+            .collect(),
+        key => list(key, check, names.into_iter()),
+    });
     let bounds = [("ground", "world.ground_m"), ("map frame", "world.map")];
     let bounds = bounds.into_iter().filter(|(name, _)| check.between.iter().any(|concerned| concerned == name));
-    named.into_iter().flatten().chain(bounds.map(|(_, field)| field.to_owned())).collect()
+    named.chain(bounds.map(|(_, field)| field.to_owned())).collect()
 }
 
 fn gates(check: &Check, scenario: &Scenario) -> Vec<String> {
-    list("gates", check, scenario.world.gates.iter().map(|gate| &gate.name))
+    list("gates", check, scenario.world.gates.iter().map(|gate| gate.name.as_str()))
 }
 
 /// The formula of the requirement that the check is about.
@@ -44,12 +47,12 @@ fn requirement(check: &Check, scenario: &Scenario) -> Option<String> {
 }
 
 fn geofences(check: &Check, scenario: &Scenario) -> Vec<String> {
-    list("geofences", check, scenario.world.geofences.iter().map(|fence| &fence.name))
+    list("geofences", check, scenario.world.geofences.iter().map(|fence| fence.name.as_str()))
 }
 
 /// The entries of a list of the world that the check names.
-fn list<'a>(list: &str, check: &Check, names: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let concerned = names.enumerate().filter(|(_, name)| check.between.contains(name));
+fn list<'a>(list: &str, check: &Check, names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let concerned = names.enumerate().filter(|(_, name)| check.between.iter().any(|it| it == name));
     concerned.map(|(index, _)| format!("world.{list}[{index}].name")).collect()
 }
 

@@ -84,6 +84,9 @@ fn surface_point_m(world: &World, obstacle: &str, at_s: f64, from_m: [f64; 3]) -
         let z = moving.z_m.map_or(z, |range| z.clamp(range.min, range.max));
         return Some(at_height(circle_point_m(moving.position_m(at_s), moving.radius_m, [x, y]), z));
     }
+    if let Some(solid) = world.solids().iter().find(|solid| solid.name() == obstacle) {
+        return Some(solid.nearest(from_m).point_m);
+    }
     let prism = world.prism_obstacles().into_iter().find(|prism| prism.name == obstacle)?;
     let z = prism.z_m.map_or(z, |range| z.clamp(range.min, range.max));
     Some(at_height(polygon_point_m(&prism, [x, y])?, z))

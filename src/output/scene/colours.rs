@@ -44,6 +44,12 @@ pub fn vehicle(index: usize, count: usize) -> [u8; 3] {
     rgb_from_hsl(hue_deg, 0.85, lightness)
 }
 
+/// Colour of terrain at a fraction of its range of heights: from dark green to the grey of rock.
+pub fn terrain(fraction: f64) -> [u8; 3] {
+    let (low, high) = ([58.0, 84.0, 62.0], [196.0, 190.0, 176.0]);
+    std::array::from_fn(|channel| (low[channel] + fraction * (high[channel] - low[channel])) as u8)
+}
+
 /// The dimmed variant of a colour: planned paths, starts.
 pub fn dimmed(colour: [u8; 3]) -> [u8; 3] {
     colour.map(|channel| (f64::from(channel) * DIMMED_BRIGHTNESS) as u8)

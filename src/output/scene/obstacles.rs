@@ -4,6 +4,7 @@ use scenarios::{MovingCylinder, Prism, Range, Scenario};
 use sim::{EventKind, Flight};
 
 use super::map::middle;
+use super::solids;
 use super::{Body, BodyKind, Changes, Cylinder, Cylinders, Lines, Paint, Part, Pose, Scene, colours, item_path};
 use crate::output::run::JudgedRun;
 
@@ -17,6 +18,7 @@ const INTERVAL_S: f64 = 0.05;
 /// Adds all obstacles.
 pub(super) fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>) {
     add_known(scene, run.scenario);
+    solids::add(scene, &run.scenario.world);
     add_hidden(scene, run.scenario, run.flight);
     for moving in &run.scenario.world.moving {
         add_moving(scene, moving, run.scenario.world.map.z_m);

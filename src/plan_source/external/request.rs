@@ -33,12 +33,17 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
     })
 }
 
-/// Map, static obstacles (boxes as prisms), ground, gates and geofences.
+/// Map, static obstacles (boxes as prisms; files of meshes and terrain by their absolute paths), ground, gates and geofences.
 pub(super) fn world(world: &World) -> Value {
     json!({
         "map": world.map,
         "cylinders": world.cylinders,
         "prisms": world.prism_obstacles(),
+        "spheres": world.spheres,
+        "capsules": world.capsules,
+        "cuboids": world.cuboids,
+        "meshes": world.meshes,
+        "terrain": world.terrain,
         "ground_m": world.ground_m,
         "gates": world.gates,
         "geofences": world.geofences,

@@ -1,11 +1,11 @@
-//! Clearance: the smallest distance from the body of any aircraft, a sphere, to the surface of any cylinder or to the ground,
+//! Clearance: the smallest distance from the body of any aircraft, a sphere, to the surface of any obstacle or to the ground,
 //! over continuous time.
 //!
 //! Cylinders are unbounded, so that the distance from them is horizontal. The limit is 0: what is to be kept beyond the
 //! airframe is part of a threat's radius.
 
-use scenarios::{CheckSpec, Plan, Scenario};
-use sim::GROUND;
+use scenarios::{CheckSpec, Plan, Scenario, World};
+use sim::{GROUND, Obstacles};
 
 use crate::verdict::closest::{self, ClosestApproach};
 use crate::verdict::collision::{body_radii_m, crash, is_contact};
@@ -14,6 +14,7 @@ use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::map_bounds::extremes_m;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
+use crate::verdict::obstacle_approach;
 
 /// Over continuous time.
 ///
@@ -41,7 +42,8 @@ fn against_obstacles<T: ?Sized>(
     evidence: Evidence<'_, T>,
     measure: impl Fn(&T) -> Result<Option<ClosestApproach>, MissingEvidence>,
 ) -> CheckResult {
-    if scenario.world.cylinders.is_empty() && scenario.world.ground_m.is_none() {
+    let world = &scenario.world;
+    if world.obstacle_names().next().is_none() && world.ground_m.is_none() {
         return Ok(spec.skip("there are no obstacles"));
     }
     let closest = measure(evidence?)?.ok_or(MissingEvidence::NoApproach)?;
@@ -52,11 +54,17 @@ fn against_obstacles<T: ?Sized>(
 /// Names of the vehicle and the obstacle that an approach is between.
 fn names<'a>(scenario: &'a Scenario, approach: &ClosestApproach) -> [&'a str; 2] {
     let [vehicle, obstacle] = approach.who;
-    let cylinder = scenario.world.cylinders.get(obstacle);
-    [&scenario.vehicles[vehicle].name, cylinder.map_or(GROUND, |cylinder| cylinder.name.as_str())]
+    [&scenario.vehicles[vehicle].name, obstacle_name(&scenario.world, obstacle)]
 }
 
-/// The crash of the first airframe that enters a cylinder or touches the ground; `None` if none does.
+/// Name of an obstacle by its index: cylinders, the ground, then boxes, prisms and the other shapes.
+fn obstacle_name(world: &World, obstacle: usize) -> &str {
+    let others = world.obstacle_lists().into_iter().filter(|(list, _)| !["cylinders", "moving"].contains(list));
+    let cylinders = world.cylinders.iter().map(|cylinder| cylinder.name.as_str());
+    cylinders.chain([GROUND]).chain(others.flat_map(|(_, names)| names)).nth(obstacle).unwrap_or_default()
+}
+
+/// The crash of the first airframe that enters an obstacle or touches the ground; `None` if none does.
 pub fn entered_obstacle(scenario: &Scenario, motions: &[Motion]) -> Option<Measurement> {
     let radii_m = body_radii_m(scenario);
     let entered = motions.iter().zip(&radii_m).enumerate().find_map(|(index, (motion, &radius_m))| {
@@ -66,8 +74,8 @@ pub fn entered_obstacle(scenario: &Scenario, motions: &[Motion]) -> Option<Measu
     Some(crash(entered.at_s, names(scenario, &entered)))
 }
 
-/// Closest approach of any body to an obstacle: an index of a cylinder, or their number for the ground. `None` without
-/// motions or obstacles.
+/// Closest approach of any body to an obstacle, by its index: cylinders, the ground, then boxes, prisms and the other shapes.
+/// `None` without motions or obstacles.
 pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ClosestApproach> {
     closest_of(scenario, motions, &body_radii_m(scenario))
 }
@@ -88,7 +96,23 @@ fn closest_of(scenario: &Scenario, motions: &[Motion], radii_m: &[f64]) -> Optio
         });
         heights.reduce(closer)
     });
-    closest::to_cylinders(motions, radii_m, cylinders).into_iter().chain(to_ground).reduce(closer)
+    let to_others = to_others(&scenario.world, motions, radii_m);
+    closest::to_cylinders(motions, radii_m, cylinders).into_iter().chain(to_ground).chain(to_others).reduce(closer)
+}
+
+/// How close the bounds of a distance from an obstacle that is not a cylinder are, m: 1 mm, or 1/1000 of a larger distance. In
+/// level flight over level ground every instant is the closest one, and the search visits all of them.
+fn resolution_m(distance_m: f64) -> f64 {
+    1e-3 * distance_m.abs().max(1.0)
+}
+
+/// Closest approach of any body to an obstacle that is not a cylinder. `None` without either.
+fn to_others(world: &World, motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
+    let obstacles = Obstacles::beyond_cylinders(world);
+    let found = obstacle_approach::closest(&obstacles, None, motions, radii_m, resolution_m)?;
+    let obstacle = world.cylinders.len() + 1 + found.obstacle?;
+    let obstacle_approach::ClosestApproach { lower_m, upper_m, at_s, vehicle, .. } = found;
+    Some(ClosestApproach { lower_m, upper_m, at_s, who: [vehicle, obstacle] })
 }
 
 /// Closest obstacle of a body at a node. `None` without nodes or obstacles.
@@ -101,15 +125,14 @@ pub fn at_nodes(scenario: &Scenario, plan: &Plan) -> Option<ClosestApproach> {
 }
 
 /// Closest obstacle of the body of a vehicle, by its index, at a position. `None` without obstacles.
-pub fn at_instant(
-    scenario: &Scenario,
-    vehicle: usize,
-    at_s: f64,
-    [x_m, y_m, z_m]: [f64; 3],
-) -> Option<ClosestApproach> {
-    let world = &scenario.world;
+pub fn at_instant(scenario: &Scenario, vehicle: usize, at_s: f64, position_m: [f64; 3]) -> Option<ClosestApproach> {
+    let (world, [x_m, y_m, z_m]) = (&scenario.world, position_m);
     let cylinders = world.cylinders.iter().map(|cylinder| cylinder.signed_distance_m(x_m, y_m));
-    let distances_m = cylinders.chain(world.ground_m.map(|ground_m| z_m - ground_m)).enumerate();
+    let to_ground = world.ground_m.map(|ground_m| (world.cylinders.len(), z_m - ground_m));
+    let others = Obstacles::beyond_cylinders(world);
+    let to_others =
+        (0..others.count()).map(|it| (world.cylinders.len() + 1 + it, others.distance_m(it, at_s, position_m)));
+    let distances_m = cylinders.enumerate().chain(to_ground).chain(to_others);
     let radius_m = scenario.fixed_wing_model(scenario.vehicles.get(vehicle)?).body_radius_m;
     let approaches = distances_m.map(|(obstacle, distance_m)| {
         let distance_m = distance_m - radius_m;

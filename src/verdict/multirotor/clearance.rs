@@ -2,23 +2,20 @@
 //! and to the map's frame, over continuous time.
 //!
 //! A flight is known at its samples only: its [deviation](Motion::deviation_m) from the curve through them enlarges the
-//! vehicle in the [search] and widens the bounds.
-
-pub mod search;
+//! vehicle in the [search](obstacle_approach) and widens the bounds.
 
 use scenarios::{CheckSpec, Scenario};
-use sim::multirotor::Obstacles;
+use sim::Obstacles;
 
-use self::search::{Approach, Body, Effort, PathLengths, Search};
-use crate::verdict::collision::{GRAZE_M, crash};
+use crate::verdict::collision::{GRAZE_M, body_radii_m, crash};
 use crate::verdict::compare::is_smaller;
 use crate::verdict::evidence::{CheckResult, Decide, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::Motion;
+use crate::verdict::obstacle_approach::{self, ClosestApproach};
 
-/// The judge searches until the bounds are this close, m, and no more intervals than this; beyond them the bounds stay apart
-/// and the check may be undecided.
-const EFFORT: Effort = Effort { resolution_m: |_| 1e-4, uses_convexity: false, max_intervals: 20_000_000 };
+/// How close the bounds of a clearance are, m.
+const RESOLUTION_M: f64 = 1e-4;
 /// Name of the map's frame in reports.
 pub const FRAME: &str = "map frame";
 
@@ -64,16 +61,10 @@ pub fn check_nodes(spec: &CheckSpec, scenario: &Scenario, motions: &[Motion]) ->
 /// The closest approach of any vehicle to any obstacle or to the frame. `None` without vehicles.
 pub fn closest(scenario: &Scenario, motions: &[Motion]) -> Option<ObstacleApproach> {
     let obstacles = Obstacles::new(&scenario.world);
-    let mut search = Search::new(&obstacles, EFFORT);
-    let mut lengths = PathLengths::default();
-    for (vehicle, motion) in motions.iter().enumerate() {
-        let reach_m = scenario.multirotor_model(&scenario.vehicles[vehicle]).body_radius_m + motion.deviation_m();
-        lengths.measure(motion);
-        search.add(&scenario.world.map, Body { vehicle, motion, lengths: &lengths, reach_m });
-    }
-    let (Approach { distance_m, at_s, vehicle, obstacle }, lower_m) = search.found()?;
-    let upper_m = distance_m + 2.0 * motions[vehicle].deviation_m();
-    let obstacle = obstacle.map_or(FRAME, |obstacle| obstacles.name(obstacle)).to_owned();
+    let (map, radii_m) = (&scenario.world.map, body_radii_m(scenario));
+    let found = obstacle_approach::closest(&obstacles, Some(map), motions, &radii_m, |_| RESOLUTION_M)?;
+    let obstacle = found.obstacle.map_or(FRAME, |obstacle| obstacles.name(obstacle)).to_owned();
+    let ClosestApproach { lower_m, upper_m, at_s, vehicle, .. } = found;
     Some(ObstacleApproach { lower_m, upper_m, at_s, vehicle, obstacle })
 }
 

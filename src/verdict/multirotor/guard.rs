@@ -33,17 +33,17 @@
 //! ```
 
 use scenarios::{AppliedLimits, CheckSpec, Family, Scenario, World, check_spec, closest_name};
-use sim::multirotor::Obstacles;
+use sim::Obstacles;
 use thiserror::Error;
 
 use super::between_nodes::BetweenNodes;
 use super::clearance::FRAME;
-use super::clearance::search::{Approach, Body, Effort, PathLengths, Search};
 use super::limits::Limited;
 use crate::verdict::Status;
 use crate::verdict::compare::exceeds;
 use crate::verdict::evidence::{status_at_least, status_at_most, status_inside};
 use crate::verdict::motion::{KnotDefect, Motion};
+use crate::verdict::obstacle_approach::search::{Approach, Body, Effort, PathLengths, Search};
 use crate::verdict::worst::Worst;
 
 pub use crate::verdict::motion::Knot;
@@ -254,7 +254,9 @@ impl Guard {
         let reach_m = self.scenario.multirotor_model(vehicle).body_radius_m;
         let mut search = Search::new(&self.obstacles, EFFORT);
         let (vehicle, motion, lengths) = (self.vehicle, &self.motion, &self.lengths);
-        search.add(&self.scenario.world.map, Body { vehicle, motion, lengths, reach_m });
+        let body = Body { vehicle, motion, lengths, reach_m };
+        search.add_frame(&self.scenario.world.map, body);
+        search.add_obstacles(body);
         let Some((Approach { distance_m, at_s, obstacle, .. }, lower_m)) = search.found() else {
             return Margin::without_value(spec.name, spec.unit, Status::Fail);
         };

@@ -1,5 +1,6 @@
 //! What formulas are about: bodies, obstacles, geofences and logs.
 
+use scenarios::geometry::Solid;
 use scenarios::requirement::{Quantity, Subject};
 use scenarios::{Cylinder, Geofence, GeofenceKind, MovingCylinder, Prism, Scenario};
 use sim::{Flight, Sample};
@@ -21,7 +22,7 @@ pub struct Scene<'a> {
 
 /// An obstacle by its name, in space and as seen from above.
 pub struct Obstacle<'a> {
-    pub name: &'a str,
+    pub name: String,
     pub shape: Shape<'a>,
 }
 
@@ -33,6 +34,8 @@ pub enum Shape<'a> {
     Prism([Geofence; 2]),
     /// The same.
     Moving([MovingCylinder; 2]),
+    /// Any other shape.
+    Solid(Solid),
 }
 
 impl<'a> Scene<'a> {
@@ -46,7 +49,9 @@ impl<'a> Scene<'a> {
             let seen_from_above = MovingCylinder { z_m: None, ..it.clone() };
             (it.name.as_str(), Shape::Moving([it.clone(), seen_from_above]))
         });
-        let obstacles = cylinders.chain(boxes).chain(prisms).chain(moving);
+        let upright = cylinders.chain(boxes).chain(prisms).chain(moving).map(|(name, shape)| (name.to_owned(), shape));
+        let solids = world.solids().into_iter().map(|it| (it.name().to_owned(), Shape::Solid(it)));
+        let obstacles = upright.chain(solids);
         let inside = |fence: &Geofence| Geofence { kind: GeofenceKind::StayIn, ..fence.clone() };
         Self {
             scenario,

@@ -1,6 +1,7 @@
 //! Signals and terms over a cell of time, as [`Jet`]s.
 
 use scenarios::Geofence;
+use scenarios::geometry::Solid;
 use scenarios::requirement::{Quantity, Signal, Target, Term};
 
 use crate::verdict::requirements::body::Enclosure;
@@ -120,6 +121,7 @@ impl Instance<'_> {
                 range(&from_point(it, [x, y, 0.0]), true).plus(Jet::constant(-cylinder.radius_m))
             }
             Shape::Prism(volumes) => self.to_volume(&volumes[usize::from(is_horizontal)], body, it, cell),
+            Shape::Solid(solid) => self.to_solid(solid, is_horizontal, body, it, cell),
             Shape::Moving(cylinders) => {
                 // Neither the vehicle nor the obstacle moves farther than its speed takes it.
                 let cylinder = &cylinders[usize::from(is_horizontal)];
@@ -133,6 +135,20 @@ impl Instance<'_> {
                 Jet { value, slope, error: it.errors[0] }
             }
         }
+    }
+
+    /// The distance changes by no more than the body moves. Seen from above it is not known.
+    fn to_solid(&self, solid: &Solid, is_horizontal: bool, body: usize, it: &Enclosure, cell: [f64; 2]) -> Jet {
+        if is_horizontal {
+            return Jet::rough(Interval::ALL, 0.0);
+        }
+        let hull_m = self.scene.bodies[body].hull_m(cell);
+        let centre_m: [f64; 3] =
+            std::array::from_fn(|axis| hull_m.iter().map(|point| point[axis]).sum::<f64>() / hull_m.len() as f64);
+        let offset_m = |point: &[f64; 3]| (0..3).map(|axis| (point[axis] - centre_m[axis]).powi(2)).sum::<f64>().sqrt();
+        let radius_m = hull_m.iter().map(offset_m).fold(0.0, f64::max);
+        let value = Interval::point(solid.signed_distance_m(centre_m)) + Interval::within(radius_m);
+        Jet { value, slope: Interval::within(norm(&it.velocity).max), error: it.errors[0] }
     }
 
     fn to_volume(&self, volume: &Geofence, body: usize, it: &Enclosure, cell: [f64; 2]) -> Jet {

@@ -106,6 +106,7 @@ impl ShapePairs<'_> {
         let closest = closest(shapes)?.ok_or(MissingEvidence::NoApproach)?;
         let (part, obstacle) = match closest.shape {
             Shape::Part(part, obstacle) => (part.name(), self.obstacles[obstacle].name.as_str()),
+            Shape::Solid(part, solid) => (part.name(), self.solids[solid].name()),
             Shape::Envelope(obstacle) => ("envelope", self.obstacles[obstacle].name.as_str()),
             Shape::AboveGround => (Part::Body.name(), GROUND),
             Shape::LoadToBody => (Part::Load.name(), OWN_BODY),

@@ -8,7 +8,7 @@
 use std::collections::BinaryHeap;
 
 use scenarios::slung_load::Trajectory;
-use sim::slung_load::{OVERHANG_M, SlungLoadState};
+use sim::slung_load::{OVERHANG_M, Part, SlungLoadState};
 
 use super::motion::{SlungLoadMotion, Speeds};
 use super::search_interval::SearchInterval;
@@ -63,6 +63,28 @@ impl ShapePairs<'_> {
 
     /// Smallest distance of any of the shapes over the whole motion. `None` without a segment.
     pub fn closest(&self, motion: &SlungLoadMotion, shapes: &[Shape]) -> Option<ClosestApproach> {
+        let closest = self.closest_by_distance(motion, shapes)?;
+        let enclosed = self.enclosed_at_start(motion, shapes);
+        Some(enclosed.filter(|it| is_smaller(it.lower_m, closest.lower_m)).unwrap_or(closest))
+    }
+
+    /// The start of body or load inside an obstacle whose distances have no sign, because its surface intersects itself or has
+    /// small holes. Whoever enters one later passes its surface.
+    fn enclosed_at_start(&self, motion: &SlungLoadMotion, shapes: &[Shape]) -> Option<ClosestApproach> {
+        let segment = motion.segments().next()?;
+        let body = motion.at(segment, 0.0);
+        let is_enclosed = |shape: &&Shape| match shape {
+            Shape::Solid(Part::Body, solid) => self.solids[*solid].encloses(body.position_m.into()),
+            Shape::Solid(Part::Load, solid) => self.solids[*solid].encloses(body.load_position_m.into()),
+            _ => false,
+        };
+        let shape = shapes.iter().find(is_enclosed)?;
+        let distance_m = -self.distance_m(*shape, &body).abs() - RESOLUTION_M;
+        let at_s = motion.time_s(segment, 0.0);
+        Some(ClosestApproach { lower_m: distance_m, upper_m: distance_m, deviation_m: 0.0, at_s, shape: *shape })
+    }
+
+    fn closest_by_distance(&self, motion: &SlungLoadMotion, shapes: &[Shape]) -> Option<ClosestApproach> {
         let mut intervals = BinaryHeap::new();
         let mut best: Option<ClosestApproach> = None;
         // In wide strides first, so that most of what lies between is known to be farther away at a glance.
@@ -156,7 +178,7 @@ mod tests {
     }
 
     fn shape_pairs(obstacles: Vec<Prism>) -> ShapePairs<'static> {
-        ShapePairs { vehicle: "carrier", parts: Parts::new(&model()), obstacles, ground_m: None }
+        ShapePairs { vehicle: "carrier", parts: Parts::new(&model()), obstacles, solids: Vec::new(), ground_m: None }
     }
 
     fn wall(z_m: Option<scenarios::Range>) -> Prism {

@@ -31,8 +31,7 @@ pub(super) struct Other {
 impl SensedWorld {
     /// Of a vehicle whose sensors reach `range_m`, from its centre to a surface. `sensors`: their noise.
     pub fn new(world: &World, range_m: f64, sensors: Sensors) -> Self {
-        let moving = |name: &str| world.moving.iter().any(|moving| moving.name == name);
-        let unknown = world.obstacle_names().filter(|name| !moving(name) && world.is_hidden(name));
+        let unknown = world.names_that_may_be_hidden().filter(|name| world.is_hidden(name));
         Self {
             range_m,
             unknown: unknown.map(str::to_owned).collect(),

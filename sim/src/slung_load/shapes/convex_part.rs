@@ -13,6 +13,14 @@ pub(super) enum ConvexPart {
 }
 
 impl ConvexPart {
+    /// Centre and radius of the ball around it, m.
+    pub fn ball(&self) -> (Vector3<f64>, f64) {
+        match self {
+            Self::Disc { center_m, radius_m, .. } => (*center_m, *radius_m),
+            Self::Line { ends_m: [a, b] } => ((a + b) / 2.0, (b - a).norm() / 2.0),
+        }
+    }
+
     /// Support point: the point farthest in a direction.
     pub fn support_m(&self, direction: &Vector3<f64>) -> Vector3<f64> {
         match self {

@@ -74,7 +74,7 @@ fn prism_support_m(prism: &Prism, z_m: Range, direction: &Vector3<f64>) -> Vecto
 
 /// Distance of the origin from a convex set, given by its support function, m, and the direction in which the set is at
 /// least that far away; `None` if the set contains the origin. NaN if the set has NaN coordinates.
-fn separation(support: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
+pub(super) fn separation(support: &impl Fn(&Vector3<f64>) -> Vector3<f64>) -> Option<(f64, Vector3<f64>)> {
     let mut closest = support(&Vector3::x());
     let mut simplex = Simplex::new(closest);
     let (mut lower_m, mut normal) = (f64::NEG_INFINITY, Vector3::zeros());

@@ -1,13 +1,14 @@
-//! Faults of maps and geofences: a body is beyond the boundary, although its centre is not.
+//! Faults of places. Of maps and geofences: a body is beyond the boundary, although its centre is not.
 
 use scenarios::{Geofence, GeofenceKind, Range, Trajectory, World};
 
 use super::super::{Fault, NearMiss, ReferenceCase};
+use super::solids;
 
 /// Beyond every path, m.
-const FAR_M: f64 = 1e6;
+pub(super) const FAR_M: f64 = 1e6;
 /// Distance of a boundary from a centre, as a fraction of the body's radius.
-const WITHIN_BODY: f64 = 0.5;
+pub(super) const WITHIN_BODY: f64 = 0.5;
 
 /// Checks of states: at the nodes, between them and in flight.
 const CHECKS: [&str; 3] = ["nodes.state_limits", "plan.state_limits", "flight.state_limits"];
@@ -59,12 +60,13 @@ const NEAR_LOAD: &[(&str, Placed)] = &[
 
 /// The faults of plans that were made before the flight, and of their flights.
 pub fn faults() -> Vec<Fault> {
-    CHECKS.into_iter().flat_map(|check| NEAR_GOAL.iter().map(move |placed| near_body(check, placed))).collect()
+    let near_goal = |check| NEAR_GOAL.iter().map(move |placed| near_body(check, placed));
+    CHECKS.into_iter().flat_map(near_goal).chain(solids::faults()).collect()
 }
 
 /// The faults of flights that were planned in the loop.
 pub fn flown_faults() -> Vec<Fault> {
-    NEAR_GOAL.iter().map(|placed| near_body(CHECKS[2], placed)).collect()
+    NEAR_GOAL.iter().map(|placed| near_body(CHECKS[2], placed)).chain(solids::flown_faults()).collect()
 }
 
 /// The faults of plans and flights with a load.
@@ -91,7 +93,7 @@ fn near_body(check: &'static str, &(name, place): &(&'static str, Placed)) -> Fa
 
 /// A map and a geofence around all bodies, as far beyond them as a vehicle may be off its plan.
 pub fn near_misses() -> Vec<NearMiss> {
-    vec![
+    let boundaries = vec![
         NearMiss::new("a map that ends just beyond the bodies", |it| {
             let [x_m, y_m, z_m] = occupied(it);
             it.scenario.world.map = scenarios::Map { x_m, y_m, z_m };
@@ -104,11 +106,12 @@ pub fn near_misses() -> Vec<NearMiss> {
             let [x_m, _, _] = occupied(it);
             keep_out(&mut it.scenario.world, rectangle([x_m.max, FAR_M], [-FAR_M, FAR_M]), None);
         }),
-    ]
+    ];
+    boundaries.into_iter().chain(solids::near_misses()).collect()
 }
 
 /// Where the first vehicle of a plan, or of its flight, is at the planned end.
-fn end_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
+pub(super) fn end_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
     if check.starts_with("flight.") {
         let last = it.planned_steps() - 1;
         return it.samples(0)[last].position_m;
@@ -129,12 +132,12 @@ fn load_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
     }
 }
 
-fn body_radius_m(it: &ReferenceCase, vehicle: usize) -> f64 {
+pub(super) fn body_radius_m(it: &ReferenceCase, vehicle: usize) -> f64 {
     it.scenario.model(&it.scenario.vehicles[vehicle]).body_radius_m()
 }
 
 /// The ranges of the positions of all bodies, with the largest tracking error added.
-fn occupied(it: &ReferenceCase) -> [Range; 3] {
+pub(super) fn occupied(it: &ReferenceCase) -> [Range; 3] {
     let logs = it.flight.iter().flat_map(|flight| flight.vehicles.iter().enumerate());
     let mut ranges = [Range::new(f64::INFINITY, f64::NEG_INFINITY); 3];
     for (vehicle, log) in logs {

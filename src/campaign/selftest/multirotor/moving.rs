@@ -1,7 +1,7 @@
 //! Faults of flights among moving obstacles.
 
 use scenarios::MovingCylinder;
-use sim::multirotor::Obstacles;
+use sim::Obstacles;
 
 use crate::campaign::selftest::{Fault, ReferenceCase};
 

@@ -1,4 +1,5 @@
 use nalgebra::Vector3;
+use scenarios::geometry::Solid;
 use scenarios::{Cylinder, MovingCylinder, Prism, World};
 
 /// Distances up to this are contact, m.
@@ -10,17 +11,24 @@ pub struct Obstacles {
     cylinders: Vec<Cylinder>,
     prisms: Vec<Prism>,
     moving: Vec<MovingCylinder>,
+    solids: Vec<Solid>,
 }
 
 impl Obstacles {
     /// The obstacles of a world.
     pub fn new(world: &World) -> Self {
-        Self { cylinders: world.cylinders.clone(), prisms: world.prism_obstacles(), moving: world.moving.clone() }
+        Self { cylinders: world.cylinders.clone(), moving: world.moving.clone(), ..Self::beyond_cylinders(world) }
     }
 
-    /// Number of obstacles. They are numbered from 0 in the order cylinders, boxes, prisms, moving cylinders.
+    /// The obstacles of a world that are neither cylinders nor moving.
+    pub fn beyond_cylinders(world: &World) -> Self {
+        Self { cylinders: Vec::new(), prisms: world.prism_obstacles(), moving: Vec::new(), solids: world.solids() }
+    }
+
+    /// Number of obstacles. They are numbered from 0 in the order cylinders, boxes, prisms, moving cylinders,
+    /// solids.
     pub fn count(&self) -> usize {
-        self.cylinders.len() + self.prisms.len() + self.moving.len()
+        self.cylinders.len() + self.prisms.len() + self.moving.len() + self.solids.len()
     }
 
     /// Name of an obstacle.
@@ -29,22 +37,23 @@ impl Obstacles {
             Kind::Cylinder(it) => &it.name,
             Kind::Prism(it) => &it.name,
             Kind::Moving(it) => &it.name,
+            Kind::Solid(it) => it.name(),
         }
     }
 
     /// Maximum speed of an obstacle, m/s; 0 for a static one.
     pub fn speed_mps(&self, obstacle: usize) -> f64 {
         match self.kind(obstacle) {
-            Kind::Cylinder(_) | Kind::Prism(_) => 0.0,
+            Kind::Cylinder(_) | Kind::Prism(_) | Kind::Solid(_) => 0.0,
             Kind::Moving(it) => it.speed_mps,
         }
     }
 
-    /// Whether an obstacle is static and convex, so that the signed distance to it is a convex function of the position.
+    /// Whether an obstacle is known to be static and convex, so that the signed distance to it is a convex function of the position.
     pub fn is_convex(&self, obstacle: usize) -> bool {
         match self.kind(obstacle) {
             Kind::Cylinder(_) | Kind::Prism(_) => true,
-            Kind::Moving(_) => false,
+            Kind::Moving(_) | Kind::Solid(_) => false,
         }
     }
 
@@ -54,7 +63,14 @@ impl Obstacles {
             Kind::Cylinder(it) => it.signed_distance_m(position_m[0], position_m[1]),
             Kind::Prism(it) => it.signed_distance_in_space_m(position_m),
             Kind::Moving(it) => it.signed_distance_m(t_s, position_m),
+            Kind::Solid(it) => it.signed_distance_m(position_m),
         }
+    }
+
+    /// Whether a point is inside an obstacle of any shape, even if its surface intersects itself or has small holes, so that no
+    /// sign of a distance says so.
+    pub fn encloses(&self, obstacle: usize, position_m: [f64; 3]) -> bool {
+        matches!(self.kind(obstacle), Kind::Solid(it) if it.encloses(position_m))
     }
 
     /// First contact of a ball that moves along a straight line at constant velocity with an obstacle. Returns the
@@ -88,13 +104,15 @@ impl Obstacles {
     }
 
     fn kind(&self, obstacle: usize) -> Kind<'_> {
-        let (cylinders, prisms) = (self.cylinders.len(), self.prisms.len());
+        let (cylinders, prisms, moving) = (self.cylinders.len(), self.prisms.len(), self.moving.len());
         if obstacle < cylinders {
             Kind::Cylinder(&self.cylinders[obstacle])
         } else if obstacle < cylinders + prisms {
             Kind::Prism(&self.prisms[obstacle - cylinders])
-        } else {
+        } else if obstacle < cylinders + prisms + moving {
             Kind::Moving(&self.moving[obstacle - cylinders - prisms])
+        } else {
+            Kind::Solid(&self.solids[obstacle - cylinders - prisms - moving])
         }
     }
 }
@@ -103,6 +121,7 @@ enum Kind<'a> {
     Cylinder(&'a Cylinder),
     Prism(&'a Prism),
     Moving(&'a MovingCylinder),
+    Solid(&'a Solid),
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! search allocates nothing.
 
 use scenarios::Map;
-use sim::multirotor::Obstacles;
+use sim::Obstacles;
 
 use crate::verdict::compare::is_smaller;
 use crate::verdict::extreme::Extreme;
@@ -92,9 +92,8 @@ impl<'a> Search<'a> {
         Self { obstacles, effort, best: None, intervals: 0, given_up_m: f64::INFINITY }
     }
 
-    /// Considers the frame of the map, to which the distance is an extreme of a coordinate, and every obstacle.
-    pub fn add(&mut self, map: &Map, body: Body<'_>) {
-        self.add_frame(map, body);
+    /// Considers every obstacle.
+    pub fn add_obstacles(&mut self, body: Body<'_>) {
         for obstacle in 0..self.obstacles.count() {
             let ends = [0, body.motion.segment_count()].map(|knot| self.run_end(body, obstacle, knot));
             self.in_run(body, obstacle, ends);
@@ -108,7 +107,8 @@ impl<'a> Search<'a> {
         Some((best, lower_m.min(self.given_up_m)))
     }
 
-    fn add_frame(&mut self, map: &Map, body: Body<'_>) {
+    /// Considers the frame of the map, to which the distance is an extreme of a coordinate.
+    pub fn add_frame(&mut self, map: &Map, body: Body<'_>) {
         for (axis, range) in map.axes().into_iter().enumerate() {
             for Extreme { value, t_s, .. } in extremes_m(body.motion, axis) {
                 self.consider(range.margin(value) - body.reach_m, t_s, body, None);
