@@ -16,7 +16,7 @@ use crate::plan_source::plan_import;
 ///
 /// The plan is flown and judged like that of a registered planner. Missing controls and velocities are reconstructed.
 /// Between two rows the vehicle may then have done anything that its limits allow: that uncertainty is subtracted from every
-/// margin, and a check that it leaves open is undecided, which is not a pass. Rows 0.2 s apart cost some centimetres, rows
+/// margin, and a check that it does not settle is undecided, which is not a pass. Rows 0.2 s apart cost some centimetres, rows
 /// 5 s apart tens of metres.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]

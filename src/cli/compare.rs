@@ -13,8 +13,8 @@ use crate::verdict::Outcome;
 
 /// Show what got worse from one run to another
 ///
-/// Verdicts, check statuses, margins, flight times and tracking errors are compared, figures with a tolerance. Planning
-/// times are reported and do not decide. The exit code is 1 if anything got worse by more than its tolerance.
+/// Verdicts, check statuses, margins, flight times and tracking errors are compared, numbers within a tolerance. Planning
+/// times are reported but do not decide. The exit code is 1 if anything got worse by more than its tolerance.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out\n  harness compare out/main out/branch --html"

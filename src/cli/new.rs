@@ -8,7 +8,7 @@ use crate::output;
 
 /// Write a commented scenario to start from
 ///
-/// It passes with the planner that it names.
+/// The scenario passes with the planner that it names.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct New {

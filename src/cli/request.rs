@@ -9,7 +9,7 @@ use crate::plan_source::external::{DEFAULT_TIME_LIMIT_S, protocol};
 
 /// Print the request that an external planner gets
 ///
-/// It is what `harness run --planner-command` writes to the planner's standard input before the flight, indented.
+/// The request is what `harness run --planner-command` writes to the planner's standard input before the flight; it is indented here.
 /// docs/external-planners.md describes it and the reply.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]

@@ -34,7 +34,7 @@ pub struct Run {
 /// Planners to use in place of the one that a scenario names.
 #[derive(Args, Debug)]
 pub struct PlannerArgs {
-    /// Planner to use in place of the one that the scenario names; repeat the option to run several
+    /// Planner to use in place of the one that the scenario names; `run` takes several
     #[arg(short, long = "planner", value_name = "NAME")]
     planners: Vec<String>,
     /// External planner: a program with its arguments, which reads a JSON request and writes a JSON reply

@@ -11,7 +11,7 @@ use crate::output;
 ///
 /// Shipped scenarios of every vehicle family are planned and flown. Then one fault at a time is injected into the plan, the
 /// flight log or the limits, and the result is judged again: the check that the fault violates must fail. Near misses, just
-/// inside a limit, must pass. The exit code is 1 if a fault is missed, a near miss fails, or a check is violated by no fault.
+/// inside a limit, must pass. The exit code is 1 if a fault is missed, a near miss fails, or no fault violates some check.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SelftestCommand {

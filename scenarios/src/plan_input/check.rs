@@ -253,7 +253,7 @@ fn gap_issue(table: &ColumnTable, columns: &Columns, intervals_s: &[f64]) -> Opt
     let is_gap = |row: &usize| intervals_s[*row] > MAX_INTERVALS * median_s && !is_hover(table, columns, *row);
     let gap = (0..intervals_s.len()).find(is_gap)?;
     let [from_s, to_s] = [table.times_s[gap], table.times_s[gap + 1]];
-    let found = format!("a gap from {from_s} s to {to_s} s, where rows are {median_s} s apart");
+    let found = format!("a gap from {from_s} s to {to_s} s, where rows are {median_s:.3} s apart");
     let issue = Issue::new("t_s", found, "no interval longer than 20 times the median");
     let issue = issue.remedy("add the missing rows, or resample the plan; two rows at rest at one place are a hover");
     Some(PlanIssue::new(table.locations.of(gap + 1), of_vehicle(table, issue)))

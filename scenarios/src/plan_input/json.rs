@@ -160,7 +160,10 @@ fn syntax(error: &serde_json::Error, text: &str) -> PlanIssue {
     let is_number = ["NaN", "Infinity", "nan"].iter().any(|word| line.contains(word));
     let remedy = if is_number { "JSON has no NaN and no infinity" } else { "" };
     let place = format!(":{}:{}", error.line(), error.column());
-    PlanIssue::new(place, Issue::new("JSON syntax", found, "a JSON document").remedy(remedy))
+    PlanIssue::new(
+        place,
+        Issue::new("JSON syntax", format!("invalid JSON ({found})"), "a JSON document").remedy(remedy),
+    )
 }
 
 fn describe(value: &Value) -> String {

@@ -44,9 +44,28 @@ pub(super) fn parse(text: &str) -> Result<Node, FormulaError> {
             span: at..text.len(),
             found: next_word(&text[at..]),
             expected: expected.unwrap_or_else(|| OPERAND.to_owned()),
-            remedy: String::new(),
+            remedy: remedy(text, at),
         }
     })
+}
+
+/// What is usually meant by what cannot be read at `at`; empty if that is not known.
+fn remedy(text: &str, at: usize) -> String {
+    let rest = &text[at..];
+    let word: String = rest.chars().take_while(|it| is_name(*it)).collect();
+    let lower = word.to_lowercase();
+    if word != lower && KEYWORDS.contains(&lower.as_str()) {
+        format!("write `{lower}`: keywords are in lower case")
+    } else if rest.starts_with('=') {
+        "no motion is exactly at a value: write `abs(a - b) < tolerance`".to_owned()
+    } else if rest.starts_with(['<', '>', '≤', '≥']) {
+        "compare two at a time: `a < b and b < c`".to_owned()
+    } else if !word.is_empty() && text[..at].trim_end().ends_with(|it: char| it.is_ascii_digit()) {
+        let units: Vec<&str> = UNITS.iter().map(|unit| unit.name).collect();
+        format!("if `{word}` is meant as a unit: these are known: {}", units.join(", "))
+    } else {
+        String::new()
+    }
 }
 
 fn too_complex(text: &str) -> Option<FormulaError> {

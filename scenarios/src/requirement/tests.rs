@@ -6,6 +6,10 @@ fn fleet() -> Scenario {
 }
 
 fn error(formula: &str) -> String {
+    formula_error(formula).to_string()
+}
+
+fn formula_error(formula: &str) -> super::FormulaError {
     let requirement = Requirement {
         name: "r".into(),
         formula: formula.into(),
@@ -13,7 +17,7 @@ fn error(formula: &str) -> String {
         advisory: false,
         applies_to: super::AppliesTo::Both,
     };
-    requirement.formula(&fleet()).expect_err("no formula").to_string()
+    requirement.formula(&fleet()).expect_err("no formula")
 }
 
 fn is_formula(formula: &str) -> bool {
@@ -56,6 +60,15 @@ fn errors_name_place_and_remedy() {
         assert!(found.contains(wanted), "{formula}: {found}");
     }
     assert!(error(&"(".repeat(40)).contains("32 parentheses"));
+    for (formula, remedy) in [
+        ("ALWAYS altitude > 3 m", "write `always`"),
+        ("always altitude == 3 m", "abs(a - b) < tolerance"),
+        ("always 1 m < altitude < 3 m", "compare two at a time"),
+        ("always altitude > 3 furlong", "these are known: m/s^2"),
+    ] {
+        let found = formula_error(formula).remedy;
+        assert!(found.contains(remedy), "{formula}: {found}");
+    }
 }
 
 #[test]

@@ -75,6 +75,7 @@ pub(super) const UNITS: &[Unit] = &[
     unit("m/s", Dimension::SPEED, 1.0),
     unit("km/h", Dimension::SPEED, 1.0 / 3.6),
     unit("kt", Dimension::SPEED, 1852.0 / 3600.0),
+    unit("kn", Dimension::SPEED, 1852.0 / 3600.0),
     unit("deg/s", Dimension([0, -1, 1, 0]), DEGREE),
     unit("rad/s", Dimension([0, -1, 1, 0]), 1.0),
     unit("deg", Dimension::ANGLE, DEGREE),

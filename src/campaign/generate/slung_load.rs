@@ -33,7 +33,7 @@ const MAX_WORLDS: usize = 100;
 
 const BLOCKS: Size = Size { meaning: "blocks", min: 1, max: 5, default: 2, suite: [1, 2, 3] };
 const COVERED: Density =
-    Density { meaning: "fraction of the 16 m² between start and goal that blocks cover", max: 0.35, default: 0.2 };
+    Density { meaning: "fraction of 16 m² between start and goal that blocks cover", max: 0.35, default: 0.2 };
 
 /// The kinds of this family.
 pub const KINDS: &[Kind] = &[

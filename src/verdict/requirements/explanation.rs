@@ -27,14 +27,10 @@ pub fn explain(requirement: &Requirement, instance: &Instance<'_>, robustness: &
             }
         }
     }
-    let who = if variables.is_empty() { String::new() } else { format!(", where {}", variables.join(" and ")) };
+    let who = (!variables.is_empty()).then(|| format!("where {}", variables.join(" and ")));
+    let facts: Vec<String> = [format!("at {at_s:.2} s")].into_iter().chain(who).chain(values).collect();
     let short = quantity(-robustness.bounds.min, decisive.unit);
-    let values = values.join(", ");
-    format!(
-        "{}: at {at_s:.2} s{who}, {values}: `{}` decides, short by {short}",
-        requirement.formula,
-        text(&decisive.span)
-    )
+    format!("{}: {}: `{}` decides, short by {short}", requirement.formula, facts.join(", "), text(&decisive.span))
 }
 
 fn value(instance: &Instance<'_>, side: &Term, at_s: f64, (unit, unit_size): (&'static str, f64)) -> String {

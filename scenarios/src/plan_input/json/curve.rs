@@ -62,8 +62,13 @@ pub(super) fn read(trajectory: &Value, index: usize) -> Result<Curve, Issue> {
         return Err(issue(&format!("{field}.vehicle"), "nothing".into(), "the name of the vehicle"));
     };
     let others = object.keys().filter(|key| !matches!(key.as_str(), "vehicle" | "family"));
-    let [form] = others.collect::<Vec<_>>()[..] else {
-        return Err(issue(&field, "more than one form of the motion".into(), &format!("one of {}", FORMS.join(", "))));
+    let others: Vec<&String> = others.collect();
+    let [form] = others[..] else {
+        let found = match others.iter().find(|key| !FORMS.contains(&key.as_str())) {
+            Some(unknown) => format!("the unknown key `{unknown}`"),
+            None => "more than one form of the motion".into(),
+        };
+        return Err(issue(&field, found, &format!("`vehicle` and one of {}", FORMS.join(", "))));
     };
     let value = &object[form];
     let field = format!("{field}.{form}");
