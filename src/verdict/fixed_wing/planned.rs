@@ -150,7 +150,9 @@ fn interval(trajectory: &Trajectory, end: usize) -> Vec<Knot> {
     let begin = end - 1;
     let (t0_s, t1_s) = (trajectory.times_s[begin], trajectory.times_s[end]);
     let controls = [trajectory.controls[begin], trajectory.controls[end]];
-    let flown = propagate(&trajectory.states[begin], controls, t0_s, t1_s - t0_s, MAX_STEP_S);
+    // Two steps at least: their third derivatives tell the error of the cubics between the knots.
+    let step_s = MAX_STEP_S.min((t1_s - t0_s) / 2.0);
+    let flown = propagate(&trajectory.states[begin], controls, t0_s, t1_s - t0_s, step_s);
     let mut knots: Vec<Knot> = flown.iter().map(knot).collect();
     if let Some(last) = knots.last_mut() {
         // t0 + (t1 - t0) may round to beyond t1.
