@@ -301,4 +301,14 @@ mod tests {
         given(0.5).mark_undecided(&mut checks);
         assert_eq!(checks[0].status, Status::Pass);
     }
+
+    #[test]
+    fn of_two_reconstructions_the_worse_half_of_each_counts() {
+        let positions = Reconstruction { position_m: 2.0, velocity_mps: 0.1, ..Reconstruction::default() };
+        let velocities = Reconstruction { velocities: true, velocity_mps: 0.3, ..Reconstruction::default() };
+        for (a, b) in [(positions, velocities), (velocities, positions)] {
+            let larger = Reconstruction::larger(Some(a), Some(b)).expect("two");
+            assert!(larger.velocities && larger.position_m == 2.0 && larger.velocity_mps == 0.3, "{larger:?}");
+        }
+    }
 }

@@ -94,7 +94,7 @@ fn check(spec: &CheckSpec, requirement: &Requirement, scene: &Scene<'_>, is_reco
         return Ok(Check { status: Status::Undecided, ..spec.skip(reason) });
     }
     let Some(decisive) = smallest(&formula, scene) else {
-        return Ok(spec.skip("the scenario has fewer vehicles than the formula speaks of, or none at the same time"));
+        return Ok(spec.fail("the scenario has fewer vehicles than the formula speaks of, or none at the same time"));
     };
     Ok(decided(spec, requirement, &decisive))
 }
@@ -112,7 +112,10 @@ fn decided(spec: &CheckSpec, requirement: &Requirement, decisive: &Decisive<'_>)
     let measured = instance.concerned(predicate).iter().fold(measured, |measured, name| measured.with(name));
     let mut check = spec.at_least(measured, 0.0);
     if check.is_bad() {
-        let why = explanation::explain(requirement, instance, robustness);
+        let mut why = explanation::explain(requirement, instance, robustness);
+        if check.status == Status::Undecided && robustness.is_cut_short {
+            why = format!("the search for closer bounds was ended after its longest duration; {why}");
+        }
         check.reason =
             Some(check.reason.take().filter(|it| !it.is_empty()).map_or(why.clone(), |it| format!("{it}; {why}")));
     }

@@ -2,6 +2,7 @@ mod conditions;
 pub mod log;
 pub mod places;
 pub mod plan;
+pub mod requirements;
 mod solids;
 pub mod tightened_limits;
 
@@ -18,6 +19,13 @@ pub fn of(reference: &ReferenceCase, of_family: fn(&ReferenceCase) -> Vec<Fault>
 
 /// The faults that all families have in common, with those of one family among them.
 pub fn with_common(of_family: Vec<Fault>, limits: &'static FamilyLimits) -> Vec<Fault> {
-    let all = [plan::faults(), log::faults(), places::faults(), of_family, tightened_limits::faults(limits)];
+    let all = [
+        plan::faults(),
+        log::faults(),
+        places::faults(),
+        requirements::faults(),
+        of_family,
+        tightened_limits::faults(limits),
+    ];
     all.into_iter().flatten().collect()
 }

@@ -8,8 +8,8 @@ use sim::{Actuation, Commanded, Sample};
 
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
-use super::faults::places;
 use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, SEPARATION_CHECKS, limit};
+use super::faults::{places, requirements};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::UnflownCase;
 use super::{Fault, NearMiss, ReferenceCase};
@@ -48,7 +48,7 @@ fn faults(_: &ReferenceCase) -> Vec<Fault> {
 }
 
 fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
-    let own = [places::near_misses(), vec![near_misses::separation()]];
+    let own = [places::near_misses(), requirements::near_misses(), vec![near_misses::separation()]];
     let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole()].into_iter().chain(own);
     common.flatten().chain(own_near_misses()).chain(goals::near_misses()).collect()
 }

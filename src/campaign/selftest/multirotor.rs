@@ -13,7 +13,7 @@ use scenarios::{Family, Sensors, Trajectory};
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
 use super::faults::tightened_limits::{self, FamilyLimits, SEPARATION_CHECKS, limit};
-use super::faults::{log, places, plan};
+use super::faults::{log, places, plan, requirements};
 use super::reference_case::UnflownCase;
 use super::{Fault, ReferenceCase};
 
@@ -90,12 +90,15 @@ fn faults(reference: &ReferenceCase) -> Vec<Fault> {
     } else if !reference.scenario.world.moving.is_empty() {
         moving::faults().into_iter().chain(places::flown_faults()).collect()
     } else if reference.is_planned_in_the_loop() {
-        [log::faults(), in_loop::faults(), places::flown_faults()].into_iter().flatten().collect()
+        [log::faults(), in_loop::faults(), places::flown_faults(), requirements::flown_faults()]
+            .into_iter()
+            .flatten()
+            .collect()
     } else {
         // Positions and velocities determine the accelerations between two nodes: there is no defect.
         let on_plans = plan::faults().into_iter().filter(|fault| fault.aims_at != "plan.dynamics");
         let limits = tightened_limits::faults(&SELFTEST.limits);
-        let all = [log::faults(), plans::faults(), flights::faults(), places::faults(), limits];
+        let all = [log::faults(), plans::faults(), flights::faults(), places::faults(), requirements::faults(), limits];
         on_plans.chain(all.into_iter().flatten()).collect()
     }
 }

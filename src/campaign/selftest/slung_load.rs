@@ -7,8 +7,8 @@ use sim::LoadSample;
 
 use super::edit_trajectory::EditTrajectory;
 use super::family::FamilySelftest;
-use super::faults::places;
 use super::faults::tightened_limits::{self, DEFECTS, FamilyLimits, GOALS, limit};
+use super::faults::{places, requirements};
 use super::near_misses::{self, NEAR_M};
 use super::reference_case::{UnflownCase, thrusts};
 use super::{Fault, NearMiss, ReferenceCase};
@@ -52,8 +52,9 @@ fn faults(_: &ReferenceCase) -> Vec<Fault> {
 }
 
 fn near_misses(_: &ReferenceCase) -> Vec<NearMiss> {
-    let common = [near_misses::limits(&SELFTEST.limits), near_misses::whole(), places::near_misses()];
-    common.into_iter().flatten().chain(own_near_misses()).collect()
+    let bounds = [near_misses::limits(&SELFTEST.limits), near_misses::whole()];
+    let common = bounds.into_iter().chain([places::near_misses(), requirements::near_misses()]);
+    common.flatten().chain(own_near_misses()).collect()
 }
 
 fn own_near_misses() -> [NearMiss; 2] {

@@ -75,3 +75,24 @@ fn check_fastest(
     };
     Ok(spec.at_most(speed.at(t_s).with(vehicle), limit_mps))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_speed_that_is_certainly_too_high_fails_and_one_that_may_be_is_undecided() {
+        let mut scenario = scenarios::load("shipped:crossing-4".as_ref()).expect("a shipped scenario");
+        scenario.verdict.rest_mps = Some(0.2);
+        let spec = scenarios::check_spec("plan.rest").expect("a declared check");
+        let status = |speed_mps: f64, error_mps: f64| {
+            let end = EndVelocity { velocity_mps: [0.0, 0.6 * speed_mps, 0.8 * speed_mps], error_mps };
+            check_fastest(spec, &scenario, |_| Some((end, 9.0))).expect("a vehicle").status
+        };
+        assert_eq!(status(0.15, 0.0), Status::Pass);
+        assert_eq!(status(0.15, 0.04), Status::Pass);
+        assert_eq!(status(0.15, 0.1), Status::Undecided);
+        assert_eq!(status(0.25, 0.04), Status::Fail);
+        assert_eq!(status(0.25, 0.0), Status::Fail);
+    }
+}

@@ -22,6 +22,8 @@ pub const TOLERANCE: f64 = 1e-6;
 const FIRST_CELLS: usize = 32;
 const MAX_CELLS: usize = 1 << 15;
 const MIN_CELL_S: f64 = 1e-10;
+/// The largest number of cells looked at, over all rounds of refinement. Nested windows can ask for many rounds.
+const MAX_EVALUATIONS: usize = 1 << 23;
 
 /// Bounds of the robustness of a formula from the beginning of the motion, and what decides it.
 #[derive(Clone, Debug)]
@@ -32,6 +34,8 @@ pub struct Robustness {
     pub predicate: usize,
     /// The cell that it comes from, s.
     pub cell: [f64; 2],
+    /// Whether the bounds could be closer: the search took too long.
+    pub is_cut_short: bool,
 }
 
 /// Bounds of the robustness of an instance.
@@ -39,13 +43,16 @@ pub struct Robustness {
 /// - `beat`: the smallest robustness known so far: bounds above it need not be refined
 pub fn robustness(instance: &Instance<'_>, beat: f64) -> Robustness {
     let mut grid = Grid::new(instance);
+    let mut evaluations = 0;
     loop {
         let clause = &instance.formula.body;
         let evaluated = grid.evaluate(clause);
         let bounds = evaluated.values[0];
         let beaten = bounds.min >= beat;
         let close = !is_wide(bounds, TOLERANCE);
-        if !(close || beaten || grid.cells() >= MAX_CELLS) {
+        evaluations += grid.cells();
+        let is_cut_short = grid.cells() >= MAX_CELLS || evaluations >= MAX_EVALUATIONS;
+        if !(close || beaten || is_cut_short) {
             let mut split = vec![false; grid.cells()];
             let mut first = vec![false; grid.cells()];
             first[0] = true;
@@ -56,7 +63,7 @@ pub fn robustness(instance: &Instance<'_>, beat: f64) -> Robustness {
             }
         }
         let (predicate, cell) = grid.decisive(clause, &evaluated, 0, true);
-        return Robustness { bounds, predicate, cell: grid.cell(cell) };
+        return Robustness { bounds, predicate, cell: grid.cell(cell), is_cut_short };
     }
 }
 

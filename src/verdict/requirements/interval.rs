@@ -238,3 +238,60 @@ impl Jet {
         self.negate().minimum(other.negate()).negate()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quotient_has_bounds_unless_its_divisor_may_be_zero() {
+        let six_to_twelve = Interval::new(6.0, 12.0);
+        assert_eq!(six_to_twelve / Interval::new(2.0, 3.0), Interval::new(2.0, 6.0));
+        assert_eq!(six_to_twelve / Interval::new(-3.0, -2.0), Interval::new(-6.0, -2.0));
+        for divisor in [Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0), Interval::new(-1.0, 0.0)] {
+            assert_eq!(six_to_twelve / divisor, Interval::ALL, "{divisor:?}");
+        }
+    }
+
+    #[test]
+    fn angles_are_largest_and_smallest_in_the_corners() {
+        let bounds = |y: [f64; 2], x: [f64; 2]| {
+            let angle = angle(Interval::new(y[0], y[1]), Interval::new(x[0], x[1]));
+            [angle.min, angle.max].map(f64::to_degrees)
+        };
+        let is = |found: [f64; 2], expected: [f64; 2]| (0..2).all(|end| (found[end] - expected[end]).abs() < 1e-9);
+        assert!(is(bounds([1.0, 2.0], [1.0, 2.0]), [0.5_f64.atan().to_degrees(), 2_f64.atan().to_degrees()]));
+        assert!(is(bounds([1.0, 1.0], [-1.0, 1.0]), [45.0, 135.0]));
+        let beyond = 180.0 - 0.5_f64.atan().to_degrees();
+        assert!(is(bounds([1.0, 2.0], [-2.0, -1.0]), [180.0 - 2_f64.atan().to_degrees(), beyond]));
+    }
+
+    #[test]
+    fn what_is_smaller_everywhere_gives_the_slope_of_a_minimum() {
+        let jet = |value: [f64; 2], slope: f64| Jet {
+            value: Interval::new(value[0], value[1]),
+            slope: Interval::point(slope),
+            error: 0.0,
+        };
+        let (low, high, across) = (jet([0.0, 1.0], 2.0), jet([3.0, 4.0], 5.0), jet([0.5, 3.5], 7.0));
+        assert_eq!(low.minimum(high).slope, Interval::point(2.0));
+        assert_eq!(high.minimum(low).slope, Interval::point(2.0));
+        assert_eq!(high.maximum(low).slope, Interval::point(5.0));
+        assert_eq!(low.minimum(across).slope, Interval::new(2.0, 7.0));
+        assert_eq!(low.minimum(across).value, Interval::new(0.0, 1.0));
+        let known_to = |error: f64| Jet { error, ..low };
+        assert_eq!(known_to(0.5).minimum(known_to(0.25)).error.to_bits(), 0.5_f64.to_bits());
+    }
+
+    #[test]
+    fn a_reciprocal_is_known_where_its_divisor_is_certainly_not_zero() {
+        let jet = |min: f64, max: f64, error: f64| Jet { value: Interval::new(min, max), slope: Interval::ALL, error };
+        let value = jet(2.0, 4.0, 0.0).reciprocal().value;
+        assert!(value.min <= 0.25 && 0.5 <= value.max && value.width() < 0.25 + 1e-9, "{value:?}");
+        let negative = jet(-4.0, -2.0, 0.0).reciprocal().value;
+        assert!(negative.min <= -0.5 && -0.25 <= negative.max && negative.width() < 0.25 + 1e-9, "{negative:?}");
+        for divisor in [jet(-1.0, 1.0, 0.0), jet(-2.0, -1.0, 1.5), jet(1.0, 2.0, 1.5)] {
+            assert_eq!(divisor.reciprocal().value, Interval::ALL, "{:?} ± {}", divisor.value, divisor.error);
+        }
+    }
+}

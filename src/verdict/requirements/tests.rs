@@ -3,7 +3,7 @@
 mod oracle;
 
 use scenarios::requirement::Requirement;
-use scenarios::{Geofence, GeofenceKind, Scenario};
+use scenarios::{Cylinder, Geofence, GeofenceKind, MovingCylinder, Range, Scenario};
 
 use super::grid::TOLERANCE;
 use super::scene::Scene;
@@ -11,11 +11,25 @@ use super::smallest;
 use crate::verdict::motion::{Knot, Motion};
 use crate::verdict::random::Uniform;
 
-/// The shipped fleet of two, with a geofence.
+/// Motions, and random formulas about each.
+const MOTIONS: usize = 4;
+const FORMULAS_EACH: usize = 8;
+
+/// The shipped fleet of two, with a geofence, a pole, and a cylinder that moves.
 fn scenario() -> Scenario {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/fixed-wing/rendezvous-2.toml");
     let mut scenario = scenarios::load(file.as_ref()).expect("a shipped scenario");
     scenario.world.geofences = vec![field()];
+    let pole = Cylinder { name: "pole".into(), center_m: [12.0, -8.0], radius_m: 4.0 };
+    scenario.world.cylinders = vec![pole];
+    scenario.world.moving = vec![MovingCylinder {
+        name: "mover".into(),
+        radius_m: 3.0,
+        z_m: Some(Range::new(-20.0, 15.0)),
+        path_m: vec![[-30.0, 5.0], [10.0, 20.0], [25.0, -10.0]],
+        speed_mps: 8.0,
+        offset_m: 2.0,
+    }];
     scenario
 }
 
@@ -142,13 +156,27 @@ fn no_sample_of_a_predicate_is_outside_its_bounds() {
 #[test]
 fn random_formulas_contain_their_sampled_robustness() {
     let mut uniform = Uniform::seeded(20);
-    for round in 0..12 {
+    let scenario = scenario();
+    for round in 0..MOTIONS {
         let motions = [wild("uav-1", &mut uniform), wild("uav-2", &mut uniform)];
-        let formula = oracle::Sampled::random(&mut uniform, 3);
-        let [lower, upper] = bounds(&formula.text(), &motions);
         let end_s = motions[0].end_s().min(motions[1].end_s());
-        let (sampled, error) = formula.robustness(&scenario(), &motions, end_s);
-        let is_inside = lower - error <= sampled && sampled <= upper + error;
-        assert!(is_inside, "{round}: {} is {sampled} ± {error}, not in {lower} {upper}", formula.text());
+        let samples = oracle::Samples::of(&scenario, &motions, end_s);
+        for _ in 0..FORMULAS_EACH {
+            let formula = oracle::Sampled::random(&mut uniform, 3);
+            let [lower, upper] = bounds(&formula.text(), &motions);
+            let sampled = formula.robustness(&samples);
+            let is_inside = lower - samples.error <= sampled && sampled <= upper + samples.error;
+            assert!(is_inside, "{round}: {} is {sampled} ± {}, not in {lower} {upper}", formula.text(), samples.error);
+        }
     }
+}
+
+#[test]
+fn until_in_until_has_the_robustness_of_its_definition() {
+    let motions = [line("uav-1", 0.0, 100.0, 2.0), line("uav-2", 40.0, 170.0, -1.0)];
+    // From t on, the inner formula holds best at its last instant t + 5 s, where uav-1 is 2 (t + 5) m above 100 m.
+    let inner = "(altitude(uav-2) > 150 m until [0 s, 5 s] altitude(uav-1) > 120 m)";
+    let [lower, upper] = bounds(&format!("altitude(uav-1) > 90 m until [2 s, 8 s] {inner}"), &motions);
+    // At 8 s: min(20 - t at the end of the inner interval, 2 * 13 - 20) = min(7, 6); uav-1 is 10 m above 90 m at first.
+    assert!(lower <= 6.0 + 1e-9 && 6.0 <= upper + 1e-9 && upper - lower < 1e-4, "{lower} {upper}");
 }

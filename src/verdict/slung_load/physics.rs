@@ -142,3 +142,86 @@ fn commanded_n(actuation: &Actuation) -> f64 {
         Actuation::LoadFactors(_) | Actuation::Acceleration(_) => f64::NAN,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{UnitQuaternion, Vector3};
+    use scenarios::Interpolation;
+
+    use super::*;
+
+    /// Replay in a shipped scenario.
+    fn with_replay(assertions: impl Fn(&LogReplay<'_>)) {
+        let scenario = scenarios::load("shipped:drop-and-catch".as_ref()).expect("a shipped scenario");
+        let trajectory = Trajectory {
+            vehicle: scenario.vehicles[0].name.clone(),
+            interpolation: Interpolation::FirstOrderHold,
+            times_s: Vec::new(),
+            states: Vec::new(),
+            controls: Vec::new(),
+            cable: Vec::new(),
+            planner_nodes: Vec::new(),
+        };
+        assertions(&LogReplay::new(&scenario, &scenario.vehicles[0], &trajectory));
+    }
+
+    /// Quadrotor at rest `cable_m` above its load, which moves at `load_mps` downwards.
+    fn above(load_z_m: f64, cable_m: f64, load_mps: f64) -> SlungLoadState {
+        SlungLoadState {
+            position_m: Vector3::new(1.0, 2.0, load_z_m + cable_m),
+            velocity_mps: Vector3::zeros(),
+            attitude: UnitQuaternion::identity(),
+            body_rate_radps: Vector3::zeros(),
+            load_position_m: Vector3::new(1.0, 2.0, load_z_m),
+            load_velocity_mps: Vector3::new(0.0, 0.0, -load_mps),
+        }
+    }
+
+    #[test]
+    fn a_load_off_its_momentum_is_a_defect_in_the_air_and_not_on_the_ground() {
+        with_replay(|replay| {
+            let rest_m = replay.plant.resting_height_m;
+            let off = |height_m: f64| {
+                let logged = above(rest_m + height_m, 0.5, 0.0);
+                let mut flown = logged;
+                flown.load_position_m.x += 0.25;
+                replay.momentum_m(&flown, &logged, 0.05)
+            };
+            assert!((off(1.0) - 0.2).abs() < 1e-12, "{}", off(1.0));
+            assert!((off(2.0 * NEAR_GROUND_M) - 0.2).abs() < 1e-12, "{}", off(2.0 * NEAR_GROUND_M));
+            assert_eq!(off(0.5 * NEAR_GROUND_M).to_bits(), 0.0_f64.to_bits());
+            // A velocity counts by what it does in a window.
+            let logged = above(rest_m + 1.0, 0.5, 0.0);
+            let flown = above(rest_m + 1.0, 0.5, 2.0);
+            assert!((replay.momentum_m(&flown, &logged, 0.0) - 2.0 * WINDOW_S).abs() < 1e-12);
+        });
+    }
+
+    #[test]
+    fn a_cable_neither_stretches_nor_pushes_nor_pulls_while_it_is_slack() {
+        with_replay(|replay| {
+            let length_m = replay.plant.cable_length_m;
+            let defect_m = |lengths_m: [f64; 2], tension_n: f64, load_mps: f64| {
+                let ends = lengths_m.map(|cable_m| above(5.0, cable_m, load_mps));
+                replay.cable_m([&ends[0], &ends[1]], tension_n, 0.01)
+            };
+            let is = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+            assert!(is(defect_m([length_m, length_m + 0.03], 1.0, 0.0), 0.03));
+            assert!(is(defect_m([length_m, length_m], 1.0, 0.0), 0.0));
+            let push_m = 2.0 / replay.plant.load_mass_kg * WINDOW_S * WINDOW_S / 2.0;
+            assert!(is(defect_m([length_m, length_m], -2.0, 0.0), push_m));
+            // Slack by 0.2 m at best; the load may take up 0.01 m in the step.
+            let slack = [length_m - 0.3, length_m - 0.2];
+            assert!(is(defect_m(slack, 1.0, 0.0), 0.2));
+            assert!(is(defect_m(slack, 1.0, 1.0), 0.19));
+            assert!(is(defect_m(slack, 0.0, 0.0), 0.0));
+            // Whichever end of the step is faster.
+            for speeds_mps in [[0.0, 2.0], [2.0, 0.0]] {
+                let ends = [0, 1].map(|end| above(5.0, slack[end], speeds_mps[end]));
+                assert!(is(replay.cable_m([&ends[0], &ends[1]], 1.0, 0.01), 0.18));
+            }
+            // Taut at one end of the step is enough.
+            assert!(is(defect_m([length_m, length_m - 0.2], 1.0, 0.0), 0.0));
+        });
+    }
+}

@@ -3,7 +3,7 @@ use scenarios::in_loop::ReplanStatus;
 use sim::{Event, EventKind, Sample};
 
 use super::has_rotors;
-use crate::campaign::selftest::faults::places;
+use crate::campaign::selftest::faults::{places, requirements};
 use crate::campaign::selftest::near_misses::{self, NEAR_M};
 use crate::campaign::selftest::{NearMiss, ReferenceCase};
 
@@ -12,7 +12,7 @@ pub fn all(reference: &ReferenceCase) -> Vec<NearMiss> {
     if reference.is_planned_in_the_loop() {
         return in_the_loop(reference);
     }
-    let own = [places::near_misses(), vec![near_misses::separation()]];
+    let own = [places::near_misses(), requirements::near_misses(), vec![near_misses::separation()]];
     let common = [near_misses::limits(&super::SELFTEST.limits), near_misses::whole()].into_iter().chain(own);
     common.flatten().chain(planned()).collect()
 }

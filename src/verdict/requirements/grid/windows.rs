@@ -73,20 +73,14 @@ impl<'a> Windows<'a> {
 
     /// Bounds of the largest value of the smaller of `second` and of the smallest `first` until then, in the window.
     pub fn until(&self, first: &[Interval], second: &[Interval]) -> Vec<Interval> {
-        let largest = |cell: usize, window: Range<usize>, end: fn(&Interval) -> f64| {
-            let (mut so_far, mut best) = (f64::INFINITY, f64::NEG_INFINITY);
-            for (later, (first, second)) in first.iter().zip(second).enumerate().take(window.end).skip(cell) {
-                so_far = so_far.min(end(first));
-                if later >= window.start {
-                    best = best.max(so_far.min(end(second)));
-                }
-            }
-            best
+        let of = |end: fn(&Interval) -> f64| {
+            RangeUntil::new(first.iter().map(end).collect(), &second.iter().map(end).collect::<Vec<f64>>())
         };
+        let [lower, upper] = [of(|value| value.min), of(|value| value.max)];
         let of_cell = |cell: usize| {
-            let max = largest(cell, self.possible(cell), |value| value.max);
+            let max = upper.over(cell, self.possible(cell));
             let is_certain = !self.may_be_empty(cell);
-            let min = if is_certain { largest(cell, self.certain(cell), |value| value.min) } else { f64::NEG_INFINITY };
+            let min = if is_certain { lower.over(cell, self.certain(cell)) } else { f64::NEG_INFINITY };
             Interval::new(min, max.max(min))
         };
         (0..self.cells()).map(of_cell).collect()
@@ -134,5 +128,37 @@ impl RangeMinima {
         }
         let level = range.len().ilog2() as usize;
         self.levels[level][range.start].min(self.levels[level][range.end - (1 << level)])
+    }
+}
+
+/// Largest values over ranges of the smaller of `second` and of the smallest `first` until then: `levels[k][i]` is that of
+/// the 2^k values from i on.
+struct RangeUntil {
+    first: RangeMinima,
+    levels: Vec<Vec<f64>>,
+}
+
+impl RangeUntil {
+    fn new(first: Vec<f64>, second: &[f64]) -> Self {
+        let lowest = first.iter().zip(second).map(|(first, second)| first.min(*second)).collect();
+        let first = RangeMinima::new(first);
+        let mut levels: Vec<Vec<f64>> = vec![lowest];
+        for minima in &first.levels[..first.levels.len() - 1] {
+            let (below, width) = (&levels[levels.len() - 1], 1_usize << (levels.len() - 1));
+            let joined = |index: usize| below[index].max(minima[index].min(below[index + width]));
+            levels.push((0..below.len() - width).map(joined).collect());
+        }
+        Self { first, levels }
+    }
+
+    /// From `begin` on, where the instant of `second` is in `window`. Negative infinity for an empty window.
+    fn over(&self, begin: usize, window: Range<usize>) -> f64 {
+        if window.is_empty() {
+            return f64::NEG_INFINITY;
+        }
+        let level = window.len().ilog2() as usize;
+        let [first, last] = [window.start, window.end - (1 << level)];
+        let later = self.first.over(first..last).min(self.levels[level][last]);
+        self.first.over(begin..first).min(self.levels[level][first].max(later))
     }
 }

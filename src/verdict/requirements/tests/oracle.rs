@@ -6,7 +6,7 @@ use crate::verdict::motion::Motion;
 use crate::verdict::random::Uniform;
 
 /// Predicates about `uav-1` and `uav-2`, each with its value in [`value`].
-pub const PREDICATES: [&str; 14] = [
+pub const PREDICATES: [&str; 19] = [
     "altitude(uav-1) > 5 m",
     "east(uav-1) + 2 * north(uav-1) < 3 m",
     "speed(uav-1) < 20 m/s",
@@ -21,6 +21,11 @@ pub const PREDICATES: [&str; 14] = [
     "acceleration(uav-1) < 30 m/s^2",
     "max(altitude(uav-1), altitude(uav-2), 0 m) < 20 m",
     "altitude(uav-1) * east(uav-2) / 10 m > 1 m - time * 1 m / 1 s",
+    "distance(uav-1, mover) > 3 m",
+    "horizontal_distance(uav-1, mover) < 9 m",
+    "distance(uav-1, vehicles) > 12 m",
+    "horizontal_distance(uav-1, obstacles) > 2 m",
+    "1 m / (abs(altitude(uav-1)) + 2 m) < 0.3",
 ];
 
 /// The value of a predicate at an instant.
@@ -44,8 +49,24 @@ pub fn value(predicate: &str, scenario: &Scenario, motions: &[Motion], t_s: f64)
         10 => 100.0 - ((v[1].atan2(v[0]).to_degrees() - 30.0 + 540.0).rem_euclid(360.0) - 180.0).abs(),
         11 => 30.0 - acceleration_mps2(&motions[0], t_s),
         12 => 20.0 - p[2].max(q[2]).max(0.0),
-        _ => p[2] * q[0] / 10.0 - (1.0 - t_s),
+        13 => p[2] * q[0] / 10.0 - (1.0 - t_s),
+        14 => scenario.world.moving[0].signed_distance_m(t_s, p) - 3.0,
+        15 => 9.0 - from_mover_m(scenario, p, t_s),
+        16 => away(q) - 12.0,
+        17 => {
+            let poles = scenario.world.cylinders.iter();
+            let from_pole_m = poles.map(|it| (p[0] - it.center_m[0]).hypot(p[1] - it.center_m[1]) - it.radius_m);
+            from_pole_m.fold(from_mover_m(scenario, p, t_s), f64::min) - 2.0
+        }
+        _ => 0.3 - 1.0 / (p[2].abs() + 2.0),
     }
+}
+
+/// Horizontal distance from the surface of the moving cylinder, m: from its axis, less its radius.
+fn from_mover_m(scenario: &Scenario, [x_m, y_m, _]: [f64; 3], t_s: f64) -> f64 {
+    let mover = &scenario.world.moving[0];
+    let [axis_x_m, axis_y_m] = mover.position_m(t_s);
+    (x_m - axis_x_m).hypot(y_m - axis_y_m) - mover.radius_m
 }
 
 /// The second derivative of the Hermite cubic around `t_s`.
@@ -77,10 +98,30 @@ const STEP_S: f64 = 1.0 / 256.0;
 /// Predicates in metres, without jumps.
 const SMOOTH: [usize; 5] = [0, 1, 4, 6, 7];
 
+/// The values of all predicates at samples.
+pub struct Samples {
+    predicates: Vec<Vec<f64>>,
+    /// How far a robustness at samples may be from the one of continuous time.
+    pub error: f64,
+}
+
+impl Samples {
+    pub fn of(scenario: &Scenario, motions: &[Motion], end_s: f64) -> Self {
+        let count = (end_s / STEP_S).floor() as usize + 1;
+        let of_predicate =
+            |it: &&str| (0..count).map(|step| value(it, scenario, motions, step as f64 * STEP_S)).collect();
+        let predicates: Vec<Vec<f64>> = PREDICATES.iter().map(of_predicate).collect();
+        let changes = SMOOTH.iter().flat_map(|&it| predicates[it].windows(2).map(|pair| (pair[1] - pair[0]).abs()));
+        let error = changes.fold(0.0, f64::max);
+        Self { predicates, error }
+    }
+}
+
 impl Sampled {
     pub fn random(uniform: &mut Uniform, depth: u32) -> Self {
         let mut choice = |n: f64| uniform.between(0.0, n) as u32;
-        let (kind, from, length) = (if depth == 0 { 0 } else { choice(7.0) }, choice(128.0), choice(384.0));
+        let (kind, from, length) =
+            (if depth == 0 { 0 } else { choice(7.0) }, choice(0.5 / STEP_S), choice(1.5 / STEP_S));
         let predicate = SMOOTH[choice(4.999) as usize];
         let mut part = || Box::new(Self::random(uniform, depth.saturating_sub(1)));
         match kind {
@@ -108,16 +149,9 @@ impl Sampled {
         }
     }
 
-    /// Its robustness at samples, and how far that may be from the one of continuous time.
-    pub fn robustness(&self, scenario: &Scenario, motions: &[Motion], end_s: f64) -> (f64, f64) {
-        let count = (end_s / STEP_S).floor() as usize + 1;
-        let values: Vec<Vec<f64>> = PREDICATES
-            .iter()
-            .map(|it| (0..count).map(|step| value(it, scenario, motions, step as f64 * STEP_S)).collect())
-            .collect();
-        let changes = SMOOTH.iter().flat_map(|&it| values[it].windows(2).map(|pair| (pair[1] - pair[0]).abs()));
-        let largest = changes.fold(0.0, f64::max);
-        (self.at_samples(&values)[0], largest)
+    /// Its robustness at samples.
+    pub fn robustness(&self, samples: &Samples) -> f64 {
+        self.at_samples(&samples.predicates)[0]
     }
 
     fn at_samples(&self, predicates: &[Vec<f64>]) -> Vec<f64> {
