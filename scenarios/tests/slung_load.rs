@@ -132,6 +132,19 @@ fn the_load_does_not_overlap_the_body() {
 }
 
 #[test]
+fn a_taut_cable_does_not_begin_or_end_in_an_obstacle() {
+    let with_bar = |y_m: f64| {
+        let place = format!("center_m = [2, {y_m}]\nsize_m = [0.02, 0.5]\nz_m = [1.1, 1.12]\n");
+        scenarios::parse("slung.toml", &format!("{TEXT}\n[[world.boxes]]\nname = \"bar\"\n{place}"))
+    };
+    let lines = with_bar(0.2).expect_err("a bar in the cable").lines();
+    let issue = "vehicles[0].goal.load: found a cable that passes through `bar`";
+    assert!(lines.iter().any(|line| line.contains(issue)), "{lines:?}");
+    assert!(with_bar(0.2499).is_err());
+    assert!(with_bar(0.2501).is_ok());
+}
+
+#[test]
 fn models_can_hover_and_rotors_cannot_pull_down() {
     let planning = "models.slung-load.quad.planning_limits.thrust_n";
     assert_issue("thrust_n = [1, 5]", "thrust_n = [1, 3]", planning, "[1, 3]", "contains 3.728 N");

@@ -81,6 +81,7 @@ pub(super) fn waypoint(model: &Model, world: &World, field: &str, waypoint: &Way
     }
     issues.extend(inside_body(model, &load, &state));
     issues.extend(touched(model, world, [field, &load], &state));
+    issues.extend(pierced(model, world, &load, &state));
     let min_z_m = world.ground_m.map(|ground_m| ground_m + model.load_radius_m);
     if let Some(min_z_m) = min_z_m.filter(|min_z_m| state.load_position_m[2] < min_z_m - LENGTH_TOLERANCE_M) {
         let found = format!("a load whose centre is at {} m", state.load_position_m[2]);
@@ -106,6 +107,35 @@ fn touched(model: &Model, world: &World, [body, load]: [&str; 2], state: &State)
             .collect::<Vec<_>>()
     };
     world.prism_obstacles().into_iter().flat_map(of_prism).collect()
+}
+
+/// Obstacles between the body and its load that a taut cable passes through.
+fn pierced(model: &Model, world: &World, load: &str, state: &State) -> Vec<Issue> {
+    if state.cable_length_m() < model.cable_length_m - LENGTH_TOLERANCE_M {
+        return Vec::new();
+    }
+    let ends_m = [state.position_m, state.load_position_m];
+    let outside = |prism: &Prism| ends_m.iter().all(|end_m| prism.signed_distance_in_space_m(*end_m) > 0.0);
+    let crossed = world.prism_obstacles().into_iter().filter(|it| outside(it) && passes_through(it, ends_m));
+    let issue = |prism: Prism| {
+        let found = format!("a cable that passes through `{}`", prism.name);
+        Issue::new(load, found, "a taut cable outside every obstacle").remedy("move the vehicle or the obstacle")
+    };
+    crossed.map(issue).collect()
+}
+
+/// Whether a point of the segment is inside, up to 10 µm. No distance changes by more than the point moves.
+fn passes_through(prism: &Prism, [a_m, b_m]: [[f64; 3]; 2]) -> bool {
+    let middle_m: [f64; 3] = std::array::from_fn(|axis| f64::midpoint(a_m[axis], b_m[axis]));
+    let half_m = (0..3).map(|axis| (b_m[axis] - middle_m[axis]).powi(2)).sum::<f64>().sqrt();
+    let distance_m = prism.signed_distance_in_space_m(middle_m);
+    if distance_m < 0.0 {
+        return true;
+    }
+    if distance_m > half_m || half_m < 1e-5 || distance_m.is_nan() {
+        return false;
+    }
+    passes_through(prism, [a_m, middle_m]) || passes_through(prism, [middle_m, b_m])
 }
 
 /// A load that overlaps the disc of the level body.

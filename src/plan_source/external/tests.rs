@@ -195,3 +195,24 @@ fn damaged_replies_are_rejected_or_well_formed() {
     }
     assert!(rejected > 1000, "only {rejected} of 2000 damaged replies were rejected");
 }
+
+/// The same for in-loop replies. `FUZZ_ROUNDS=1000000` asks for a million copies of each.
+#[test]
+fn damaged_in_loop_replies_are_results_or_rejected_with_a_reason() {
+    let rounds: usize = std::env::var("FUZZ_ROUNDS").ok().and_then(|it| it.parse().ok()).unwrap_or(2000);
+    for original in [
+        r#"{"id": 7, "fly": [{"t_s": 1.05, "position_m": [1, 1, 2], "velocity_mps": [0, 0, 0]},
+            {"t_s": 2.5, "position_m": [2, 1, 2], "velocity_mps": [0, 0, 0]}]}"#,
+        r#"{"id": 8, "keep": "nothing better"}"#,
+    ] {
+        assert!(super::protocol::read_replan(original).is_ok(), "{original}");
+        let mut rejected = 0;
+        for text in copies_of(original, rounds) {
+            if let Err(reason) = super::protocol::read_replan(&text) {
+                assert!(!reason.to_string().is_empty(), "{text}");
+                rejected += 1;
+            }
+        }
+        assert!(rejected > rounds / 4 && rejected < rounds, "{rejected} rejected: {original}");
+    }
+}

@@ -121,3 +121,31 @@ impl<'a> Clearances<'a> {
         (nearest.0 - radius_m, nearest.1)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verdict::motion::Knot;
+
+    #[test]
+    fn a_cart_that_passes_a_hovering_vehicle_between_its_knots_is_found() {
+        let mut scenario = scenarios::load("shipped:corridor-moving".as_ref()).expect("a shipped scenario");
+        scenario.world.boxes.clear();
+        scenario.world.prisms.clear();
+        scenario.world.cylinders.clear();
+        scenario.world.moving.truncate(1);
+        let [x_m, y_m, z_m] = scenario.world.map.axes().map(|axis| f64::midpoint(axis.min, axis.max));
+        let cart = &mut scenario.world.moving[0];
+        // It passes at 1 m, at 5 s, and is 100 m away at the knots, at 0 s and 10 s.
+        cart.path_m = vec![[x_m - 100.0, y_m + 1.0], [x_m + 100.0, y_m + 1.0]];
+        (cart.speed_mps, cart.offset_m, cart.z_m, cart.radius_m) = (20.0, 0.0, None, 0.5);
+        let knot = |t_s| Knot { t_s, position_m: [x_m, y_m, z_m], velocity_mps: [0.0; 3] };
+        let motion = Motion::new(&scenario.vehicles[0].name, vec![knot(0.0), knot(5.2), knot(10.0)]).unwrap();
+        let reach_m = scenario.multirotor_model(&scenario.vehicles[0]).body_radius_m;
+        let found = closest(&scenario, &[motion]).expect("an approach");
+        assert!((found.at_s - 5.0).abs() < 0.01 && found.obstacle == scenario.world.moving[0].name, "{found:?}");
+        let distance_m = 1.0 - 0.5 - reach_m;
+        assert!(found.lower_m <= distance_m && distance_m <= found.upper_m + 1e-9, "{found:?}, not {distance_m}");
+        assert!(found.upper_m - found.lower_m < 1e-3, "{found:?}");
+    }
+}
