@@ -9,6 +9,7 @@
 
 mod guess;
 mod neighbour;
+mod node_vector;
 mod planner;
 mod problem;
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Initial guesses: cubic curves from start to goal, bowed to either side so that their length fits the flight time.
 
+use super::node_vector::{CLOCK, COORDINATES, STATES, VELOCITY};
 use super::problem::Problem;
-use super::system::{CLOCK, COORDINATES, STATES, VELOCITY};
 use std::f64::consts::PI;
 
 /// Pieces in which the length of a curve is measured.

@@ -7,9 +7,9 @@ use scenarios::fixed_wing::{Control, State, Trajectory};
 use scenarios::{Interpolation, Iteration, Plan, PlanStatus, PlanTimings, Scenario};
 
 use super::guess::Guess;
+use super::node_vector::{STATES, VELOCITY};
 use super::problem::{Problem, TOLERANCE};
 use super::solve::{Options, Sample, Solved, solve};
-use super::system::{STATES, VELOCITY};
 use super::units::{LENGTH_M, SPEED_MPS, TIME_S};
 use crate::nlp::Settings;
 use crate::planner::{Planner, PlanningMode, Progress};

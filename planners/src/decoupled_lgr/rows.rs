@@ -3,8 +3,8 @@
 //! The avoidance constraints are those of the papers' planners before their linearisation: horizontal distances at the
 //! nodes.
 
+use super::node_vector::{CLOCK, VELOCITY, WIDTH};
 use super::problem::Problem;
-use super::system::{CLOCK, VELOCITY, WIDTH};
 use crate::pseudospectral::NodeDerivatives;
 use crate::slung::Jet;
 

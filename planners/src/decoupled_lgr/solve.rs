@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::guess::Guess;
 use super::neighbour::Neighbour;
+use super::node_vector::{STATES, VELOCITY, WIDTH};
 use super::problem::Problem;
-use super::system::{AircraftSystem, STATES, VELOCITY, WIDTH};
+use super::system::AircraftSystem;
 use crate::nlp::{InteriorPoint, Settings, Start, Status, WarmStart};
 use crate::pseudospectral::{Mesh, MeshPoint, Tolerances, Transcription, refine};
 

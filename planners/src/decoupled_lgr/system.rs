@@ -7,6 +7,7 @@
 //! p'' = g (n_x t + n_y b + n_z m) - g e_3,    σ'' = 0
 //! ```
 
+use super::node_vector::{CLOCK, CONTROLS, COORDINATES, LOAD_FACTORS, STATES, VELOCITY, WIDTH};
 use super::problem::Problem;
 use super::rows;
 use super::units::GRAVITY;
@@ -14,16 +15,6 @@ use crate::pseudospectral::{
     Duration, MultiphaseSystem, NodeDerivatives, NodeWeights, TerminalDerivatives, TerminalValues, TerminalWeights,
 };
 use crate::slung::Jet;
-
-/// Coordinates, states, controls.
-pub const COORDINATES: usize = 4;
-pub const STATES: usize = 2 * COORDINATES;
-const CONTROLS: usize = 3;
-pub const WIDTH: usize = STATES + CONTROLS;
-/// Indices in a node vector.
-pub const CLOCK: usize = 3;
-pub const VELOCITY: usize = COORDINATES;
-const LOAD_FACTORS: usize = STATES;
 
 /// A [`Problem`] as a system for the transcription.
 #[derive(Clone, Debug)]

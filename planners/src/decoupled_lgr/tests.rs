@@ -3,8 +3,9 @@
 use scenarios::GRAVITY_MPS2;
 
 use super::neighbour::Neighbour;
+use super::node_vector::{COORDINATES, STATES, VELOCITY, WIDTH};
 use super::problem::Problem;
-use super::system::{AircraftSystem, COORDINATES, STATES, VELOCITY, WIDTH};
+use super::system::AircraftSystem;
 use super::units::{LENGTH_M, SPEED_MPS, TIME_S};
 use crate::pseudospectral::{Duration, MultiphaseSystem, NodeDerivatives, NodeWeights};
 

@@ -1,3 +1,4 @@
+mod bodies;
 mod conditions;
 pub mod log;
 pub mod places;

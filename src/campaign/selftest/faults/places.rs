@@ -3,12 +3,8 @@
 use scenarios::{Geofence, GeofenceKind, Range, Trajectory, World};
 
 use super::super::{Fault, NearMiss, ReferenceCase};
+use super::bodies::{FAR_M, WITHIN_BODY, body_radius_m, end_m, occupied};
 use super::solids;
-
-/// Beyond every path, m.
-pub(super) const FAR_M: f64 = 1e6;
-/// Distance of a boundary from a centre, as a fraction of the body's radius.
-pub(super) const WITHIN_BODY: f64 = 0.5;
 
 /// Checks of states: at the nodes, between them and in flight.
 const CHECKS: [&str; 3] = ["nodes.state_limits", "plan.state_limits", "flight.state_limits"];
@@ -110,17 +106,7 @@ pub fn near_misses() -> Vec<NearMiss> {
     boundaries.into_iter().chain(solids::near_misses()).collect()
 }
 
-/// Where the first vehicle of a plan, or of its flight, is at the planned end.
-pub(super) fn end_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
-    if check.starts_with("flight.") {
-        let last = it.planned_steps() - 1;
-        return it.samples(0)[last].position_m;
-    }
-    let trajectory = &it.plan.trajectories[0];
-    trajectory.nodes().position_m(trajectory.times_s().len() - 1)
-}
-
-/// Where its load is then.
+/// Where the load of the first vehicle of a plan, or of its flight, is at the planned end.
 fn load_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
     if check.starts_with("flight.") {
         let last = it.planned_steps() - 1;
@@ -130,26 +116,6 @@ fn load_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
         Trajectory::SlungLoad(trajectory) => trajectory.states.last().expect("a plan has rows").load_position_m,
         _ => panic!("not a slung load"),
     }
-}
-
-pub(super) fn body_radius_m(it: &ReferenceCase, vehicle: usize) -> f64 {
-    it.scenario.model(&it.scenario.vehicles[vehicle]).body_radius_m()
-}
-
-/// The ranges of the positions of all bodies, with the largest tracking error added.
-pub(super) fn occupied(it: &ReferenceCase) -> [Range; 3] {
-    let logs = it.flight.iter().flat_map(|flight| flight.vehicles.iter().enumerate());
-    let mut ranges = [Range::new(f64::INFINITY, f64::NEG_INFINITY); 3];
-    for (vehicle, log) in logs {
-        let beyond_m = body_radius_m(it, vehicle) + it.scenario.limits().tracking_max_m;
-        let positions_m = log.samples.iter().map(|sample| sample.position_m);
-        for position_m in positions_m.chain(log.loads.iter().map(|load| load.position_m)) {
-            for (range, value_m) in ranges.iter_mut().zip(position_m) {
-                *range = Range::new(range.min.min(value_m - beyond_m), range.max.max(value_m + beyond_m));
-            }
-        }
-    }
-    ranges
 }
 
 fn stay_in(world: &mut World, polygon_m: Vec<[f64; 2]>, z_m: Option<Range>) {

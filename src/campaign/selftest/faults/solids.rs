@@ -4,7 +4,7 @@ use scenarios::geometry::{Loaded, Surface, TerrainGrid};
 use scenarios::{Mesh, Sphere, Terrain, World};
 
 use super::super::{Fault, NearMiss, ReferenceCase};
-use super::places::{FAR_M, WITHIN_BODY, body_radius_m, end_m, occupied};
+use super::bodies::{FAR_M, WITHIN_BODY, body_radius_m, end_m, occupied};
 
 /// Checks of clearance: at the nodes, between them and in flight.
 const CHECKS: [&str; 3] = ["nodes.clearance", "plan.clearance", "flight.clearance"];
