@@ -53,9 +53,14 @@ pub(super) fn parse(text: &str) -> Result<Node, FormulaError> {
 fn remedy(text: &str, at: usize) -> String {
     let rest = &text[at..];
     let word: String = rest.chars().take_while(|it| is_name(*it)).collect();
-    let lower = word.to_lowercase();
-    if word != lower && KEYWORDS.contains(&lower.as_str()) {
-        format!("write `{lower}`: keywords are in lower case")
+    // A keyword in upper case is read as a name, and what follows it is not understood.
+    let before = text[..at].trim_end().rsplit(|it: char| !is_name(it)).next().unwrap_or_default();
+    let keyword = [before, word.as_str()].into_iter().find_map(|it| {
+        let lower = it.to_lowercase();
+        (it != lower && KEYWORDS.contains(&lower.as_str())).then_some(lower)
+    });
+    if let Some(keyword) = keyword {
+        format!("write `{keyword}`: keywords are in lower case")
     } else if rest.starts_with('=') {
         "no motion is exactly at a value: write `abs(a - b) < tolerance`".to_owned()
     } else if rest.starts_with(['<', '>', '≤', '≥']) {
