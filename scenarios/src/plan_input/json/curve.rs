@@ -64,10 +64,8 @@ pub(super) fn read(trajectory: &Value, index: usize) -> Result<Curve, Issue> {
     let others = object.keys().filter(|key| !matches!(key.as_str(), "vehicle" | "family"));
     let others: Vec<&String> = others.collect();
     let [form] = others[..] else {
-        let found = match others.iter().find(|key| !FORMS.contains(&key.as_str())) {
-            Some(unknown) => format!("the unknown key `{unknown}`"),
-            None => "more than one form of the motion".into(),
-        };
+        let names: Vec<String> = others.iter().map(|key| format!("`{key}`")).collect();
+        let found = format!("more than one form of the motion, or an unknown key: {}", names.join(", "));
         return Err(issue(&field, found, &format!("`vehicle` and one of {}", FORMS.join(", "))));
     };
     let value = &object[form];
