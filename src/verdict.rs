@@ -41,6 +41,8 @@ mod rotors;
 mod separation;
 mod separation_shape;
 pub mod slung_load;
+#[cfg(test)]
+mod still_sample;
 pub mod tolerance;
 mod tracking;
 mod trajectory_defect;

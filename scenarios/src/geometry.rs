@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub use convex_piece::ConvexPiece;
 pub(crate) use files::{FileError, read_mesh, read_terrain};
 pub(crate) use placement::Placement;
-pub use surface::Surface;
+pub use surface::{Surface, SurfaceError};
 pub use terrain_grid::TerrainGrid;
 
 /// Error of a signed distance by rounding, as a fraction of the largest coordinate. Measured on random meshes: below 1e-14.

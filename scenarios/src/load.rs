@@ -110,7 +110,9 @@ impl ScenarioFile {
         match Scenario::deserialize(Deserializer::from(known)) {
             Ok(mut scenario) => {
                 let unread = files::read(&mut scenario.world, Path::new(&self.name));
-                let semantic = self.name_issue(&scenario).into_iter().chain(unread).chain(validate(&scenario));
+                let is_unread = |issue: &Issue| unread.iter().any(|it| it.field == issue.field);
+                let valid = validate(&scenario).into_iter().filter(|issue| !is_unread(issue));
+                let semantic = self.name_issue(&scenario).into_iter().chain(unread.iter().cloned()).chain(valid);
                 let fresh: Vec<Issue> = semantic.filter(|issue| !is_reported(&issue.field, &issues)).collect();
                 issues.extend(fresh.into_iter().map(|issue| locate(&self.text, tree.get_ref(), issue)));
                 if issues.is_empty() { Ok(scenario) } else { Err(self.invalid(issues)) }

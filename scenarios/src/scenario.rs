@@ -78,7 +78,7 @@ impl Scenario {
         let ends = world.boxes.iter().map(|it| it.z_m).chain(world.prisms.iter().map(|it| it.z_m));
         let is_level = |vehicle: &Vehicle| vehicle.start.z_m == vehicle.goal.z_m;
         ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none())
-            && world.solids().is_empty()
+            && !world.has_solids()
             && self.vehicles.iter().all(is_level)
     }
 

@@ -16,6 +16,9 @@ pub use moving_cylinder::MovingCylinder;
 pub use prism::{BoxObstacle, Prism};
 pub use solid::{Capsule, Cuboid, Mesh, Sphere, Terrain};
 
+/// How many of [`World::obstacle_lists`] may be hidden, and how many are upright.
+const LISTS_THAT_MAY_BE_HIDDEN: usize = 3;
+pub(crate) const UPRIGHT_LISTS: usize = 4;
 /// Wildcard in [`World::hidden`]: all static obstacles.
 const EVERY_OBSTACLE: &str = "*";
 
@@ -123,9 +126,25 @@ impl World {
         self.boxes.iter().map(BoxObstacle::as_prism).chain(prisms).collect()
     }
 
-    /// The obstacles of other shapes at rest: spheres, capsules, cuboids, meshes, terrain. Those whose files have not been read
-    /// are missing; [`load`](crate::load()) reads them.
+    /// The obstacles of other shapes at rest: spheres, capsules, cuboids, meshes, terrain.
+    ///
+    /// # Panics
+    ///
+    /// Panics if the file of a mesh or of the terrain has not been read, which [`load`](crate::load()) and [`parse`](crate::parse)
+    /// exclude: an obstacle that is not there would be no obstacle to anybody.
     pub fn solids(&self) -> Vec<Solid> {
+        let unread = self.unread_files();
+        assert!(unread.is_empty(), "files that have not been read: {}", unread.join(", "));
+        self.read_solids()
+    }
+
+    /// Whether there are obstacles of other shapes at rest.
+    pub fn has_solids(&self) -> bool {
+        self.obstacle_lists().into_iter().skip(UPRIGHT_LISTS).any(|(_, names)| !names.is_empty())
+    }
+
+    /// [`solids`](Self::solids) without those whose files could not be read, which is an issue of its own.
+    pub(crate) fn read_solids(&self) -> Vec<Solid> {
         let closed_form = self.spheres.iter().map(Sphere::solid).chain(self.capsules.iter().map(Capsule::solid));
         let closed_form = closed_form.chain(self.cuboids.iter().map(Cuboid::solid));
         closed_form
@@ -134,7 +153,14 @@ impl World {
             .collect()
     }
 
-    /// The lists of obstacles by their keys, each with the names in it. The first three may be hidden.
+    /// The files that have not been read.
+    fn unread_files(&self) -> Vec<&str> {
+        let meshes = self.meshes.iter().filter(|mesh| mesh.surface.get().is_none()).map(|mesh| mesh.file.as_str());
+        let terrain = self.terrain.iter().filter(|terrain| terrain.grid.get().is_none());
+        meshes.chain(terrain.map(|terrain| terrain.file.as_str())).collect()
+    }
+
+    /// The lists of obstacles by their keys, each with the names in it: the first three may be hidden, the first four are upright.
     pub fn obstacle_lists(&self) -> [(&'static str, Vec<&str>); 9] {
         fn names<T>(list: &[T], name: fn(&T) -> &String) -> Vec<&str> {
             list.iter().map(|it| name(it).as_str()).collect()
@@ -159,7 +185,7 @@ impl World {
 
     /// The names of the obstacles that may be hidden: cylinders, boxes and prisms.
     pub fn names_that_may_be_hidden(&self) -> impl Iterator<Item = &str> {
-        self.obstacle_lists().into_iter().take(3).flat_map(|(_, names)| names)
+        self.obstacle_lists().into_iter().take(LISTS_THAT_MAY_BE_HIDDEN).flat_map(|(_, names)| names)
     }
 }
 

@@ -10,6 +10,7 @@ mod planned;
 mod reference;
 
 use std::ops::Deref;
+use std::sync::OnceLock;
 
 use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 
@@ -46,6 +47,9 @@ struct FleetCase<'a> {
     tubes: Vec<RowTube>,
     /// The flown motions in their tubes; `None` if nothing was reconstructed.
     flown_in_tubes: Option<Vec<Motion>>,
+    /// The motions after the first arrival, until the last, computed when they are first asked for.
+    planned_coast: OnceLock<Vec<Motion>>,
+    flown_coast: OnceLock<Result<Vec<Motion>, MissingEvidence>>,
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
@@ -60,14 +64,20 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     }),
     ("plan.separation", |spec, it| {
         let shape = SeparationShape::Horizontal;
-        separation::check_with_coast(spec, it.scenario, it.planned_motions(), |motions| Ok(it.coast_of(motions)), shape)
+        separation::check_with_coast(
+            spec,
+            it.scenario,
+            it.planned_motions(),
+            |motions| Ok(it.planned_coast(motions)),
+            shape,
+        )
     }),
     ("plan.clearance", |spec, it| {
-        clearance::check(spec, it.scenario, it.planned_motions(), |motions| Ok(it.coast_of(motions)))
+        clearance::check(spec, it.scenario, it.planned_motions(), |motions| Ok(it.planned_coast(motions)))
     }),
     ("plan.state_limits", |spec, it| {
         let motions = it.planned_motions()?;
-        limits::check_planned_states(spec, it.scenario, motions, &it.coast_of(motions), &it.tubes)
+        limits::check_planned_states(spec, it.scenario, motions, it.planned_coast(motions), &it.tubes)
     }),
     ("plan.control_limits", |spec, it| limits::check_planned_controls(spec, it.scenario, it.flyable()?)),
     ("plan.dynamics", |spec, it| dynamics::check_defects(spec, it.scenario, it.plan, it.planned()?, it.provenance)),
@@ -89,7 +99,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions(), |_| it.flown_coast())),
     ("flight.state_limits", |spec, it| {
         let motions = (it.flown_motions()?, it.flown_coast()?);
-        limits::check_flown_states(spec, it.scenario, it.flown()?, (motions.0, &motions.1), &it.tubes)
+        limits::check_flown_states(spec, it.scenario, it.flown()?, motions, &it.tubes)
     }),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),
     ("flight.dynamics", |spec, it| physics::check(spec, it.scenario, it.flight()?)),
@@ -107,17 +117,20 @@ impl<'a> FleetCase<'a> {
         let flown = shared.flown_motions().ok().filter(|_| tubes.iter().any(|tube| tube.tube.has_width()));
         let flown_in_tubes = flown.map(|motions| surround(motions.to_vec(), &tubes));
         let planned = planned.map(|planned| PlannedMotions { motions: surround(planned.motions, &tubes), ..planned });
-        Self { shared, planned, tubes, flown_in_tubes }
+        let (planned_coast, flown_coast) = (OnceLock::new(), OnceLock::new());
+        Self { shared, planned, tubes, flown_in_tubes, planned_coast, flown_coast }
     }
 
     /// The planned motions after the first arrival, until the last.
-    fn coast_of(&self, planned: &[Motion]) -> Vec<Motion> {
-        coast::planned(planned, |index| self.planned_end_error(index))
+    fn planned_coast(&self, planned: &[Motion]) -> &[Motion] {
+        self.planned_coast.get_or_init(|| coast::planned(planned, |index| self.planned_end_error(index)))
     }
 
     /// The flown motions after the first arrival, until the last.
-    fn flown_coast(&self) -> Result<Vec<Motion>, MissingEvidence> {
-        coast::flown(self.shared.flight()?, self.shared.flown()?, |index, motion| self.in_tube(index, motion))
+    fn flown_coast(&self) -> Evidence<'_, [Motion]> {
+        let compute =
+            || coast::flown(self.shared.flight()?, self.shared.flown()?, |index, motion| self.in_tube(index, motion));
+        self.flown_coast.get_or_init(compute).as_ref().map(Vec::as_slice)
     }
 
     /// The planned motions until the last arrival, those that arrive earlier flying on.

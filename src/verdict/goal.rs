@@ -117,24 +117,14 @@ fn velocity_mps(samples: &[Sample], t_s: f64) -> Option<[f64; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use sim::{Actuation, Commanded, Sample};
+    use sim::Sample;
 
     use super::velocity_mps;
+    use crate::verdict::still_sample::still_sample;
 
     /// Samples 0.5 s apart from 2 s on, with a velocity of (3 t, -t, 0).
     fn samples() -> Vec<Sample> {
-        let sample = |t_s: f64| Sample {
-            t_s,
-            position_m: [0.0; 3],
-            velocity_mps: [3.0 * t_s, -t_s, 0.0],
-            wind_mps: [0.0; 3],
-            world_from_body: [0.0, 0.0, 0.0, 1.0],
-            measured_position_m: [0.0; 3],
-            measured_velocity_mps: [0.0; 3],
-            reference_position_m: [0.0; 3],
-            reference_velocity_mps: [0.0; 3],
-            actuation: Actuation::Acceleration(Commanded { command: [0.0; 3], control: [0.0; 3] }),
-        };
+        let sample = |t_s: f64| Sample { velocity_mps: [3.0 * t_s, -t_s, 0.0], ..still_sample(t_s) };
         (0..4).map(|step| sample(2.0 + 0.5 * f64::from(step))).collect()
     }
 

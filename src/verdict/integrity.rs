@@ -153,6 +153,6 @@ mod tests {
             check_plan_complete(check_spec("plan.complete").unwrap(), &scenario, &plan).value.unwrap()
         };
         let [one, two] = [0, 1].map(|index| scenario.vehicles[index].name.as_str());
-        assert_eq!([defects(&[one, two]), defects(&[one]), defects(&[one, two, "nobody"])], [0.0, 1.0, 1.0]);
+        assert_eq!([defects(&[one, two]), defects(&[one]), defects(&[one, two, "uav-99"])], [0.0, 1.0, 1.0]);
     }
 }

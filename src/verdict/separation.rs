@@ -28,16 +28,16 @@ pub fn check(
 /// Over continuous time, of motions that end at the arrivals.
 ///
 /// - `coast`: the motions from the first arrival until the last; none if all arrive at once
-pub fn check_with_coast(
+pub fn check_with_coast<'a>(
     spec: &CheckSpec,
     scenario: &Scenario,
     motions: Evidence<'_, [Motion]>,
-    coast: impl Fn(&[Motion]) -> Result<Vec<Motion>, MissingEvidence>,
+    coast: impl Fn(&[Motion]) -> Evidence<'a, [Motion]>,
     shape: SeparationShape,
 ) -> CheckResult {
     against_rule(spec, scenario, motions, |motions| {
         let coast = coast(motions)?;
-        let parts = [motions, &coast].into_iter().filter_map(|part| closest::between_vehicles(part, shape));
+        let parts = [motions, coast].into_iter().filter_map(|part| closest::between_vehicles(part, shape));
         Ok(parts.reduce(ClosestApproach::closer))
     })
 }

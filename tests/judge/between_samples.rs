@@ -128,14 +128,8 @@ fn a_climb_between_level_nodes_breaks_the_altitude_limit_of_the_plan_only() {
 /// Aircraft do not vanish at their goals: one that has arrived flies on, and the others have to keep away from it.
 #[test]
 fn an_arrived_vehicle_counts_for_separation_until_the_others_have_arrived() {
-    let mut case = Case::straight(&[0.0, 200.0], 0.01);
-    case.scenario.fleet.simultaneous_arrival = false;
-    // The first arrives after 10 s at x = 350 m; the second flies through it at 12 s.
-    case.scenario.vehicles[0].goal.x_m = 350.0;
-    let trajectory = case.trajectory(0);
-    trajectory.times_s.truncate(6);
-    trajectory.states.truncate(6);
-    trajectory.controls.truncate(6);
+    // The first arrives after 10 s; the second flies through it at 12 s.
+    let mut case = Case::straight(&[0.0, 200.0], 0.01).with_early_arrival();
     for sample in case.samples(1).iter_mut().filter(|sample| sample.t_s > 12.0) {
         sample.position_m[1] = 0.0;
     }
@@ -146,13 +140,7 @@ fn an_arrived_vehicle_counts_for_separation_until_the_others_have_arrived() {
 /// What cannot be judged of the time after an arrival is no separation.
 #[test]
 fn a_log_without_numbers_after_an_arrival_does_not_pass_for_separation() {
-    let mut case = Case::straight(&[0.0, 200.0], 0.01);
-    case.scenario.fleet.simultaneous_arrival = false;
-    case.scenario.vehicles[0].goal.x_m = 350.0;
-    let trajectory = case.trajectory(0);
-    trajectory.times_s.truncate(6);
-    trajectory.states.truncate(6);
-    trajectory.controls.truncate(6);
+    let mut case = Case::straight(&[0.0, 200.0], 0.01).with_early_arrival();
     assert_eq!(case.status("flight.separation"), Status::Pass);
     for sample in case.samples(0).iter_mut().filter(|sample| (14.0..15.0).contains(&sample.t_s)) {
         sample.position_m[1] = f64::NAN;

@@ -38,6 +38,17 @@ impl Case {
         Self { scenario: scenario(vehicles, step_s), plan, flight: Some(flight(logs, step_s)) }
     }
 
+    /// The same, but that the first aircraft arrives at x = 350 m, after 10 s, and flies on until the others arrive after 20 s.
+    pub fn with_early_arrival(mut self) -> Self {
+        self.scenario.fleet.simultaneous_arrival = false;
+        self.scenario.vehicles[0].goal.x_m = 350.0;
+        let trajectory = self.trajectory(0);
+        trajectory.times_s.truncate(6);
+        trajectory.states.truncate(6);
+        trajectory.controls.truncate(6);
+        self
+    }
+
     pub fn judge(&self) -> Verdict {
         judge(&self.scenario, &self.plan, self.flight.as_ref())
     }

@@ -254,26 +254,12 @@ fn distances_over_time_agree_with_the_verdict() {
     assert!((smallest - case.check("flight.clearance").value.unwrap()).abs() < 1e-6);
 }
 
-/// The first aircraft arrives after 10 s, 20° to the north of its course, and would fly on towards the second one, which is
-/// under way for 10 s more.
-/// The first aircraft arrives at 350 m after 10 s, and flies on until the others arrive after 20 s.
-fn first_arrives_halfway() -> Case {
-    let mut case = Case::good();
-    case.scenario.fleet.simultaneous_arrival = false;
-    case.scenario.vehicles[0].goal.x_m = 350.0;
-    let trajectory = case.trajectory(0);
-    trajectory.times_s.truncate(6);
-    trajectory.states.truncate(6);
-    trajectory.controls.truncate(6);
-    case
-}
-
 /// At 20 s it is at 700 m. The others are in the map and clear of the obstacles all the time.
 #[test]
 fn an_aircraft_that_has_arrived_stays_clear_of_obstacles_on_the_map_and_out_of_geofences_until_all_have() {
-    let y_m = first_arrives_halfway().scenario.vehicles[0].start.y_m;
+    let y_m = Case::good().with_early_arrival().scenario.vehicles[0].start.y_m;
     let broken = |change: &dyn Fn(&mut scenarios::Scenario), names: [&str; 2]| {
-        let mut case = first_arrives_halfway();
+        let mut case = Case::good().with_early_arrival();
         assert!(names.map(|name| case.check(name).status).iter().all(|status| *status == Status::Pass));
         change(&mut case.scenario);
         for check in names.map(|name| case.check(name)) {
@@ -298,7 +284,7 @@ fn an_aircraft_that_has_arrived_stays_clear_of_obstacles_on_the_map_and_out_of_g
             applies_to: scenarios::requirement::AppliesTo::Both,
         });
     };
-    let mut case = first_arrives_halfway();
+    let mut case = Case::good().with_early_arrival();
     asked(&mut case.scenario);
     for name in ["plan.requirement.early", "flight.requirement.early"] {
         let check = check(&case.judge(), name);
@@ -307,10 +293,12 @@ fn an_aircraft_that_has_arrived_stays_clear_of_obstacles_on_the_map_and_out_of_g
     }
 }
 
+/// The first aircraft arrives after 10 s, 20° to the north of its course, and would fly on towards the second one, which is
+/// under way for 10 s more.
 #[test]
 fn an_aircraft_that_has_arrived_counts_for_the_separation_until_all_have() {
     let arriving = |heading_deg: f64| {
-        let mut case = first_arrives_halfway();
+        let mut case = Case::good().with_early_arrival();
         let trajectory = case.trajectory(0);
         trajectory.states[4].heading_rad = heading_deg.to_radians();
         let north_mps = SPEED_MPS * heading_deg.to_radians().tan();

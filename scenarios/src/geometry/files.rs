@@ -72,8 +72,9 @@ pub(crate) fn read_mesh(extension: &str, content: &[u8], placement: &Placement) 
             remedy,
         ));
     }
-    Surface::new(&corners_m, &triangles)
-        .map_err(|found| FileError::new(found, "triangles between corners of the file", "export the mesh again"))
+    Surface::new(&corners_m, &triangles).map_err(|error| {
+        FileError::new(error.to_string(), "triangles between corners of the file", "export the mesh again")
+    })
 }
 
 /// The terrain in an ESRI ASCII grid, in the world frame.

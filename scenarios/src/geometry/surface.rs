@@ -5,9 +5,29 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags, Triangle};
+use thiserror::Error;
 
 use super::NearestPoint;
 use super::round::{cross, difference, dot, norm};
+
+/// Why triangles are no surface.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum SurfaceError {
+    /// There are no triangles, or all of them are degenerate.
+    #[error("no triangle with an area")]
+    NoArea,
+    /// A triangle refers to a corner that does not exist.
+    #[error("a triangle with corner {index} of {count} (counted from 0)")]
+    NoCorner {
+        /// Index of the corner.
+        index: u32,
+        /// Number of corners.
+        count: usize,
+    },
+    /// parry cannot build its hierarchy, for this reason.
+    #[error("{0}")]
+    Rejected(String),
+}
 
 /// A surface of triangles. If it is closed, it has an inside; otherwise distances are to the surface, from both sides.
 #[derive(Clone)]
@@ -27,10 +47,10 @@ impl Surface {
     ///
     /// # Errors
     ///
-    /// No triangle has an area, or an index is out of range: in words.
-    pub fn new(corners_m: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, String> {
-        if let Some(index) = triangles.iter().flatten().find(|index| **index as usize >= corners_m.len()) {
-            return Err(format!("a triangle with corner {index} of {} (counted from 0)", corners_m.len()));
+    /// No triangle has an area, or an index is out of range.
+    pub fn new(corners_m: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Self, SurfaceError> {
+        if let Some(&index) = triangles.iter().flatten().find(|index| **index as usize >= corners_m.len()) {
+            return Err(SurfaceError::NoCorner { index, count: corners_m.len() });
         }
         let (corners_m, mut triangles) = merged(corners_m, triangles);
         triangles.retain(|[a, b, c]| a != b && b != c && a != c);
@@ -38,7 +58,7 @@ impl Surface {
         let count = triangles.len();
         triangles.retain(|triangle| doubled_area_m2(&corners_m, *triangle) > 0.0);
         if triangles.is_empty() {
-            return Err("no triangle with an area".to_owned());
+            return Err(SurfaceError::NoArea);
         }
         // The sign of the distance comes from the normals of adjacent triangles, which slivers do not have.
         let is_closed = is_manifold && triangles.len() == count;
@@ -47,7 +67,8 @@ impl Surface {
         }
         let flags = if is_closed { TriMeshFlags::ORIENTED } else { TriMeshFlags::empty() };
         let corners_m = corners_m.iter().map(|[x, y, z]| Vector::new(*x, *y, *z)).collect();
-        let mesh = TriMesh::with_flags(corners_m, triangles, flags).map_err(|error| error.to_string())?;
+        let mesh = TriMesh::with_flags(corners_m, triangles, flags)
+            .map_err(|error| SurfaceError::Rejected(error.to_string()))?;
         Ok(Self { mesh, is_closed, enclosure: OnceLock::new() })
     }
 

@@ -11,7 +11,7 @@ pub(crate) fn too_near_obstacles(radius_m: f64, world: &World, field: &str, wayp
     let cylinders = world.cylinders.iter().map(|it| (it.name.clone(), it.signed_distance_m(x_m, y_m)));
     let flat = world.prism_obstacles();
     let prisms = flat.iter().map(|it| (it.name.clone(), it.signed_distance_in_space_m([x_m, y_m, z_m])));
-    let solids = world.solids();
+    let solids = world.read_solids();
     let solids = solids.iter().map(|it| (it.name().to_owned(), it.signed_distance_m([x_m, y_m, z_m])));
     let is_near = |(_, distance_m): &(String, f64)| (0.0..radius_m).contains(distance_m);
     let near = cylinders.chain(prisms).chain(solids).filter(is_near);

@@ -2,6 +2,7 @@
 
 use super::identifier::entity_names;
 use super::quantity::positive;
+use crate::world::UPRIGHT_LISTS;
 use crate::{Issue, Map, Mesh, Range, Terrain, World};
 
 /// A mesh that is this many times longer than the map is in other units.
@@ -12,7 +13,7 @@ const ROUNDING: f64 = 1e-9;
 pub(super) fn issues(world: &World) -> Vec<Issue> {
     let mut issues = Vec::new();
     let lists = world.obstacle_lists();
-    let solids = lists.iter().skip(4).filter(|(list, _)| *list != "terrain");
+    let solids = lists.iter().skip(UPRIGHT_LISTS).filter(|(list, _)| *list != "terrain");
     issues.extend(solids.flat_map(|(list, names)| entity_names(&format!("world.{list}"), names.iter().copied())));
     for (index, sphere) in world.spheres.iter().enumerate() {
         issues.extend(positive(&format!("world.spheres[{index}].radius_m"), sphere.radius_m));

@@ -87,6 +87,6 @@ pub(crate) fn inside_obstacle(world: &World, field: &str, [x_m, y_m, z_m]: [f64;
         Issue::new(field, found, "a point outside every obstacle").remedy("move the point or the obstacle")
     };
     let upright = cylinders.chain(prisms).filter(|(_, distance_m)| *distance_m < 0.0).map(issue);
-    let enclosing = world.solids().into_iter().filter(|solid| solid.encloses([x_m, y_m, z_m]));
+    let enclosing = world.read_solids().into_iter().filter(|solid| solid.encloses([x_m, y_m, z_m]));
     upright.chain(enclosing.map(|solid| inside_solid(&solid, field, [x_m, y_m, z_m]))).collect()
 }

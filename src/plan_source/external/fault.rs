@@ -52,7 +52,7 @@ pub enum PlannerFault {
     /// Its output is not text.
     #[error("its reply is not valid UTF-8")]
     NotText,
-    /// It succeeded without a word.
+    /// It succeeded and wrote nothing.
     #[error("it wrote no reply to its standard output")]
     NoReply,
     /// It wrote something else than a JSON object.
@@ -73,7 +73,7 @@ pub enum PlannerFault {
     /// The reply of an in-loop planner is not valid.
     #[error("its reply is invalid: {0}")]
     InvalidReply(String),
-    /// A reply that nobody asked for.
+    /// A reply without a request.
     #[error("it replied before it was asked")]
     Unasked,
     /// The reply to another request.

@@ -1,24 +1,14 @@
 use scenarios::{GustPulse, Gusts, Wind};
-use sim::{Actuation, Commanded, Sample, VehicleLog};
+use sim::{Sample, VehicleLog};
 
 use super::air_defect;
+use crate::verdict::still_sample::still_sample;
 
 /// A log of 4 s with this air.
 fn log(wind_mps: impl Fn(f64) -> [f64; 3]) -> VehicleLog {
     let sample = |step: u32| {
         let t_s = f64::from(step) / 100.0;
-        Sample {
-            t_s,
-            position_m: [0.0; 3],
-            velocity_mps: [0.0; 3],
-            wind_mps: wind_mps(t_s),
-            world_from_body: [0.0, 0.0, 0.0, 1.0],
-            measured_position_m: [0.0; 3],
-            measured_velocity_mps: [0.0; 3],
-            reference_position_m: [0.0; 3],
-            reference_velocity_mps: [0.0; 3],
-            actuation: Actuation::Acceleration(Commanded { command: [0.0; 3], control: [0.0; 3] }),
-        }
+        Sample { wind_mps: wind_mps(t_s), ..still_sample(t_s) }
     };
     VehicleLog { vehicle: "uav".into(), samples: (0..=400).map(sample).collect(), loads: Vec::new() }
 }

@@ -19,15 +19,15 @@ use crate::verdict::obstacle_approach;
 /// Over continuous time.
 ///
 /// - `coast`: how the vehicles go on after the first arrival, until the last
-pub fn check(
+pub fn check<'a>(
     spec: &CheckSpec,
     scenario: &Scenario,
     motions: Evidence<'_, [Motion]>,
-    coast: impl Fn(&[Motion]) -> Result<Vec<Motion>, MissingEvidence>,
+    coast: impl Fn(&[Motion]) -> Evidence<'a, [Motion]>,
 ) -> CheckResult {
     against_obstacles(spec, scenario, motions, |motions| {
         let coast = coast(motions)?;
-        Ok([motions, &coast].into_iter().filter_map(|part| closest(scenario, part)).reduce(closer))
+        Ok([motions, coast].into_iter().filter_map(|part| closest(scenario, part)).reduce(closer))
     })
 }
 

@@ -58,7 +58,7 @@ fn margin_m(scenario: &Scenario) -> f64 {
 
 /// Cylinders that cover all ground above an altitude.
 fn cylinders(terrain: &Terrain, altitude_m: f64) -> Vec<Cylinder> {
-    let Some(grid) = terrain.grid.get() else { return Vec::new() };
+    let grid = terrain.grid.get().expect("files are read when a scenario is loaded");
     let boxes = grid.block_boxes(SQUARES).into_iter().filter(|[_, top_m]| top_m[2] >= altitude_m);
     let squares = boxes.map(|corners| corners.map(|[x, y, _]| [x, y])).collect();
     let circles = connected(squares).into_iter().flat_map(covered);

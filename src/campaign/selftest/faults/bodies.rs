@@ -1,13 +1,25 @@
 //! Where the bodies of a reference case are, for faults that put something in their way.
 
-use scenarios::Range;
+use scenarios::{Range, World};
 
-use super::super::ReferenceCase;
+use super::super::{Fault, ReferenceCase};
 
 /// Beyond every path, m.
 pub const FAR_M: f64 = 1e6;
 /// Distance of a boundary from a centre, as a fraction of the body's radius.
 pub const WITHIN_BODY: f64 = 0.5;
+
+/// Places an obstacle or a boundary near a centre, m, at a distance, m, that is within the body.
+pub type Placed = fn(&mut World, [f64; 3], f64);
+
+/// The fault of something within the body of the first vehicle where a plan or a flight ends.
+pub fn near_body(check: &'static str, &(name, place): &(&'static str, Placed)) -> Fault {
+    Fault::new(check, name, move |it| {
+        let centre_m = end_m(it, check);
+        let near_m = WITHIN_BODY * body_radius_m(it, 0);
+        place(&mut it.scenario.world, centre_m, near_m);
+    })
+}
 
 /// Where the first vehicle of a plan, or of its flight, is at the planned end.
 pub fn end_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {

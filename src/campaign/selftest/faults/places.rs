@@ -3,14 +3,11 @@
 use scenarios::{Geofence, GeofenceKind, Range, Trajectory, World};
 
 use super::super::{Fault, NearMiss, ReferenceCase};
-use super::bodies::{FAR_M, WITHIN_BODY, body_radius_m, end_m, occupied};
+use super::bodies::{FAR_M, Placed, WITHIN_BODY, near_body, occupied};
 use super::solids;
 
 /// Checks of states: at the nodes, between them and in flight.
 const CHECKS: [&str; 3] = ["nodes.state_limits", "plan.state_limits", "flight.state_limits"];
-
-/// Places a boundary near a centre, m, at a distance, m, that is within the body.
-type Placed = fn(&mut World, [f64; 3], f64);
 
 /// Boundaries near the place where a plan or a flight ends.
 const NEAR_GOAL: &[(&str, Placed)] = &[
@@ -77,14 +74,6 @@ pub fn load_faults() -> Vec<Fault> {
         })
     };
     CHECKS.into_iter().flat_map(of_check).collect()
-}
-
-fn near_body(check: &'static str, &(name, place): &(&'static str, Placed)) -> Fault {
-    Fault::new(check, name, move |it| {
-        let centre_m = end_m(it, check);
-        let near_m = WITHIN_BODY * body_radius_m(it, 0);
-        place(&mut it.scenario.world, centre_m, near_m);
-    })
 }
 
 /// A map and a geofence around all bodies, as far beyond them as a vehicle may be off its plan.

@@ -81,7 +81,7 @@ const RED: &[(&str, Text)] = &[
     ("a quotient by nothing", |_| "always altitude(v) / (time - time) * 1 s > 0 m".to_owned()),
     ("an empty formula", |_| String::new()),
     ("an open bracket", |_| "always (altitude(v) > -1 km".to_owned()),
-    ("a vehicle that the scenario does not have", |_| "always altitude(nobody) > -1 km".to_owned()),
+    ("an unknown vehicle", |_| "always altitude(uav-99) > -1 km".to_owned()),
     ("a signal that does not exist", |_| "always attitude(v) > -1 km".to_owned()),
     ("metres compared with seconds", |_| "always altitude(v) > -1 s".to_owned()),
 ];

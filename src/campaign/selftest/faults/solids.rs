@@ -1,16 +1,13 @@
 //! Faults of obstacles of any shape: a body reaches into one, although its centre does not.
 
 use scenarios::geometry::{Loaded, Surface, TerrainGrid};
-use scenarios::{Mesh, Sphere, Terrain, World};
+use scenarios::{Mesh, Sphere, Terrain};
 
 use super::super::{Fault, NearMiss, ReferenceCase};
-use super::bodies::{FAR_M, WITHIN_BODY, body_radius_m, end_m, occupied};
+use super::bodies::{FAR_M, Placed, end_m, near_body, occupied};
 
 /// Checks of clearance: at the nodes, between them and in flight.
 const CHECKS: [&str; 3] = ["nodes.clearance", "plan.clearance", "flight.clearance"];
-
-/// Places an obstacle near a centre, m, at a distance, m, that is within the body.
-type Placed = fn(&mut World, [f64; 3], f64);
 
 const NEAR_GOAL: &[(&str, Placed)] = &[
     ("a mesh has a wall where a window was", |world, [x_m, ..], near_m| world.meshes.push(sheet(x_m + near_m))),
@@ -31,14 +28,6 @@ pub fn faults() -> Vec<Fault> {
 /// The faults of flights that were planned in the loop.
 pub fn flown_faults() -> Vec<Fault> {
     NEAR_GOAL.iter().map(|placed| near_body(CHECKS[2], placed)).collect()
-}
-
-fn near_body(check: &'static str, &(name, place): &(&'static str, Placed)) -> Fault {
-    Fault::new(check, name, move |it| {
-        let centre_m = end_m(it, check);
-        let near_m = WITHIN_BODY * body_radius_m(it, 0);
-        place(&mut it.scenario.world, centre_m, near_m);
-    })
 }
 
 /// Obstacles just beyond all bodies, as far as a vehicle may be off its plan.
