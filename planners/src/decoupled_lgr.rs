@@ -14,6 +14,7 @@ mod planner;
 mod problem;
 #[cfg(test)]
 mod reference_tests;
+mod rollout;
 mod rows;
 mod solve;
 mod system;

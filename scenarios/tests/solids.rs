@@ -123,3 +123,18 @@ fn terrain_covers_the_map() {
     let high = load(entry, &[("hills.asc", &grid("9000", 4.0))]);
     assert_issue(high, "vehicles[", &["below `terrain`"]);
 }
+
+/// A scenario that was deserialised without its files: its obstacles are there, and nobody may fly as if they were not.
+#[test]
+#[should_panic(expected = "files that have not been read: house.obj")]
+fn an_obstacle_whose_file_has_not_been_read_is_not_missing_in_silence() {
+    let text = format!("{TEXT}\n{}\n", mesh(""));
+    let scenario: Scenario = toml::from_str(&text).expect("the form of a scenario");
+    scenario.world.solids();
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_one_issue() {
+    let lines = load(&mesh(""), &[]).expect_err("there is no such file").lines();
+    assert_eq!(lines.len(), 1, "{lines:#?}");
+}

@@ -44,8 +44,12 @@ const OVERSHOOT: f64 = 0.02;
 const MAX_ORDER: usize = 8;
 const MAX_MESHES: usize = 10;
 
-/// Largest time between two rows of the plan, s: the controls are linear between them, and jump where the optimum does.
+/// Largest time between two rows of the plan, s: the controls are linear between them.
 const MAX_SAMPLE_S: f64 = 0.1;
+/// Largest error of the motion that the load factors alone lead to, as a fraction of the limit of the verdict.
+const MAX_ROLLOUT: f64 = 0.9;
+/// Time in which the controls of the plan change where those of the optimum jump, s.
+const JUMP_S: f64 = 1e-3;
 
 /// Excess of the first common flight time over that of the slowest aircraft alone, as a fraction; it doubles from one round to
 /// the next. In its own shortest time an aircraft has no choice left.
@@ -111,14 +115,13 @@ fn options(scenario: &Scenario) -> Options {
         max_meshes: MAX_MESHES,
         solver: Settings { tolerance: 1e-6, max_iterations, ..defaults },
         step: MAX_SAMPLE_S / TIME_S,
+        jump: JUMP_S / TIME_S,
     }
 }
 
 fn assemble(scenario: &Scenario, seed: u64, best: &[Solved], history: Vec<Iteration>, begin: Instant) -> Plan {
-    let unsolved = best.iter().filter(|solved| !solved.is_solved).count();
-    let status = if unsolved == 0 { PlanStatus::Solved } else { PlanStatus::NotConverged };
-    let reason =
-        (unsolved > 0).then(|| format!("the programs of {unsolved} aircraft were not solved to their tolerances"));
+    let reason = shortcoming(scenario, best);
+    let status = if reason.is_none() { PlanStatus::Solved } else { PlanStatus::NotConverged };
     let wall_s = begin.elapsed().as_secs_f64();
     let named = scenario.vehicles.iter().zip(best);
     Plan {
@@ -134,6 +137,23 @@ fn assemble(scenario: &Scenario, seed: u64, best: &[Solved], history: Vec<Iterat
             named.map(|(vehicle, solved)| trajectory(&vehicle.name, &solved.samples).into()).collect(),
         )
     }
+}
+
+/// Why the plan is not solved: its programs, or that its load factors do not lead along it.
+fn shortcoming(scenario: &Scenario, best: &[Solved]) -> Option<String> {
+    let unsolved = best.iter().filter(|solved| !solved.is_solved).count();
+    if unsolved > 0 {
+        return Some(format!("the programs of {unsolved} aircraft were not solved to their tolerances"));
+    }
+    let errors_m = best.iter().map(|solved| LENGTH_M * solved.rollout_error);
+    let (index, error_m) = errors_m.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let limit_m = MAX_ROLLOUT * scenario.limits().rollout_m;
+    (error_m > limit_m).then(|| {
+        let name = &scenario.vehicles[index].name;
+        format!(
+            "the load factors of {name} alone lead {error_m:.1} m away from its motion, of {limit_m:.1} m: they jump"
+        )
+    })
 }
 
 impl Fleet<'_> {

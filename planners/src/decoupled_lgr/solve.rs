@@ -6,6 +6,7 @@ use super::guess::Guess;
 use super::neighbour::Neighbour;
 use super::node_vector::{STATES, VELOCITY, WIDTH};
 use super::problem::Problem;
+use super::rollout;
 use super::system::AircraftSystem;
 use crate::nlp::{InteriorPoint, Settings, Start, Status, WarmStart};
 use crate::pseudospectral::{Mesh, MeshPoint, Tolerances, Transcription, refine};
@@ -26,6 +27,8 @@ pub struct Options {
     pub solver: Settings,
     /// Largest time between two samples.
     pub step: f64,
+    /// Time between the last sample of a segment and the first one of the next.
+    pub jump: f64,
 }
 
 /// A node vector at a time.
@@ -44,6 +47,8 @@ pub struct Solved {
     pub iterations: usize,
     /// The motion, from time 0 to its end.
     pub samples: Vec<Sample>,
+    /// How far the load factors alone lead away from it.
+    pub rollout_error: f64,
 }
 
 impl Solved {
@@ -102,12 +107,14 @@ fn from_guess(problem: &Problem, guess: &Guess<'_>, options: Options) -> Solved 
                 (mesh, coarse) = (finer, Some((program, warm_start)));
             }
             unmet => {
+                let samples = samples(problem, &program, method.x(), options);
                 return Solved {
                     is_solved: is_optimal && unmet.is_none(),
                     objective: solution.objective,
                     violation: solution.violation,
                     iterations,
-                    samples: samples(problem, &program, method.x(), options.step),
+                    rollout_error: rollout::error(problem, &samples),
+                    samples,
                 };
             }
         }
@@ -123,8 +130,9 @@ fn initial_variables(guess: &Guess<'_>, program: &Transcription) -> Vec<f64> {
     })
 }
 
-/// The polynomials at the nodes and in between, with load factors within their bounds.
-fn samples(problem: &Problem, program: &Transcription, x: &[f64], step: f64) -> Vec<Sample> {
+/// The polynomials at the nodes and in between, with load factors within their bounds. Controls may jump from segment to segment:
+/// the last value before a jump is a sample too, or the line to the next one would begin to turn a whole step early.
+fn samples(problem: &Problem, program: &Transcription, x: &[f64], options: Options) -> Vec<Sample> {
     let nodes = program.node_times_s(x);
     let mut samples = Vec::new();
     let mut sample = |time: f64, point: MeshPoint| {
@@ -138,7 +146,7 @@ fn samples(problem: &Problem, program: &Transcription, x: &[f64], step: f64) -> 
     for (k, &(time, point)) in nodes.iter().enumerate() {
         sample(time, point);
         let Some(&(next_time, next)) = nodes.get(k + 1) else { continue };
-        let count = ((next_time - time) / step).ceil().max(1.0) as usize;
+        let count = ((next_time - time) / options.step).ceil().max(1.0) as usize;
         let τ_next = if next.segment == point.segment { next.τ } else { 1.0 };
         for piece in 1..count {
             let fraction = piece as f64 / count as f64;
@@ -146,6 +154,11 @@ fn samples(problem: &Problem, program: &Transcription, x: &[f64], step: f64) -> 
                 time + fraction * (next_time - time),
                 MeshPoint { τ: point.τ + fraction * (τ_next - point.τ), ..point },
             );
+        }
+        let gap = (next_time - time) / count as f64;
+        if next.segment != point.segment && gap > 2.0 * options.jump {
+            let τ = τ_next - options.jump / (next_time - time) * (τ_next - point.τ);
+            sample(next_time - options.jump, MeshPoint { τ, ..point });
         }
     }
     samples
