@@ -4,6 +4,7 @@
 //! under their names only when they are complete: complete results stay, incomplete ones are removed.
 
 use std::collections::BTreeSet;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -13,8 +14,8 @@ use crate::console;
 
 /// Exit code of an interrupted command: 128 + SIGINT.
 const EXIT_CODE: i32 = 130;
-/// Longest time that printing the summary may take before the process exits: standard error may be blocked.
-const SUMMARY_TIMEOUT: Duration = Duration::from_millis(500);
+/// Longest time from the signal to the exit: a command may be about to start, standard error may be blocked.
+const STOP_TIMEOUT: Duration = Duration::from_secs(2);
 /// Largest number of jobs that are listed by name.
 const MAX_NAMES: usize = 5;
 
@@ -89,9 +90,17 @@ impl ProcessGroup {
         let _ = rustix::process::kill_process_group(self.0, rustix::process::Signal::KILL);
     }
 
-    /// Kills the group on interruption from now on.
-    pub fn register(self) {
-        lock().process_groups.push(self);
+    /// Starts a process that leads a group, and kills the group on interruption from now on. An interruption in the meantime
+    /// waits for it, so that no process is left behind unknown.
+    ///
+    /// # Errors
+    ///
+    /// Those of `start`.
+    pub fn register<T>(start: impl FnOnce() -> io::Result<(T, Self)>) -> io::Result<(T, Self)> {
+        let mut state = lock();
+        let (process, group) = start()?;
+        state.process_groups.push(group);
+        Ok((process, group))
     }
 
     /// Undoes [`register`](Self::register).
@@ -102,7 +111,7 @@ impl ProcessGroup {
 
 fn stop() {
     thread::spawn(|| {
-        thread::sleep(SUMMARY_TIMEOUT);
+        thread::sleep(STOP_TIMEOUT);
         std::process::exit(EXIT_CODE);
     });
     let state = lock();

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::interrupt::RemoveOnInterrupt;
 use crate::output;
-use crate::plan_source::external::group::{self, Guard};
+use crate::plan_source::external::group::Guard;
 use crate::report::Report;
 
 /// Polling interval of the process.
@@ -63,8 +63,7 @@ pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Er
     let file = folder.path().join(format!("{}.toml", scenario.name));
     output::write_file(&file, |writer| writer.write_all(scenario.to_toml().as_bytes()))?;
     let out = folder.path().join("out");
-    let mut child = start(&file, planner, &out)?;
-    let guard = Guard::of(&child);
+    let (mut child, guard) = start(&file, planner, &out)?;
     let has_ended = ends_within(&guard, &mut child, limit_s);
     guard.end(&mut child);
     let _ = child.wait();
@@ -78,13 +77,12 @@ pub fn run(scenario: &Scenario, planner: &str, limit_s: f64) -> Result<Entry, Er
     Ok(Entry { outcome: outcome(&report), report: Some(report) })
 }
 
-fn start(file: &Path, planner: &str, out: &Path) -> Result<Child, Error> {
+fn start(file: &Path, planner: &str, out: &Path) -> Result<(Child, Guard), Error> {
     let program = this_program().map_err(|error| environment("find this program", &error))?;
     let mut command = Command::new(program);
     command.arg("run").arg(file).args(["--planner", planner, "--record", "none", "--quiet", "--out"]).arg(out);
-    group::apart(&mut command);
-    let child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
-    child.map_err(|error| environment("start this program once more", &error))
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    Guard::start(&mut command).map_err(|error| environment("start this program once more", &error))
 }
 
 /// Waits for the end of the process. Returns false after `limit_s` seconds.

@@ -1,5 +1,6 @@
 //! Process groups: a process and everything that it starts.
 
+use std::io;
 use std::process::{Child, Command};
 
 use crate::interrupt::ProcessGroup;
@@ -8,11 +9,19 @@ use crate::interrupt::ProcessGroup;
 pub(crate) struct Guard(ProcessGroup);
 
 impl Guard {
-    /// Registers the process group of `child`, which was started [`apart`].
-    pub(crate) fn of(child: &Child) -> Self {
-        let group = group(child);
-        group.register();
-        Self(group)
+    /// Starts `command` in a process group of its own.
+    ///
+    /// # Errors
+    ///
+    /// If the process cannot be started.
+    pub(crate) fn start(command: &mut Command) -> io::Result<(Child, Self)> {
+        apart(command);
+        let (child, group) = ProcessGroup::register(|| {
+            let child = command.spawn()?;
+            let group = group(&child);
+            Ok((child, group))
+        })?;
+        Ok((child, Self(group)))
     }
 
     /// Terminates and unregisters the group. The child itself still has to be waited for.
@@ -36,8 +45,8 @@ impl Guard {
     }
 }
 
-/// Starts the process in a group of its own.
-pub(crate) fn apart(command: &mut Command) {
+/// Has the process started in a group of its own.
+fn apart(command: &mut Command) {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     #[cfg(not(unix))]

@@ -32,14 +32,13 @@ pub(super) struct Ended {
 /// command nor any process of its process group is running.
 pub(super) fn run(command: &[String], folder: &Path, request: Vec<u8>, time_limit: Duration) -> Ended {
     let began = Instant::now();
-    let mut child = match spawn(command, folder) {
-        Ok(child) => child,
+    let (mut child, guard) = match spawn(command, folder) {
+        Ok(started) => started,
         Err(error) => {
             let output = Err(PlannerFault::cannot_start(command, &error));
             return Ended { output, log: String::new(), wall: began.elapsed() };
         }
     };
-    let guard = group::Guard::of(&child);
     feed(&mut child, request);
     let output = drain(child.stdout.take(), MAX_OUTPUT_BYTES);
     let log = drain(child.stderr.take(), MAX_LOG_BYTES);
@@ -54,7 +53,7 @@ pub(super) fn run(command: &[String], folder: &Path, request: Vec<u8>, time_limi
 }
 
 /// Starts a command with three pipes, in a process group of its own.
-pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child> {
+pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<(Child, group::Guard)> {
     let program = command.first().cloned().unwrap_or_default();
     // A program with a folder is relative to the working directory; one without is searched on the PATH.
     let is_path = program.contains(std::path::MAIN_SEPARATOR);
@@ -62,8 +61,7 @@ pub(super) fn spawn(command: &[String], folder: &Path) -> std::io::Result<Child>
     let mut process = Command::new(program);
     process.args(command.iter().skip(1)).current_dir(folder);
     process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    group::apart(&mut process);
-    process.spawn()
+    group::Guard::start(&mut process)
 }
 
 /// Writes the request from a thread of its own, since a command that never reads would block.

@@ -60,7 +60,7 @@ impl Session {
     /// Starts the command.
     pub fn start(planner: &ExternalPlanner, time_limit_s: f64) -> Self {
         let running = match spawn(&planner.command, &planner.folder) {
-            Ok(child) => Ok(Running::new(child)),
+            Ok((child, guard)) => Ok(Running::new(child, guard)),
             Err(error) => Err(PlannerFault::cannot_start(&planner.command, &error)),
         };
         Self {
@@ -264,8 +264,7 @@ struct EndedSession {
 }
 
 impl Running {
-    fn new(mut child: Child) -> Self {
-        let guard = group::Guard::of(&child);
+    fn new(mut child: Child, guard: group::Guard) -> Self {
         let (requests, to_write) = channel::<Vec<u8>>();
         if let Some(mut stdin) = child.stdin.take() {
             // In a thread of its own, since a command that does not read would block.
