@@ -8,7 +8,7 @@ use std::{env, fs};
 const FOLDERS: [&str; 3] = ["fixed-wing", "multirotor", "slung"];
 
 /// Extensions of the files that scenarios refer to.
-const ATTACHED: [&str; 3] = ["stl", "obj", "asc"];
+const ATTACHED: [&str; 4] = ["stl", "obj", "asc", "geojson"];
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("set by Cargo"));

@@ -7,6 +7,7 @@
 //! [`simd_distance`] bounds the distance of four segments at once from below.
 
 mod moving_obstacle;
+mod no_fly;
 mod obstacle;
 pub mod outline;
 pub mod simd_distance;

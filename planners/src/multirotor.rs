@@ -7,8 +7,6 @@ pub use motion::{PointMassMotion, PointMassState, sagitta_m};
 
 use scenarios::{Family, Scenario};
 
-use crate::planner::ignored_geofence;
-
 /// Default distance kept beyond the body, as an allowance for the tracking error, m.
 const DEFAULT_MARGIN_M: f64 = 0.25;
 
@@ -44,7 +42,7 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     if scenario.family() != Family::Multirotor {
         return Some(format!("vehicle `{}` is not a multirotor", scenario.vehicles[0].name));
     }
-    ignored_geofence(scenario)
+    None
 }
 
 /// Distance that the planner keeps between the vehicle's centre and everything else, m.

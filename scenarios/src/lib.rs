@@ -14,6 +14,7 @@ mod families;
 mod find;
 pub mod fixed_wing;
 mod fleet;
+pub mod geodesy;
 pub mod geometry;
 pub mod in_loop;
 mod issue;
@@ -58,8 +59,8 @@ pub use validate::{validate, wind_without_effect};
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
 pub use world::{
-    BoxObstacle, Capsule, Cuboid, Cylinder, Gate, Geofence, GeofenceKind, Map, Mesh, MovingCylinder, Prism, Sphere,
-    Terrain, Window, World,
+    BoxObstacle, Capsule, Cuboid, Cylinder, Gate, Geofence, GeofenceKind, Map, Mesh, MovingCylinder, Origin, Prism,
+    Sphere, Terrain, Window, World,
 };
 
 /// Gravitational acceleration, m/s², as in all four papers.

@@ -3,6 +3,7 @@
 mod error;
 mod files;
 mod finite;
+pub(crate) mod geographic;
 mod position;
 mod shape;
 
@@ -10,12 +11,16 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
 pub use error::{InvalidScenario, LoadError, LocatedIssue};
 
 use crate::{Issue, Scenario, shipped, validate};
+
+/// An issue with its byte range in the text.
+type SpannedIssue = (Issue, Range<usize>);
 
 /// Reads and validates a scenario file.
 ///
@@ -107,18 +112,24 @@ impl ScenarioFile {
         let unknown_keys = issues.iter().filter(|(issue, _)| issue.found == shape::UNKNOWN_KEY);
         let known = position::without(&tree, unknown_keys.map(|(issue, _)| issue.field.as_str()));
         issues.extend(finite::issues(tree.get_ref()));
-        match Scenario::deserialize(Deserializer::from(known)) {
+        let (parsed, misplaced) = self.parsed(known);
+        match parsed {
             Ok(mut scenario) => {
                 let unread = files::read(&mut scenario.world, Path::new(&self.name));
                 let is_unread = |issue: &Issue| unread.iter().any(|it| it.field == issue.field);
                 let valid = validate(&scenario).into_iter().filter(|issue| !is_unread(issue));
-                let semantic = self.name_issue(&scenario).into_iter().chain(unread.iter().cloned()).chain(valid);
+                let semantic = self.name_issue(&scenario).into_iter().chain(misplaced).chain(unread.iter().cloned());
+                let semantic = semantic.chain(valid);
                 let fresh: Vec<Issue> = semantic.filter(|issue| !is_reported(&issue.field, &issues)).collect();
                 issues.extend(fresh.into_iter().map(|issue| locate(&self.text, tree.get_ref(), issue)));
                 if issues.is_empty() { Ok(scenario) } else { Err(self.invalid(issues)) }
             }
-            Err(error) if issues.is_empty() => Err(self.invalid(vec![not_in_schema(&error)])),
-            Err(_) => Err(self.invalid(issues)),
+            Err(_) if !misplaced.is_empty() => {
+                let fresh: Vec<Issue> = misplaced.into_iter().filter(|it| !is_reported(&it.field, &issues)).collect();
+                issues.extend(fresh.into_iter().map(|issue| locate(&self.text, tree.get_ref(), issue)));
+                Err(self.invalid(issues))
+            }
+            Err(issue) => Err(self.invalid(if issues.is_empty() { vec![issue] } else { issues })),
         }
     }
 
@@ -129,6 +140,21 @@ impl ScenarioFile {
             Err(_) => (issue, 0..0),
         };
         self.invalid(issues.into_iter().map(located).collect())
+    }
+
+    /// The scenario in a document, or an error of serde that the schema did not catch; and what is wrong with its positions on the
+    /// Earth, which are converted on the way.
+    fn parsed(&self, document: Spanned<DeTable<'_>>) -> (Result<Scenario, SpannedIssue>, Vec<Issue>) {
+        let given = Value::deserialize(Deserializer::from(document.clone())).unwrap_or_default();
+        let mut converted = given.clone();
+        let misplaced = geographic::to_world_frame(&mut converted, Path::new(&self.name));
+        let scenario = if converted == given {
+            Scenario::deserialize(Deserializer::from(document))
+                .map_err(|error| not_in_schema(error.message(), error.span()))
+        } else {
+            Scenario::deserialize(converted).map_err(|error| not_in_schema(&error.to_string(), None))
+        };
+        (scenario, misplaced)
     }
 
     fn tree(&self) -> Result<Spanned<DeTable<'_>>, LoadError> {
@@ -161,9 +187,9 @@ fn syntax_issue(error: &toml::de::Error) -> (Issue, Range<usize>) {
 }
 
 /// An error of serde that the schema did not catch.
-fn not_in_schema(error: &toml::de::Error) -> (Issue, Range<usize>) {
-    let issue = Issue::new("scenario", error.message(), "the form that `harness schema scenario` shows");
-    (issue, error.span().unwrap_or(0..0))
+fn not_in_schema(error: &str, span: Option<Range<usize>>) -> SpannedIssue {
+    let issue = Issue::new("scenario", error, "the form that `harness schema scenario` shows");
+    (issue, span.unwrap_or(0..0))
 }
 
 /// Whether one of `issues` concerns `field`, a part of it, or a parent of it.

@@ -116,8 +116,8 @@ impl Scenario {
 
 /// JSON Schema of scenario files.
 impl Scenario {
-    /// JSON Schema (draft 2020-12) of a scenario file, generated from these types.
+    /// JSON Schema (draft 2020-12) of a scenario file, generated from these types, with the keys of positions on the Earth.
     pub fn json_schema() -> serde_json::Value {
-        schemars::schema_for!(Self).into()
+        crate::load::geographic::with_geographic_keys(schemars::schema_for!(Self).into())
     }
 }

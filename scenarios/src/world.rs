@@ -7,12 +7,15 @@ use crate::geometry::Solid;
 mod gate;
 mod geofence;
 mod moving_cylinder;
+mod origin;
 mod prism;
 mod solid;
 
 pub use gate::{Gate, Window};
 pub use geofence::{Geofence, GeofenceKind};
+pub(crate) use geofence::{is_inside, is_simple};
 pub use moving_cylinder::MovingCylinder;
+pub use origin::Origin;
 pub use prism::{BoxObstacle, Prism};
 pub use solid::{Capsule, Cuboid, Mesh, Sphere, Terrain};
 
@@ -28,6 +31,9 @@ const EVERY_OBSTACLE: &str = "*";
 pub struct World {
     /// The volume that no body may leave: neither that of a vehicle nor its load.
     pub map: Map,
+    /// Where the world frame lies on the Earth. With it, positions may be given as latitude, longitude and altitude.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
     /// Vertical cylinders without top and bottom: keep-out zones in the plane, such as threats and pillars.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cylinders: Vec<Cylinder>,
@@ -75,6 +81,7 @@ impl World {
     pub fn empty(map: Map) -> Self {
         Self {
             map,
+            origin: None,
             cylinders: Vec::new(),
             boxes: Vec::new(),
             prisms: Vec::new(),
@@ -105,6 +112,7 @@ impl World {
     /// other shapes at rest. None of them is hidden.
     pub fn with_static_obstacles(&self, wanted: impl Fn(&str) -> bool) -> Self {
         Self {
+            origin: self.origin,
             cylinders: self.cylinders.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             boxes: self.boxes.iter().filter(|it| wanted(&it.name)).cloned().collect(),
             prisms: self.prisms.iter().filter(|it| wanted(&it.name)).cloned().collect(),

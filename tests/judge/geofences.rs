@@ -8,7 +8,7 @@ use crate::fleet::Case;
 const CHECKS: [&str; 3] = ["nodes.state_limits", "plan.state_limits", "flight.state_limits"];
 
 fn fence(kind: GeofenceKind, polygon_m: &[[f64; 2]]) -> Geofence {
-    Geofence { name: "zone".into(), kind, polygon_m: polygon_m.to_vec(), z_m: None }
+    Geofence { name: "zone".into(), kind, polygon_m: polygon_m.to_vec(), rings_m: Vec::new(), z_m: None }
 }
 
 fn rectangle(kind: GeofenceKind, x: [f64; 2], y: [f64; 2]) -> Geofence {
@@ -45,6 +45,23 @@ fn a_fleet_that_enters_a_keep_out_zone_fails() {
     let from = |y_m: f64| rectangle(GeofenceKind::KeepOut, [100.0, 600.0], [y_m, 900.0]);
     assert_status(&from(400.9), &CHECKS, Status::Fail);
     assert_status(&from(401.1), &CHECKS, Status::Pass);
+}
+
+/// A ring inside a stay-in zone is not part of it, and a ring inside a keep-out zone neither.
+#[test]
+fn a_hole_in_a_zone_is_outside_it() {
+    let with_hole = |kind, hole_y: [f64; 2]| {
+        let hole = rectangle(kind, [100.0, 600.0], hole_y).polygon_m;
+        Geofence { rings_m: vec![hole], ..rectangle(kind, [-500.0, 2000.0], [-500.0, 900.0]) }
+    };
+    assert_status(&with_hole(GeofenceKind::StayIn, [401.1, 450.0]), &CHECKS, Status::Pass);
+    assert_status(&with_hole(GeofenceKind::StayIn, [400.9, 450.0]), &CHECKS, Status::Fail);
+    assert_status(&with_hole(GeofenceKind::KeepOut, [100.0, 300.0]), &CHECKS, Status::Fail);
+    let around = Geofence {
+        rings_m: vec![rectangle(GeofenceKind::KeepOut, [-500.0, 2000.0], [-100.0, 500.0]).polygon_m],
+        ..rectangle(GeofenceKind::KeepOut, [-600.0, 2100.0], [-200.0, 600.0])
+    };
+    assert_status(&around, &CHECKS, Status::Pass);
 }
 
 /// 0.2 m wide: 6 ms of flight of a small body, between two nodes of the plan and two samples of the flight.

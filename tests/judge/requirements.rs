@@ -34,7 +34,13 @@ fn add_places(scenario: &mut Scenario) {
     let threat = Cylinder { name: "threat-3".into(), center_m: [2000.0, 3000.0], radius_m: 100.0 };
     let polygon_m = vec![[-100.0, -50.0], [850.0, -50.0], [850.0, 450.0], [-100.0, 450.0]];
     scenario.world.cylinders.push(threat);
-    scenario.world.geofences.push(Geofence { name: "site".into(), kind: GeofenceKind::StayIn, polygon_m, z_m: None });
+    scenario.world.geofences.push(Geofence {
+        name: "site".into(),
+        kind: GeofenceKind::StayIn,
+        polygon_m,
+        rings_m: Vec::new(),
+        z_m: None,
+    });
 }
 
 /// A formula about a log that nothing was flown for, and one about a plan that was made in the loop.

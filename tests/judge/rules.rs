@@ -272,7 +272,8 @@ fn an_aircraft_that_has_arrived_stays_clear_of_obstacles_on_the_map_and_out_of_g
     broken(&|it| it.world.cylinders.push(pillar.clone()), ["plan.clearance", "flight.clearance"]);
     let states = ["plan.state_limits", "flight.state_limits"];
     let polygon_m = vec![[500.0, y_m - 50.0], [600.0, y_m - 50.0], [600.0, y_m + 50.0], [500.0, y_m + 50.0]];
-    let fence = Geofence { name: "town".into(), kind: GeofenceKind::KeepOut, polygon_m, z_m: None };
+    let fence =
+        Geofence { name: "town".into(), kind: GeofenceKind::KeepOut, polygon_m, rings_m: Vec::new(), z_m: None };
     broken(&|it| it.world.geofences.push(fence.clone()), states);
     let asked = |scenario: &mut scenarios::Scenario| {
         let name = scenario.vehicles[0].name.clone();

@@ -188,7 +188,8 @@ fn the_load_counts_with_its_radius_on_the_map_and_at_geofences() {
         let polygon_m = vec![[-50.0, -50.0], [50.0, -50.0], [50.0, 50.0], [-50.0, 50.0]];
         let z_m = Some(scenarios::Range::new(lowest_m - above_m, 50.0));
         let kind = scenarios::GeofenceKind::StayIn;
-        fenced.scenario.world.geofences = vec![scenarios::Geofence { name: "site".into(), kind, polygon_m, z_m }];
+        fenced.scenario.world.geofences =
+            vec![scenarios::Geofence { name: "site".into(), kind, polygon_m, rings_m: Vec::new(), z_m }];
         for case in [on_map, fenced] {
             assert_eq!(case.check("flight.state_limits").status, status, "{above_m}");
         }

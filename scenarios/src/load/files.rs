@@ -57,7 +57,7 @@ pub(super) fn resolved(file: &str, scenario_file: &Path) -> PathBuf {
     if shipped::request(&path).is_some() { path } else { std::path::absolute(&path).unwrap_or(path) }
 }
 
-fn content(path: &Path) -> Result<Vec<u8>, Unread> {
+pub(super) fn content(path: &Path) -> Result<Vec<u8>, Unread> {
     if let Some(request) = shipped::request(path) {
         let attached = shipped::attached(request).map(<[u8]>::to_vec);
         return attached.ok_or_else(|| Unread::new(path, "no such shipped file", "a file of the program"));
@@ -73,7 +73,7 @@ fn content(path: &Path) -> Result<Vec<u8>, Unread> {
 }
 
 /// Why a file could not be used.
-struct Unread {
+pub(super) struct Unread {
     path: PathBuf,
     line: Option<usize>,
     found: String,
@@ -93,12 +93,12 @@ impl Unread {
         Self { path: path.to_owned(), line: None, found: found.into(), expected: expected.to_owned(), remedy }
     }
 
-    fn malformed(path: &Path, error: FileError) -> Self {
+    pub(super) fn malformed(path: &Path, error: FileError) -> Self {
         let FileError { line, found, expected, remedy } = error;
         Self { path: path.to_owned(), line, found, expected, remedy }
     }
 
-    fn issue(self, what: &str, field: &str) -> Issue {
+    pub(super) fn issue(self, what: &str, field: &str) -> Issue {
         let line = self.line.map_or_else(String::new, |line| format!(":{line}"));
         let found = format!("{} in the {what} {}{line}", self.found, self.path.display());
         Issue::new(field, found, self.expected).remedy(self.remedy)

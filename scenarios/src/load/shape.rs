@@ -33,6 +33,9 @@ impl<'s> Check<'s> {
         if let Some(reference) = schema["$ref"].as_str() {
             return self.resolve(&self.definitions[reference.trim_start_matches("#/$defs/")]);
         }
+        if schema["properties"].is_object() {
+            return schema;
+        }
         match schema["anyOf"].as_array().and_then(|schemas| schemas.iter().find(|schema| schema["type"] != "null")) {
             Some(inner) => self.resolve(inner),
             None => schema,
@@ -65,7 +68,7 @@ impl<'s> Check<'s> {
                 None => self.unknown_key(properties, table, key.get_ref(), &key.span(), &inner),
             }
         }
-        let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let required = keys(&schema["required"]).chain(required_of_alternatives(schema, table));
         for key in required.filter(|key| !table.contains_key(*key) && !is_misspelt(key, table, properties)) {
             let expected = expectation(self.resolve(&schema["properties"][key]));
             let remedy = format!("add `{key}`: {}", documentation(&schema["properties"][key]));
@@ -122,6 +125,18 @@ impl<'s> Check<'s> {
     fn issue(&mut self, field: &str, found: String, expected: String, span: &Range<usize>, remedy: String) {
         self.issues.push((Issue::new(field, found, expected).remedy(remedy), span.clone()));
     }
+}
+
+/// The keys of the way to give a position that the table follows, if there are several: that of which it has most keys.
+fn required_of_alternatives<'s>(schema: &'s Value, table: &DeTable<'_>) -> impl Iterator<Item = &'s str> {
+    let ways = schema["anyOf"].as_array().into_iter().flatten().map(|way| &way["required"]);
+    let given = |way: &&Value| keys(way).filter(|key| table.contains_key(*key)).count();
+    let way = ways.min_by_key(|way| std::cmp::Reverse(given(way)));
+    way.into_iter().flat_map(keys)
+}
+
+fn keys(required: &Value) -> impl Iterator<Item = &str> {
+    required.as_array().into_iter().flatten().filter_map(Value::as_str)
 }
 
 /// Whether an unknown key of `table` is probably a misspelt `key`, so that one issue covers both.

@@ -9,6 +9,7 @@ pub(super) fn issues(world: &World) -> Vec<Issue> {
     issues.extend(ordered("world.map.x_m", world.map.x_m));
     issues.extend(ordered("world.map.y_m", world.map.y_m));
     issues.extend(ordered("world.map.z_m", world.map.z_m));
+    issues.extend(world.origin.as_ref().and_then(crate::load::geographic::origin_issues));
     issues.extend(entity_names("world.cylinders", world.cylinders.iter().map(|cylinder| cylinder.name.as_str())));
     for (index, cylinder) in world.cylinders.iter().enumerate() {
         issues.extend(positive(&format!("world.cylinders[{index}].radius_m"), cylinder.radius_m));

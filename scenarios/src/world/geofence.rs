@@ -15,6 +15,10 @@ pub struct Geofence {
     /// Corners (x, y) of the polygon, m, in order, clockwise or counterclockwise. At least three; the edges may not cross or
     /// touch, but the polygon need not be convex.
     pub polygon_m: Vec<[f64; 2]>,
+    /// Further boundaries of the same volume, each as `polygon_m`: a ring inside the polygon is a hole in it, a ring beside it
+    /// another part. A point is inside if it is inside an odd number of them. Rings may not cross or touch each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rings_m: Vec<Vec<[f64; 2]>>,
     /// Lowest and highest altitude of the volume, m. Absent: unbounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_m: Option<Range>,
@@ -44,14 +48,23 @@ impl Geofence {
         Range::new(one.min(other), one.max(other))
     }
 
-    /// Whether the corners form a polygon whose edges neither cross nor touch, apart from neighbours at their common corner.
+    /// Whether a point is over or under the volume.
+    pub fn encloses_in_plane(&self, point_m: [f64; 2]) -> bool {
+        is_inside(self.rings(), point_m)
+    }
+
+    /// Whether every boundary is a polygon whose edges neither cross nor touch, apart from neighbours at their common corner, and
+    /// no two boundaries meet.
     pub fn is_simple(&self) -> bool {
-        let n = self.polygon_m.len();
-        let are_apart = |i: usize, j: usize| !touch(self.edge(i), self.edge(j));
-        let is_far = |i: usize, j: usize| j != i + 1 && !(i == 0 && j == n - 1);
-        n >= 3
-            && (0..n).all(|i| !folds_back(self.edge(i), self.edge((i + 1) % n)))
-            && (0..n).all(|i| (i + 1..n).filter(|&j| is_far(i, j)).all(|j| are_apart(i, j)))
+        let rings: Vec<&[[f64; 2]]> = self.rings().collect();
+        let meet = |one: &[[f64; 2]], other: &[[f64; 2]]| edges(one).any(|edge| edges(other).any(|it| touch(edge, it)));
+        rings.iter().all(|ring| is_simple(ring))
+            && rings.iter().enumerate().all(|(i, one)| rings[i + 1..].iter().all(|other| !meet(one, other)))
+    }
+
+    /// All boundaries: the polygon, then the further rings.
+    pub fn rings(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        std::iter::once(&self.polygon_m).chain(&self.rings_m).map(Vec::as_slice)
     }
 
     fn margin_of(&self, signed_distance_m: f64) -> f64 {
@@ -77,9 +90,8 @@ impl Geofence {
 
     /// Signed distance in the plane from a point to the polygon, m; negative inside.
     fn in_plane_m(&self, point_m: [f64; 2]) -> f64 {
-        let edges = (0..self.polygon_m.len()).map(|i| self.edge(i));
         let (mut distance_m, mut is_inside) = (f64::INFINITY, false);
-        for edge in edges {
+        for edge in self.edges() {
             let to_edge_m = distance_to_edge_m(edge, point_m);
             distance_m = if to_edge_m < distance_m || to_edge_m.is_nan() { to_edge_m } else { distance_m };
             is_inside ^= crosses_eastward_ray(edge, point_m);
@@ -110,7 +122,7 @@ impl Geofence {
     /// convex, so that it is largest at one of the points.
     fn edge_distance_bounds_m(&self, hull_m: &[[f64; 3]]) -> (f64, f64) {
         let (mut gap_m, mut reach_m) = (f64::INFINITY, f64::INFINITY);
-        for edge in (0..self.polygon_m.len()).map(|i| self.edge(i)) {
+        for edge in self.edges() {
             let distances_m = hull_m.iter().map(|point| distance_to_edge_m(edge, [point[0], point[1]]));
             reach_m = reach_m.min(distances_m.fold(0.0, f64::max));
             gap_m = gap_m.min(gap_to_edge_m(edge, hull_m));
@@ -118,10 +130,30 @@ impl Geofence {
         (gap_m, reach_m)
     }
 
-    /// The edge that begins at corner `i`.
-    fn edge(&self, i: usize) -> [[f64; 2]; 2] {
-        [self.polygon_m[i], self.polygon_m[(i + 1) % self.polygon_m.len()]]
+    /// The edges of all boundaries.
+    fn edges(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        self.rings().flat_map(edges)
     }
+}
+
+/// The edges of a ring, from every corner to the next.
+fn edges(ring_m: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    (0..ring_m.len()).map(|i| [ring_m[i], ring_m[(i + 1) % ring_m.len()]])
+}
+
+/// Whether the edges of a ring neither cross nor touch, apart from neighbours at their common corner.
+pub(crate) fn is_simple(ring_m: &[[f64; 2]]) -> bool {
+    let edges: Vec<[[f64; 2]; 2]> = edges(ring_m).collect();
+    let n = edges.len();
+    let is_far = |i: usize, j: usize| j != i + 1 && !(i == 0 && j == n - 1);
+    n >= 3
+        && (0..n).all(|i| !folds_back(edges[i], edges[(i + 1) % n]))
+        && (0..n).all(|i| (i + 1..n).filter(|&j| is_far(i, j)).all(|j| !touch(edges[i], edges[j])))
+}
+
+/// Whether a point is inside an odd number of rings.
+pub(crate) fn is_inside<'r>(rings_m: impl Iterator<Item = &'r [[f64; 2]]>, point_m: [f64; 2]) -> bool {
+    rings_m.flat_map(edges).filter(|edge| crosses_eastward_ray(*edge, point_m)).count() % 2 == 1
 }
 
 /// Bounds of the signed distance to a range of altitudes over the convex hull of points, m; negative inside. The smaller of
@@ -192,7 +224,7 @@ mod tests {
     /// An L: the square of 4 m without its north-eastern quarter, up to 3 m.
     fn corner_plot(kind: GeofenceKind) -> Geofence {
         let polygon_m = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]];
-        Geofence { name: "plot".into(), kind, polygon_m, z_m: Some(Range::new(0.0, 3.0)) }
+        Geofence { name: "plot".into(), kind, polygon_m, rings_m: Vec::new(), z_m: Some(Range::new(0.0, 3.0)) }
     }
 
     #[test]
@@ -211,6 +243,22 @@ mod tests {
         }
         assert!(corner_plot(GeofenceKind::KeepOut).margin_m([f64::NAN, 0.0, 0.0]).is_nan());
         assert!(corner_plot(GeofenceKind::StayIn).margin_m([1.0, 1.0, f64::NAN]).is_nan());
+    }
+
+    #[test]
+    fn a_ring_inside_is_a_hole_and_a_ring_beside_is_another_part() {
+        let hole = vec![[0.5, 0.5], [0.5, 1.5], [1.5, 1.5], [1.5, 0.5]];
+        let part = vec![[5.0, 5.0], [9.0, 5.0], [9.0, 9.0]];
+        let rings_m = vec![hole, part];
+        let fence = Geofence { rings_m, z_m: None, ..corner_plot(GeofenceKind::StayIn) };
+        assert!(fence.is_simple());
+        for (point_m, margin_m) in [([1.0, 1.25, 0.0], -0.25), ([8.75, 6.0, 0.0], 0.25), ([1.75, 1.0, 9.0], 0.25)] {
+            assert!((fence.margin_m(point_m) - margin_m).abs() < 1e-12, "{point_m:?}");
+        }
+        let over_the_hole = [[0.25, 1.0, 0.0], [0.75, 1.0, 0.0], [1.0, 1.0, 0.0], [1.75, 1.0, 0.0]];
+        assert!(fence.margin_bounds_m(&over_the_hole).min <= -0.5);
+        let crossing = Geofence { rings_m: vec![vec![[1.0, 1.0], [5.0, 1.0], [5.0, 1.5]]], ..fence };
+        assert!(!crossing.is_simple());
     }
 
     #[test]

@@ -84,10 +84,12 @@ fn add_gates(scene: &mut Scene<'_>, world: &World) {
 fn add_geofences(scene: &mut Scene<'_>, world: &World) {
     for fence in &world.geofences {
         let z = fence.z_m.unwrap_or(world.map.z_m);
-        let ring =
-            |z: f64| fence.polygon_m.iter().chain(fence.polygon_m.first()).map(|&[x, y]| [x, y, z]).collect::<Vec<_>>();
-        let posts = fence.polygon_m.iter().map(|&[x, y]| vec![[x, y, z.min], [x, y, z.max]]);
-        let edges = [ring(z.min), ring(z.max)].into_iter().chain(posts).collect();
+        let level =
+            |ring: &[[f64; 2]], z: f64| ring.iter().chain(ring.first()).map(|&[x, y]| [x, y, z]).collect::<Vec<_>>();
+        let posts =
+            |ring: &[[f64; 2]]| ring.iter().map(|&[x, y]| vec![[x, y, z.min], [x, y, z.max]]).collect::<Vec<_>>();
+        let edges = fence.rings().flat_map(|ring| [vec![level(ring, z.min), level(ring, z.max)], posts(ring)].concat());
+        let edges = edges.collect();
         let colour = match fence.kind {
             GeofenceKind::StayIn => colours::MAP,
             GeofenceKind::KeepOut => colours::OBSTACLE,

@@ -106,6 +106,7 @@ fn prism<'a>(prism: &Prism) -> Shape<'a> {
         name: prism.name.clone(),
         kind: GeofenceKind::KeepOut,
         polygon_m: prism.corners_m.clone(),
+        rings_m: Vec::new(),
         z_m,
     };
     Shape::Prism([volume(prism.z_m), volume(None)])

@@ -35,7 +35,7 @@ fn scenario() -> Scenario {
 
 fn field() -> Geofence {
     let polygon_m = vec![[-20.0, -20.0], [25.0, -20.0], [25.0, 3.0], [0.0, 5.0], [-20.0, 30.0]];
-    Geofence { name: "field".into(), kind: GeofenceKind::StayIn, polygon_m, z_m: None }
+    Geofence { name: "field".into(), kind: GeofenceKind::StayIn, polygon_m, rings_m: Vec::new(), z_m: None }
 }
 
 fn requirement(formula: &str) -> Requirement {

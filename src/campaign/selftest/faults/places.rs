@@ -108,11 +108,23 @@ fn load_m(it: &mut ReferenceCase, check: &str) -> [f64; 3] {
 }
 
 fn stay_in(world: &mut World, polygon_m: Vec<[f64; 2]>, z_m: Option<Range>) {
-    world.geofences.push(Geofence { name: "site".to_owned(), kind: GeofenceKind::StayIn, polygon_m, z_m });
+    world.geofences.push(Geofence {
+        name: "site".to_owned(),
+        kind: GeofenceKind::StayIn,
+        polygon_m,
+        rings_m: Vec::new(),
+        z_m,
+    });
 }
 
 fn keep_out(world: &mut World, polygon_m: Vec<[f64; 2]>, z_m: Option<Range>) {
-    world.geofences.push(Geofence { name: "zone".to_owned(), kind: GeofenceKind::KeepOut, polygon_m, z_m });
+    world.geofences.push(Geofence {
+        name: "zone".to_owned(),
+        kind: GeofenceKind::KeepOut,
+        polygon_m,
+        rings_m: Vec::new(),
+        z_m,
+    });
 }
 
 fn everywhere() -> Vec<[f64; 2]> {
