@@ -4,7 +4,7 @@
 //! - [`problem`]: the optimal control problem at one instant;
 //! - `batch_rollout` simulates four particles at once, [`evaluate`] computes their fitness;
 //! - [`sampler`]: particle swarm, cross-entropy, path integral, CMA-ES; [`optimiser`] is their common loop;
-//! - [`controller`]: successive replans: warm start, acceptance, fallback;
+//! - [`controller`]: successive replans: warm start, acceptance, fallback; `deadlock_recovery` where they lead nowhere;
 //! - `settings` and `obstacle_prediction` translate scenarios and observations.
 //!
 //! The paper: receding-horizon control of a multirotor with a feasibility-driven particle swarm. Equation numbers in this
@@ -20,6 +20,7 @@ mod batch_rollout;
 
 pub mod controller;
 pub mod counter_rng;
+mod deadlock_recovery;
 pub mod evaluate;
 mod obstacle_prediction;
 pub mod optimiser;

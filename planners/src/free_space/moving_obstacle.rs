@@ -25,6 +25,14 @@ impl MovingObstacle {
         Self { shape, displacement: Displacement::ConstantVelocity(velocity) }
     }
 
+    /// Does it stay within `distance_m` of its place until `time_s`?
+    pub fn stays(&self, distance_m: f64, time_s: f64) -> bool {
+        match &self.displacement {
+            Displacement::ConstantVelocity(velocity) => velocity.norm() * time_s <= distance_m,
+            Displacement::PiecewiseLinear(knots) => knots.iter().all(|(_, moved)| moved.norm() <= distance_m),
+        }
+    }
+
     /// Displacement from time 0 to `time_s`, m.
     ///
     /// # Panics

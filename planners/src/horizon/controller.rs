@@ -3,6 +3,7 @@
 use rand::Rng;
 
 use super::counter_rng::CounterRng;
+use super::deadlock_recovery::{DetourMap, ProgressMonitor, roadmap_motion};
 use super::evaluate::SimdLevel;
 use super::optimiser::{Budget, Solution, optimise};
 use super::problem::{Attraction, ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion};
@@ -76,6 +77,8 @@ pub struct RecedingHorizonController<R> {
     settings: ControllerSettings,
     goal: Point,
     map: CostMap,
+    progress: ProgressMonitor,
+    detour_map: Option<DetourMap>,
     stream: R,
     simd_level: SimdLevel,
 }
@@ -96,6 +99,8 @@ pub struct Replan {
     pub decision: Decision,
     /// The result of the search.
     pub solution: Solution,
+    /// Whether the vehicle follows the roadmap out of a deadlock.
+    pub follows_roadmap: bool,
 }
 
 impl<R: Rng> RecedingHorizonController<R> {
@@ -107,7 +112,7 @@ impl<R: Rng> RecedingHorizonController<R> {
             CostModel::PotentialField { .. } => RoadmapKind::Visibility,
         };
         let map = CostMap::new(kind, goal, settings.clearance_m, node_altitudes_m);
-        Self { settings, goal, map, stream, simd_level: SimdLevel::detect() }
+        Self { settings, goal, map, progress: ProgressMonitor::new(), detour_map: None, stream, simd_level: SimdLevel::detect() }
     }
 
     /// The cost map.
@@ -128,14 +133,42 @@ impl<R: Rng> RecedingHorizonController<R> {
         space: &FreeSpace,
     ) -> Replan {
         let start = PointMassState { velocity: start.velocity.cap_magnitude(self.settings.limits.speed_mps), ..start };
-        if matches!(self.settings.cost_model, CostModel::CostMap { .. }) {
-            self.map.update(space);
+        if matches!(self.settings.cost_model, CostModel::CostMap { .. }) && self.map.update(space) {
+            self.progress.reset();
+        }
+        let is_deadlocked = self.is_deadlocked(start.position, space);
+        if is_deadlocked {
+            self.detour_map = DetourMap::around_resting(self.detour_map.take(), space, &self.map);
         }
         let rng = CounterRng::new(self.stream.next_u64());
         let problem = self.problem(start, applied_acceleration, space);
         let seeds = self.seeds(in_force);
         let solution = optimise(&problem, self.settings.sampler, self.settings.budget, &seeds, rng, self.simd_level);
-        Replan { decision: self.decide(&problem, &solution, in_force), solution }
+        let recovery = is_deadlocked.then(|| self.recover(&problem, in_force)).flatten();
+        let follows_roadmap = recovery.is_some();
+        let decision = recovery.unwrap_or_else(|| self.decide(&problem, &solution, in_force));
+        Replan { decision, solution, follows_roadmap }
+    }
+
+    /// Is the vehicle, which knows how to get nearer to its goal, unable to? Planners that do not require a stop have no
+    /// recovery.
+    fn is_deadlocked(&mut self, position: Point, space: &FreeSpace) -> bool {
+        let cost_to_go = self.settings.requires_stop.then(|| self.map.cost_to_go(position, space)).flatten();
+        cost_to_go.is_some_and(|cost_to_go| self.progress.is_deadlocked(cost_to_go.length_m))
+    }
+
+    /// The motion in force while it lasts, else the next part of the roadmap, around vehicles that rest; `None` if neither is
+    /// clear.
+    fn recover(&self, problem: &HorizonProblem<'_>, in_force: &PointMassMotion) -> Option<Decision> {
+        let lasts = in_force.last().0 > problem.step_s;
+        if lasts && in_force.is_clear(0.0, problem.space, problem.clearance_m - CLEARANCE_TOLERANCE_M) {
+            return Some(Decision::Keep);
+        }
+        let path_from = |point: Point| match &self.detour_map {
+            Some(detour_map) => detour_map.path_from(point),
+            None => self.map.path_from(point, problem.space),
+        };
+        roadmap_motion(problem, path_from, self.settings.known_radius_m).map(Decision::Fly)
     }
 
     fn problem<'a>(

@@ -146,7 +146,7 @@ impl<R: Rng> HorizonPlanner<R> {
     }
 
     fn result(&self, replan: Replan, takes_effect_s: f64, graph: Option<Vec<[[f64; 3]; 2]>>) -> ReplanResult {
-        let Replan { decision, solution } = replan;
+        let Replan { decision, solution, follows_roadmap } = replan;
         let route = match &decision {
             Decision::Fly(motion) => self.controller.map().path_from(motion.last().1.position, &self.space),
             Decision::Keep => Vec::new(),
@@ -161,12 +161,16 @@ impl<R: Rng> HorizonPlanner<R> {
             candidates: solution.paths.into_iter().map(to_arrays).collect(),
             route: to_arrays(route),
             graph,
-            note: None,
+            note: follows_roadmap.then(|| "it gets no nearer to the goal, and follows the roadmap".to_owned()),
         };
         let decision = match decision {
             Decision::Fly(motion) => in_loop::Decision::Fly(nodes_from_motion(&motion, takes_effect_s)),
             Decision::Keep => in_loop::Decision::Keep {
-                reason: "nothing feasible was found, and the motion in force is clear".into(),
+                reason: if follows_roadmap {
+                    "the motion in force follows the roadmap out of a deadlock".into()
+                } else {
+                    "nothing feasible was found, and the motion in force is clear".into()
+                },
             },
         };
         ReplanResult { decision, diagnostics }

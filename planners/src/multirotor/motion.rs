@@ -67,6 +67,13 @@ impl PointMassMotion {
         self.accelerations.push(acceleration);
     }
 
+    /// Appends a motion, which begins at the last state.
+    pub fn append(&mut self, next: &Self) {
+        let (end_s, _) = *self.last();
+        self.knots.extend(next.knots.iter().skip(1).map(|&(at_s, state)| (end_s + at_s, state)));
+        self.accelerations.extend_from_slice(&next.accelerations);
+    }
+
     /// Appends a straight stop at a constant deceleration, m/s², in equal steps of at most `step_s`.
     pub fn brake(&mut self, deceleration_mps2: f64, step_s: f64) {
         let velocity = self.last().1.velocity;

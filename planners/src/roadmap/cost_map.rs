@@ -35,10 +35,11 @@ impl CostMap {
         Self { kind, roadmap: Roadmap::with_goal(goal), goal, clearance_m, node_altitudes_m, known_obstacles: 0 }
     }
 
-    /// Adds the static obstacles that were appended to `space` since the last update. Obstacles are never removed.
-    pub fn update(&mut self, space: &FreeSpace) {
+    /// Adds the static obstacles that were appended to `space` since the last update, and returns whether there are any.
+    /// Obstacles are never removed.
+    pub fn update(&mut self, space: &FreeSpace) -> bool {
         if space.static_obstacles.len() == self.known_obstacles {
-            return;
+            return false;
         }
         let altitudes_m = &self.node_altitudes_m;
         match self.kind {
@@ -52,6 +53,7 @@ impl CostMap {
         }
         self.known_obstacles = space.static_obstacles.len();
         self.roadmap.update_costs();
+        true
     }
 
     /// The roadmap.

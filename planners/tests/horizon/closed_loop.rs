@@ -4,7 +4,7 @@ use planners::horizon::problem::Repulsion;
 use planners::multirotor::{PointMassMotion, PointMassState};
 use planners::roadmap::{CostMap, RoadmapKind};
 
-use crate::arena::{Flight, LIMITS, default_settings, fly, paper_settings, random, swarm, trap};
+use crate::arena::{Arena, Flight, LIMITS, default_settings, fly, paper_settings, random, swarm, trap};
 
 const CLEARANCE_M: f64 = 0.4;
 
@@ -116,4 +116,60 @@ fn the_same_seed_gives_the_same_flight() {
     let [first, again, other] = [1, 1, 2].map(|seed| fly(&trap(), &settings, seed, f64::INFINITY, 5.0));
     assert!(first.replans == again.replans);
     assert!(first.replans != other.replans);
+}
+
+/// A wall with one gap, wider than twice the clearance by 4 cm: less than the sampler keeps of its steps' chords.
+fn narrow_gap() -> Arena {
+    const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    let wall = |[south, north]: [f64; 2]| {
+        Obstacle::prism(&[[-0.5, south], [0.5, south], [0.5, north], [-0.5, north]], UNBOUNDED)
+    };
+    let mut space = FreeSpace::empty([[-10.0, 10.0], [-6.0, 6.0], UNBOUNDED]);
+    space.static_obstacles = vec![wall([-6.0, -0.42]), wall([0.42, 6.0])];
+    Arena {
+        space,
+        start: Point::new(8.0, 3.0, 1.0),
+        goal: Point::new(-8.0, -2.0, 1.0),
+        node_altitudes_m: vec![1.0],
+    }
+}
+
+#[test]
+fn a_passage_that_the_sampler_does_not_find_is_passed_along_the_roadmap() {
+    let settings = default_settings(swarm(true), RoadmapKind::Visibility, 2);
+    for seed in 0..5 {
+        let flight = fly(&narrow_gap(), &settings, seed, f64::INFINITY, 40.0);
+        assert!(flight.arrived_s.is_some_and(|time_s| time_s < 25.0), "{:?}", flight.arrived_s);
+        assert!(flight.clearance_m >= CLEARANCE_M - 1e-6, "{}", flight.clearance_m);
+        assert!(flight.replans.iter().any(|replan| replan.follows_roadmap));
+    }
+}
+
+#[test]
+fn a_vehicle_without_deadlocks_never_follows_the_roadmap() {
+    let flight = fly(&trap(), &default_settings(swarm(true), RoadmapKind::Visibility, 2), 1, f64::INFINITY, 40.0);
+    assert!(flight.arrived_s.is_some() && flight.replans.iter().all(|replan| !replan.follows_roadmap));
+}
+
+/// Another vehicle has come to rest in one of two passages, on the shorter path.
+#[test]
+fn a_vehicle_at_rest_in_a_passage_is_bypassed() {
+    const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    let wall = |[south, north]: [f64; 2]| {
+        Obstacle::prism(&[[-0.5, south], [0.5, south], [0.5, north], [-0.5, north]], UNBOUNDED)
+    };
+    let mut space = FreeSpace::empty([[-10.0, 10.0], [-8.0, 8.0], UNBOUNDED]);
+    space.static_obstacles = vec![wall([-8.0, -6.0]), wall([-4.5, -0.75]), wall([0.75, 8.0])];
+    let shape = Obstacle::cylinder([0.0, 0.0], 0.35, UNBOUNDED);
+    space.moving_obstacles = vec![MovingObstacle::at_constant_velocity(shape, Point::zeros())];
+    let arena = Arena {
+        space,
+        start: Point::new(7.0, 1.0, 1.0),
+        goal: Point::new(-7.0, 1.0, 1.0),
+        node_altitudes_m: vec![1.0],
+    };
+    let settings = default_settings(swarm(true), RoadmapKind::Visibility, 2);
+    let flight = fly(&arena, &settings, 1, f64::INFINITY, 60.0);
+    assert!(flight.arrived_s.is_some(), "{:?}", flight.length_m);
+    assert!(flight.clearance_m >= CLEARANCE_M - 1e-6, "{}", flight.clearance_m);
 }
