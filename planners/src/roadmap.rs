@@ -5,6 +5,8 @@
 
 mod cost_map;
 mod cost_to_go_query;
+mod obstacle_grid;
+mod shadows;
 pub mod visibility;
 pub mod voronoi;
 pub mod voronoi_vertices;
@@ -12,8 +14,8 @@ pub mod voronoi_vertices;
 pub use cost_map::{CostMap, RoadmapKind};
 pub use cost_to_go_query::{CostToGoQuery, OccluderHints};
 
-use crate::free_space::{FreeSpace, Point};
-use crate::open_list::{OpenList, TotalF64};
+use crate::free_space::Point;
+use crate::open_list::OpenList;
 
 /// Nodes and the collision-free straight edges between them. Node 0 is the goal.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,24 +123,6 @@ impl Roadmap {
         }
     }
 
-    /// Cost-to-go of `point`: the shortest path that begins with a clear link to a node (eq. 10); `None` if no link to a
-    /// node with a finite cost is clear.
-    ///
-    /// Nodes are tested in the order of the resulting length, so the first clear link is the best.
-    pub fn cost_to_go(&self, point: Point, space: &FreeSpace, limits: LinkLimits) -> Option<CostToGo> {
-        let within = |max_link_m: f64| {
-            let mut last: Option<(TotalF64, usize)> = None;
-            loop {
-                let (length, node) = self.next_best(point, max_link_m, last)?;
-                if space.is_clear(point, self.nodes[node], limits.clearance_m) {
-                    return Some(CostToGo { length_m: length.0, node });
-                }
-                last = Some((length, node));
-            }
-        };
-        within(limits.preferred_length_m).or_else(|| within(f64::INFINITY))
-    }
-
     /// Nodes on the shortest path from `node` to the goal, both included.
     pub fn path_from(&self, node: usize) -> Vec<Point> {
         let mut path = vec![self.nodes[node]];
@@ -153,20 +137,5 @@ impl Roadmap {
             path.push(self.nodes[at]);
         }
         path
-    }
-
-    /// The node after `last` in the order of the path length from `point`, ties by index; obstacles are ignored.
-    fn next_best(&self, point: Point, max_link_m: f64, last: Option<(TotalF64, usize)>) -> Option<(TotalF64, usize)> {
-        let mut best: Option<(TotalF64, usize)> = None;
-        for (node, (&position, &cost_to_go_m)) in self.nodes.iter().zip(&self.cost_to_go_m).enumerate() {
-            let link_m = (point - position).norm();
-            let length_m = link_m + cost_to_go_m;
-            let candidate = (TotalF64(length_m), node);
-            let is_next = last.is_none_or(|last| candidate > last) && best.is_none_or(|best| candidate < best);
-            if is_next && link_m <= max_link_m && length_m < f64::INFINITY {
-                best = Some(candidate);
-            }
-        }
-        best
     }
 }

@@ -101,6 +101,8 @@ pub struct Replan {
     pub solution: Solution,
     /// Whether the vehicle follows the roadmap out of a deadlock.
     pub follows_roadmap: bool,
+    /// Whether the cost map has a path from the start to the goal; true if there was no search.
+    pub has_path: bool,
 }
 
 impl<R: Rng> RecedingHorizonController<R> {
@@ -112,7 +114,15 @@ impl<R: Rng> RecedingHorizonController<R> {
             CostModel::PotentialField { .. } => RoadmapKind::Visibility,
         };
         let map = CostMap::new(kind, goal, settings.clearance_m, node_altitudes_m);
-        Self { settings, goal, map, progress: ProgressMonitor::new(), detour_map: None, stream, simd_level: SimdLevel::detect() }
+        Self {
+            settings,
+            goal,
+            map,
+            progress: ProgressMonitor::new(),
+            detour_map: None,
+            stream,
+            simd_level: SimdLevel::detect(),
+        }
     }
 
     /// The cost map.
@@ -136,7 +146,10 @@ impl<R: Rng> RecedingHorizonController<R> {
         if matches!(self.settings.cost_model, CostModel::CostMap { .. }) && self.map.update(space) {
             self.progress.reset();
         }
-        let is_deadlocked = self.is_deadlocked(start.position, space);
+        // planners that do not require a stop have no recovery
+        let cost_to_go = self.settings.requires_stop.then(|| self.map.cost_to_go(start.position, space));
+        let known = cost_to_go.flatten();
+        let is_deadlocked = known.is_some_and(|known| self.progress.is_deadlocked(known.length_m));
         if is_deadlocked {
             self.detour_map = DetourMap::around_resting(self.detour_map.take(), space, &self.map);
         }
@@ -147,14 +160,7 @@ impl<R: Rng> RecedingHorizonController<R> {
         let recovery = is_deadlocked.then(|| self.recover(&problem, in_force)).flatten();
         let follows_roadmap = recovery.is_some();
         let decision = recovery.unwrap_or_else(|| self.decide(&problem, &solution, in_force));
-        Replan { decision, solution, follows_roadmap }
-    }
-
-    /// Is the vehicle, which knows how to get nearer to its goal, unable to? Planners that do not require a stop have no
-    /// recovery.
-    fn is_deadlocked(&mut self, position: Point, space: &FreeSpace) -> bool {
-        let cost_to_go = self.settings.requires_stop.then(|| self.map.cost_to_go(position, space)).flatten();
-        cost_to_go.is_some_and(|cost_to_go| self.progress.is_deadlocked(cost_to_go.length_m))
+        Replan { decision, solution, follows_roadmap, has_path: cost_to_go != Some(None) }
     }
 
     /// The motion in force while it lasts, else the next part of the roadmap, around vehicles that rest; `None` if neither is

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use rand::Rng;
-use scenarios::in_loop::{self, InLoopPlanner, Observation, ReplanDiagnostics, ReplanResult};
+use scenarios::in_loop::{self, InLoopPlanner, Observation, PlannerRemarks, ReplanDiagnostics, ReplanResult};
 use scenarios::{Scenario, stream};
 
 use super::controller::{Decision, RecedingHorizonController, Replan};
@@ -76,6 +76,9 @@ fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> B
         known_names: HashSet::new(),
         min_neighbour_radius_m: scenario.fleet.separation_m.map_or(0.0, |separation_m| separation_m - body_radius_m),
         is_planar: scenario.is_planar(),
+        name: own.name.clone(),
+        clearance_m,
+        without_path_since_s: None,
         // the tracker may use up the margin
         tracking_tolerance_m: if variant == Variant::Default { clearance_m - body_radius_m } else { 0.0 },
     })
@@ -93,6 +96,12 @@ struct HorizonPlanner<R> {
     tracking_tolerance_m: f64,
     /// Plans at constant altitude.
     is_planar: bool,
+    /// Name of the vehicle.
+    name: String,
+    /// Required distance from obstacles and bounds, m.
+    clearance_m: f64,
+    /// Since when the cost map has had no path to the goal, s.
+    without_path_since_s: Option<f64>,
 }
 
 impl<R: Rng + Send> InLoopPlanner for HorizonPlanner<R> {
@@ -104,9 +113,20 @@ impl<R: Rng + Send> InLoopPlanner for HorizonPlanner<R> {
         let start = self.predict_start(observation, &in_force);
         let applied_acceleration = in_force.mean_accelerations(-APPLIED_WINDOW_S, APPLIED_WINDOW_S, 1)[0];
         let replan = self.controller.replan(start, &in_force.tail_from(0.0), applied_acceleration, &self.space);
+        self.without_path_since_s = (!replan.has_path).then(|| self.without_path_since_s.unwrap_or(observation.t_s));
         let graph = is_map_updated.then(|| self.controller.map().roadmap().edges().map(|ends| ends.map(Into::into)));
         let graph = graph.map(Iterator::collect);
         self.result(replan, observation.takes_effect_s, graph)
+    }
+
+    fn finish(&mut self) -> PlannerRemarks {
+        let note = self.without_path_since_s.map(|since_s| {
+            format!(
+                "from {since_s:.1} s on, {} knew of no path to its goal that keeps {:.2} m from everything known to it",
+                self.name, self.clearance_m
+            )
+        });
+        PlannerRemarks { notes: note.into_iter().collect(), failure: None }
     }
 }
 
@@ -146,12 +166,17 @@ impl<R: Rng> HorizonPlanner<R> {
     }
 
     fn result(&self, replan: Replan, takes_effect_s: f64, graph: Option<Vec<[[f64; 3]; 2]>>) -> ReplanResult {
-        let Replan { decision, solution, follows_roadmap } = replan;
+        let Replan { decision, solution, follows_roadmap, has_path } = replan;
         let route = match &decision {
             Decision::Fly(motion) => self.controller.map().path_from(motion.last().1.position, &self.space),
             Decision::Keep => Vec::new(),
         };
         let to_arrays = |points: Vec<Point>| points.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>();
+        let note = match (has_path, follows_roadmap) {
+            (false, _) => Some("no path to the goal is known"),
+            (true, true) => Some("it gets no nearer to the goal, and follows the roadmap"),
+            (true, false) => None,
+        };
         let diagnostics = ReplanDiagnostics {
             iterations: solution.iterations,
             first_feasible: solution.first_feasible,
@@ -161,7 +186,7 @@ impl<R: Rng> HorizonPlanner<R> {
             candidates: solution.paths.into_iter().map(to_arrays).collect(),
             route: to_arrays(route),
             graph,
-            note: follows_roadmap.then(|| "it gets no nearer to the goal, and follows the roadmap".to_owned()),
+            note: note.map(str::to_owned),
         };
         let decision = match decision {
             Decision::Fly(motion) => in_loop::Decision::Fly(nodes_from_motion(&motion, takes_effect_s)),

@@ -1,3 +1,6 @@
+use std::borrow::Cow;
+
+use super::obstacle_grid::ObstacleGrid;
 use super::{CostToGo, CostToGoQuery, LinkLimits, Roadmap, visibility, voronoi, voronoi_vertices};
 use crate::free_space::{FreeSpace, Point};
 
@@ -24,15 +27,23 @@ pub struct CostMap {
     node_altitudes_m: Vec<f64>,
     /// Number of obstacles that the roadmap takes into account.
     known_obstacles: usize,
+    /// These obstacles, for links of the required clearance.
+    grid: ObstacleGrid,
 }
 
 /// Rounding error by which the link from a point at exactly the clearance may fall short of it, m.
 const CLEARANCE_TOLERANCE_M: f64 = 1e-9;
 
+/// Number of nodes up to which the first link of a path may have any length, and its preferred maximum length beyond, m: on
+/// large maps nearly all distant nodes are hidden, and to test them takes long.
+const MAX_NODES: usize = 3000;
+const LARGE_MAP_LINK_M: f64 = 15.0;
+
 impl CostMap {
     /// The cost map of a world without obstacles. Nodes are placed at `node_altitudes_m`, at least one.
     pub fn new(kind: RoadmapKind, goal: Point, clearance_m: f64, node_altitudes_m: Vec<f64>) -> Self {
-        Self { kind, roadmap: Roadmap::with_goal(goal), goal, clearance_m, node_altitudes_m, known_obstacles: 0 }
+        let (roadmap, grid) = (Roadmap::with_goal(goal), ObstacleGrid::default());
+        Self { kind, roadmap, goal, clearance_m, node_altitudes_m, known_obstacles: 0, grid }
     }
 
     /// Adds the static obstacles that were appended to `space` since the last update, and returns whether there are any.
@@ -52,6 +63,7 @@ impl CostMap {
             }
         }
         self.known_obstacles = space.static_obstacles.len();
+        self.grid = ObstacleGrid::new(space, self.clearance_m);
         self.roadmap.update_costs();
         true
     }
@@ -63,7 +75,7 @@ impl CostMap {
 
     /// Cost-to-go of `point`, which keeps the clearance; `None` if no node that reaches the goal is visible from it.
     pub fn cost_to_go(&self, point: Point, space: &FreeSpace) -> Option<CostToGo> {
-        self.roadmap.cost_to_go(point, space, self.link_limits())
+        self.query_near(point, space).cost_to_go(point, &mut Vec::new())
     }
 
     /// The shortest path from `point` to the goal; empty if there is none.
@@ -73,13 +85,19 @@ impl CostMap {
     }
 
     /// [`cost_to_go`](Self::cost_to_go), prepared for many points near `origin`.
-    pub fn query_near<'a>(&self, origin: Point, space: &'a FreeSpace) -> CostToGoQuery<'a> {
-        CostToGoQuery::new(&self.roadmap, space, self.link_limits(), origin)
+    pub fn query_near<'a>(&'a self, origin: Point, space: &'a FreeSpace) -> CostToGoQuery<'a> {
+        let is_present = space.static_obstacles.len() == self.known_obstacles;
+        let grid =
+            if is_present { Cow::Borrowed(&self.grid) } else { Cow::Owned(ObstacleGrid::new(space, self.clearance_m)) };
+        CostToGoQuery::new(&self.roadmap, (space, grid), self.link_limits(), origin)
     }
 
     fn link_limits(&self) -> LinkLimits {
         let preferred_length_m = match self.kind {
-            RoadmapKind::Visibility | RoadmapKind::VoronoiVertices => f64::INFINITY,
+            RoadmapKind::Visibility | RoadmapKind::VoronoiVertices if self.roadmap.nodes().len() <= MAX_NODES => {
+                f64::INFINITY
+            }
+            RoadmapKind::Visibility | RoadmapKind::VoronoiVertices => LARGE_MAP_LINK_M,
             // a long link to a Voronoi edge may pass close to corners
             RoadmapKind::Voronoi => voronoi::PREFERRED_LINK_M,
         };

@@ -5,7 +5,11 @@
 //! altitudes, with additional nodes along the upper and lower rims: shortest paths in space bend at interior points of
 //! edges, which a finite graph can only approximate.
 
+use rayon::prelude::*;
+
 use super::Roadmap;
+use super::obstacle_grid::ObstacleGrid;
+use super::shadows::Shadows;
 use crate::free_space::outline::{offset_polygon, subdivided};
 use crate::free_space::{FreeSpace, Obstacle, Point, segment_clear};
 
@@ -19,17 +23,41 @@ const MAX_RIM_SPACING_M: f64 = 3.0;
 /// adds their corners. The result is that of building the graph anew. Costs are not updated.
 pub fn extend(roadmap: &mut Roadmap, space: &FreeSpace, known: usize, clearance_m: f64, altitudes_m: &[f64]) {
     let added = &space.static_obstacles[known..];
+    let grid = ObstacleGrid::new(space, clearance_m);
     roadmap.retain(
         |node| added.iter().all(|obstacle| obstacle.distance_m(node) >= clearance_m),
         |from, to| added.iter().all(|obstacle| segment_clear(obstacle, from, to, clearance_m)),
     );
-    for obstacle in added {
-        for node in nodes_around(obstacle, space, clearance_m + NODE_STANDOFF_M, altitudes_m) {
-            if space.is_clear(node, node, clearance_m) {
-                add_node(roadmap, node, space, clearance_m);
-            }
+    let nodes =
+        added.iter().flat_map(|obstacle| nodes_around(obstacle, space, clearance_m + NODE_STANDOFF_M, altitudes_m));
+    let first = roadmap.nodes().len();
+    for node in nodes {
+        if is_visible(node, node, space, &grid, clearance_m) {
+            roadmap.add_node(node);
         }
     }
+    let all = roadmap.nodes();
+    let visible: Vec<Vec<usize>> = (first..all.len())
+        .into_par_iter()
+        .map(|index| visible_from(&all[..index], all[index], space, &grid, clearance_m))
+        .collect();
+    for (index, others) in (first..).zip(visible) {
+        others.into_iter().for_each(|other| roadmap.connect(other, index));
+    }
+}
+
+/// Indices of the nodes to which the segment from a point is clear.
+///
+/// - `grid`: of the obstacles, for the clearance
+fn visible_from(nodes: &[Point], eye: Point, space: &FreeSpace, grid: &ObstacleGrid, clearance_m: f64) -> Vec<usize> {
+    let shadows = Shadows::from_eye(eye, space.static_obstacles.iter(), clearance_m);
+    let sees = |node: Point| !shadows.hides(node) && is_visible(node, eye, space, grid, clearance_m);
+    (0..nodes.len()).filter(|&other| sees(nodes[other])).collect()
+}
+
+/// Does the segment from a node to a point within the bounds keep the clearance?
+fn is_visible(node: Point, eye: Point, space: &FreeSpace, grid: &ObstacleGrid, clearance_m: f64) -> bool {
+    space.distance_to_bounds_m(node) >= clearance_m && grid.occluder(space, node, eye, clearance_m).is_none()
 }
 
 /// Adds a node and connects it with all nodes that are visible from it.

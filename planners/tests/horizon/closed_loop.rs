@@ -126,12 +126,7 @@ fn narrow_gap() -> Arena {
     };
     let mut space = FreeSpace::empty([[-10.0, 10.0], [-6.0, 6.0], UNBOUNDED]);
     space.static_obstacles = vec![wall([-6.0, -0.42]), wall([0.42, 6.0])];
-    Arena {
-        space,
-        start: Point::new(8.0, 3.0, 1.0),
-        goal: Point::new(-8.0, -2.0, 1.0),
-        node_altitudes_m: vec![1.0],
-    }
+    Arena { space, start: Point::new(8.0, 3.0, 1.0), goal: Point::new(-8.0, -2.0, 1.0), node_altitudes_m: vec![1.0] }
 }
 
 #[test]
@@ -172,4 +167,17 @@ fn a_vehicle_at_rest_in_a_passage_is_bypassed() {
     let flight = fly(&arena, &settings, 1, f64::INFINITY, 60.0);
     assert!(flight.arrived_s.is_some(), "{:?}", flight.length_m);
     assert!(flight.clearance_m >= CLEARANCE_M - 1e-6, "{}", flight.clearance_m);
+}
+
+#[test]
+fn a_goal_behind_a_wall_without_a_gap_is_known_to_be_out_of_reach_at_once() {
+    let mut arena = narrow_gap();
+    let corners = [[-0.2, -1.0], [0.2, -1.0], [0.2, 1.0], [-0.2, 1.0]];
+    arena.space.static_obstacles.push(Obstacle::prism(&corners, [f64::NEG_INFINITY, f64::INFINITY]));
+    let settings = default_settings(swarm(true), RoadmapKind::Visibility, 2);
+    let flight = fly(&arena, &settings, 1, f64::INFINITY, 3.0);
+    assert!(flight.arrived_s.is_none());
+    assert!(flight.replans.iter().all(|replan| !replan.has_path && !replan.follows_roadmap));
+    let open = fly(&narrow_gap(), &settings, 1, f64::INFINITY, 3.0);
+    assert!(open.replans.iter().all(|replan| replan.has_path));
 }
