@@ -98,7 +98,7 @@ mod tests {
     /// Pillars and slanted walls, some of them far larger than the map; in every third space bounds are absent.
     fn random_space(seed: u64) -> FreeSpace {
         let mut stream = scenarios::stream(seed, "grid");
-        let bounds_m = if seed % 3 == 0 { UNBOUNDED } else { [0.0, 60.0] };
+        let bounds_m = if seed.is_multiple_of(3) { UNBOUNDED } else { [0.0, 60.0] };
         let mut space = FreeSpace::empty([bounds_m, bounds_m, UNBOUNDED]);
         for _ in 0..60 {
             let mut draw = |from: f64, to: f64| stream.random_range(from..to);
