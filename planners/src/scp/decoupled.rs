@@ -157,6 +157,7 @@ impl<'a> FleetProblem<'a> {
     ) -> Program {
         let context = Context {
             options: &self.options,
+            penalty: self.options.penalty,
             boundary: self.boundary[i],
             bounds: &self.bounds[i],
             trust_region,

@@ -76,14 +76,12 @@ pub fn plan_and_inspect(
     let options = Options::fleet(&scenario.planner);
     let max_iterations = options.max_iterations;
     let together = arriving_together(scenario);
-    let mut solver = ScpSolver::new(scenario, options.clone(), 0);
+    let mut solver = ScpSolver::new(scenario, options.clone());
     let mut history = Vec::new();
-    let (mut solution, mut attempt, mut blocked) = (None, 0, None);
+    let (mut solution, mut blocked) = (None, None);
     while solution.is_none() && history.len() < max_iterations {
         if solver.has_stalled() {
-            attempt += 1;
-            let problem = if blocked.is_some() { &together } else { scenario };
-            solver = ScpSolver::new(problem, options.clone(), attempt);
+            solver.reroute();
         }
         let iteration = solver.advance(inspect);
         progress(&iteration);
@@ -92,7 +90,7 @@ pub fn plan_and_inspect(
             Some(Ok(found)) => solution = Some(found),
             Some(Err(NoSolution::Blocked(vehicle))) => {
                 blocked = Some(vehicle);
-                solver = ScpSolver::new(&together, options.clone(), attempt);
+                solver = ScpSolver::new(&together, options.clone());
             }
             Some(Err(NoSolution::Violated(_))) | None => {}
         }

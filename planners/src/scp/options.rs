@@ -111,7 +111,7 @@ impl Options {
             penalty: settings.penalty.unwrap_or(20.0),
             row_units: [1.0; STAGE_LEN],
             time_bound_release: settings.time_bound_release.unwrap_or(0.03),
-            max_iterations: settings.max_iterations.unwrap_or(60),
+            max_iterations: settings.max_iterations.unwrap_or(100),
             trust_region: settings.trust_region.as_ref().map_or(trust_region, |_| paper.trust_region),
             shrink: settings.trust_region.as_ref().map_or(0.5, |region| region.shrink),
             ..paper

@@ -74,6 +74,12 @@ pub fn flow_within(interval: &Interval, start: State, [begin, end]: [f64; 2]) ->
     knots
 }
 
+/// Time derivatives of the states of the [flow within](flow_within) a part of the interval, per second.
+pub fn rates_within(interval: &Interval, knots: &Knots, [begin, end]: [f64; 2]) -> Knots {
+    let fraction = |knot: usize| begin + (end - begin) * (knot as f64 / SUBSTEPS as f64);
+    std::array::from_fn(|knot| dynamics::derivative(&knots[knot], &interval.control_at(fraction(knot))))
+}
+
 /// The end of the flow in small steps: far more accurate than Φ, without derivatives.
 pub fn accurate_end(interval: &Interval) -> State {
     let parts = ACCURATE_PARTS;
@@ -83,14 +89,9 @@ pub fn accurate_end(interval: &Interval) -> State {
     })
 }
 
-/// The step at whose beginning the control ramp ends, if it ends within the interval.
-pub fn kink(ramp: f64) -> Option<usize> {
-    (ramp < 1.0).then(|| (ramp * SUBSTEPS as f64).round() as usize)
-}
-
 /// The state at the end of the control ramp, a whole number of steps from the beginning of the interval.
 pub fn ramp_end(interval: &Interval) -> State {
-    flow(interval)[kink(interval.ramp).unwrap_or(SUBSTEPS)]
+    flow(interval)[(interval.ramp.min(1.0) * SUBSTEPS as f64).round() as usize]
 }
 
 /// Φ and its derivatives with respect to the parameters.

@@ -15,6 +15,8 @@ use crate::convex::{DynamicsConstraint, FixedVariable, HalfspaceConstraint, Prog
 pub struct Context<'a> {
     /// Planner options.
     pub options: &'a Options,
+    /// Penalty per unit of violation, s.
+    pub penalty: f64,
     /// Initial and final state.
     pub boundary: [State; 2],
     /// Bounds of (s, u), one per node, SI.
@@ -47,7 +49,7 @@ pub fn assemble(context: &Context, last: &Iterate, mut halfspaces: Vec<Halfspace
     let mut program = Program {
         theta_cost: 1.0,
         offset: last.dt_s,
-        penalty: context.options.penalty,
+        penalty: context.penalty,
         row_units: context.options.row_units,
         dynamics: dynamics_constraints(context, last),
         fixed_variables: boundary_conditions(context, last),

@@ -10,7 +10,7 @@ use super::super::iterate::Iterate;
 use super::super::subproblem;
 use super::avoidance_rows::AvoidanceConstraints;
 use super::conflict_detection::{FleetMotion, ObstacleConflict};
-use super::intersample_bounds::{BOUNDED_STATES, extremes};
+use super::intersample_bounds::BOUNDED_STATES;
 use super::refined_motion::{RefinedMotion, velocity_mps};
 use crate::convex::STAGE_LEN;
 
@@ -210,9 +210,9 @@ impl Limits<'_> {
         let mut worst = None;
         for (vehicle, motion) in motion.vehicles.iter().enumerate() {
             let physical = self.physical(vehicle);
-            for (k, knots) in motion.intervals.iter().enumerate() {
+            for k in 0..motion.intervals.len() {
                 for quantity in BOUNDED_STATES {
-                    let values = extremes(knots, quantity, motion.kink);
+                    let values = motion.extremes(k, quantity);
                     self.consider(&mut worst, vehicle, quantity, &physical, values, k as f64 * motion.dt_s);
                 }
             }

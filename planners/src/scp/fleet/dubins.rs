@@ -29,11 +29,13 @@ impl DubinsPath {
     /// Number of words: LSL, LSR, RSL, RSR.
     pub const WORDS: usize = 4;
 
-    /// The shortest of the four words from `start` to `goal` with turns of `radius_m`.
-    pub fn shortest(start: Pose, goal: Pose, radius_m: f64) -> Self {
-        let paths = (0..Self::WORDS).filter_map(|word| Self::by_word(start, goal, radius_m, word));
-        let shortest = paths.min_by(|a, b| a.length_m().total_cmp(&b.length_m()));
-        shortest.expect("two turns to the same side always reach the goal")
+    /// The paths of all words from `start` to `goal` with turns of `radius_m`, the shortest first. Two turns to the same side
+    /// always reach the goal: there are two at least.
+    pub fn all(start: Pose, goal: Pose, radius_m: f64) -> Vec<Self> {
+        let mut paths: Vec<Self> =
+            (0..Self::WORDS).filter_map(|word| Self::by_word(start, goal, radius_m, word)).collect();
+        paths.sort_by(|a, b| a.length_m().total_cmp(&b.length_m()));
+        paths
     }
 
     /// The path of one word.
@@ -118,20 +120,24 @@ mod tests {
     fn paths_end_at_their_goals() {
         let start = pose(100.0, -50.0, 30.0);
         for goal in [pose(4000.0, 3000.0, 90.0), pose(4000.0, -3000.0, -100.0), pose(-3000.0, 10.0, 200.0)] {
-            let path = DubinsPath::shortest(start, goal, 700.0);
-            let end = path.at(path.length_m());
-            let off_m = (end.position_m[0] - goal.position_m[0]).hypot(end.position_m[1] - goal.position_m[1]);
-            assert!(off_m < 1e-6, "{goal:?} missed by {off_m} m");
-            let turns = (end.heading_rad - goal.heading_rad) / TAU;
-            assert!((turns - turns.round()).abs() < 1e-9, "{goal:?}: {} rad", end.heading_rad);
+            let paths = DubinsPath::all(start, goal, 700.0);
+            assert!(paths.len() == 4 && paths.is_sorted_by(|a, b| a.length_m() <= b.length_m()));
+            for path in &paths {
+                let end = path.at(path.length_m());
+                let off_m = (end.position_m[0] - goal.position_m[0]).hypot(end.position_m[1] - goal.position_m[1]);
+                assert!(off_m < 1e-6, "{goal:?} missed by {off_m} m");
+                let turns = (end.heading_rad - goal.heading_rad) / TAU;
+                assert!((turns - turns.round()).abs() < 1e-9, "{goal:?}: {} rad", end.heading_rad);
+            }
             let straight_m = (goal.position_m[0] - 100.0).hypot(goal.position_m[1] + 50.0);
-            assert!(path.length_m() >= straight_m && path.length_m() < straight_m + TAU * 700.0);
+            let shortest_m = paths[0].length_m();
+            assert!(shortest_m >= straight_m && shortest_m < straight_m + TAU * 700.0);
         }
     }
 
     #[test]
     fn straight_ahead_is_straight() {
-        let path = DubinsPath::shortest(pose(0.0, 0.0, 45.0), pose(3000.0, 3000.0, 45.0), 700.0);
-        assert!((path.length_m() - 3000.0 * 2_f64.sqrt()).abs() < 1e-3);
+        let paths = DubinsPath::all(pose(0.0, 0.0, 45.0), pose(3000.0, 3000.0, 45.0), 700.0);
+        assert!((paths[0].length_m() - 3000.0 * 2_f64.sqrt()).abs() < 1e-3);
     }
 }

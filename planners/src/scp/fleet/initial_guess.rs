@@ -28,10 +28,10 @@ pub struct InitialGuess {
 }
 
 impl InitialGuess {
-    /// Routes, speeds, and a roundabout for each crowd. Every `attempt` has other ones.
-    pub fn new(scenario: &Scenario, constraints: &AvoidanceConstraints, attempt: usize) -> Self {
+    /// Routes, speeds, and a roundabout for each crowd. A vehicle has other ones in each of its `attempts`.
+    pub fn new(scenario: &Scenario, constraints: &AvoidanceConstraints, attempts: &[usize]) -> Self {
         let mut routes =
-            initial_route::initial_routes(scenario, constraints.clearance_m + constraints.margin_m, attempt);
+            initial_route::initial_routes(scenario, constraints.clearance_m + constraints.margin_m, attempts);
         let guess = Self::from_routes(scenario, &routes);
         let required_m = constraints.separation_m + constraints.margin_m;
         let crowds = roundabout::crowds(&FleetMotion::new(&guess.trajectories), required_m);

@@ -17,8 +17,10 @@ use super::speed::{self, SpeedProfile};
 /// Turn radius of the initial routes relative to the smallest radius at the initial speed.
 const TURN_RADIUS_FACTOR: f64 = 1.15;
 
-/// What every further attempt adds to the turn radius, in smallest radii, and to the common flight time, as a fraction.
-const ATTEMPT_RADIUS_FACTOR: f64 = 0.35;
+/// By how much the turns are wider after all paths with the tightest ones have been tried, in smallest radii.
+const WIDER_RADIUS_FACTOR: f64 = 0.35;
+
+/// What every further attempt adds to the common flight time, as a fraction.
 const ATTEMPT_DELAY: f64 = 0.08;
 
 /// Speed on a detour that delays the arrival, as a fraction of the speed range: near the lower limit, with margins on
@@ -40,20 +42,20 @@ pub struct InitialRoute {
     pub flight_time_s: f64,
 }
 
-/// Short routes around the obstacles, lengthened for vehicles that would arrive early even at low speed. Later attempts
-/// have wider turns, and more time where all arrive together.
-pub fn initial_routes(scenario: &Scenario, margin_m: f64, attempt: usize) -> Vec<InitialRoute> {
+/// Short routes around the obstacles, lengthened for vehicles that would arrive early even at low speed. Every vehicle has
+/// another route in each of its attempts, and more time where all arrive together.
+pub fn initial_routes(scenario: &Scenario, margin_m: f64, attempts: &[usize]) -> Vec<InitialRoute> {
     let map = ObstacleMap { obstacles: &scenario.world.cylinders, map: &scenario.world.map, margin_m };
-    let radius_factor = TURN_RADIUS_FACTOR + ATTEMPT_RADIUS_FACTOR * attempt as f64;
-    let shortest = scenario.vehicles.par_iter();
-    let shortest = shortest.map(|vehicle| shortest_route(vehicle, limits(scenario, vehicle), radius_factor, &map));
+    let shortest = scenario.vehicles.par_iter().zip(attempts);
+    let shortest = shortest.map(|(vehicle, attempt)| short_route(vehicle, limits(scenario, vehicle), *attempt, &map));
     let shortest: Vec<InitialRoute> = shortest.collect();
     if !scenario.fleet.simultaneous_arrival {
         return shortest;
     }
     let last_s = |routes: &[InitialRoute]| routes.iter().map(|route| route.flight_time_s).fold(0.0, f64::max);
     let mut delayed_routes = Vec::new();
-    let mut together_s = (1.0 + ATTEMPT_DELAY * attempt as f64) * last_s(&shortest);
+    let delays = attempts.iter().max().map_or(0.0, |attempt| ATTEMPT_DELAY * *attempt as f64);
+    let mut together_s = (1.0 + delays) * last_s(&shortest);
     for _ in 0..MAX_DELAYS {
         let delayed = shortest.par_iter().zip(&scenario.vehicles);
         let delayed = delayed.map(|(route, vehicle)| {
@@ -75,13 +77,12 @@ pub fn initial_routes(scenario: &Scenario, margin_m: f64, attempt: usize) -> Vec
     delayed_routes
 }
 
-/// The shortest route that leaves room for the changes of altitude and speed, at full speed.
-fn shortest_route(vehicle: &Vehicle, limits: &Limits, radius_factor: f64, map: &ObstacleMap) -> InitialRoute {
-    let agility = Agility::new(limits);
+/// A short route that leaves room for the changes of altitude and speed, at full speed.
+fn short_route(vehicle: &Vehicle, limits: &Limits, attempt: usize, map: &ObstacleMap) -> InitialRoute {
     let ends = poses(vehicle);
-    let turn_radius_m = radius_factor * agility.turn_radius_m(vehicle.start.speed_mps);
-    let shortest = Route::along(&DubinsPath::shortest(ends[0], ends[1], turn_radius_m), turn_radius_m);
-    let mut route = detour::around(shortest, map, turn_radius_m);
+    let smallest_m = Agility::new(limits).turn_radius_m(vehicle.start.speed_mps);
+    let (turn_radius_m, path) = attempt_path(ends, smallest_m, attempt);
+    let mut route = detour::around(Route::along(&path, turn_radius_m), map, turn_radius_m);
     let length_m = min_length_m(vehicle, limits);
     if route.length_m() < length_m {
         let longer = Lengthening { ends, map, turn_radius_m, length_m, max_length_m: f64::INFINITY };
@@ -89,6 +90,21 @@ fn shortest_route(vehicle: &Vehicle, limits: &Limits, radius_factor: f64, map: &
     }
     let flight_time_s = profile(vehicle, limits, &route, limits.speed_mps.max).duration_s();
     InitialRoute { route, flight_time_s }
+}
+
+/// The path of an attempt and its turn radius, m: first those of all words with the tightest turns, the shortest first, then
+/// those with wider turns.
+fn attempt_path([start, goal]: [Pose; 2], smallest_m: f64, attempt: usize) -> (f64, DubinsPath) {
+    let mut remaining = attempt;
+    let mut turn_radius_m = TURN_RADIUS_FACTOR * smallest_m;
+    loop {
+        let paths = DubinsPath::all(start, goal, turn_radius_m);
+        match paths.get(remaining) {
+            Some(path) => return (turn_radius_m, *path),
+            None => remaining -= paths.len(),
+        }
+        turn_radius_m += WIDER_RADIUS_FACTOR * smallest_m;
+    }
 }
 
 /// Smallest length in which altitude and speed can change from the start's to the goal's, m.

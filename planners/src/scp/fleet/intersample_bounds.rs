@@ -9,8 +9,6 @@ use scenarios::fixed_wing::GRAVITY_MPS2;
 
 use super::super::dynamics::State;
 use super::super::iterate::Iterate;
-use super::super::shooting::Knots;
-#[cfg(test)]
 use super::super::shooting::SUBSTEPS;
 use super::motion::VehicleMotion;
 use crate::convex::STAGE_LEN;
@@ -52,9 +50,9 @@ impl Tightening {
     /// overshoot that is gone returns when its bound is released.
     pub fn observe(&mut self, motion: &VehicleMotion) {
         self.nodes.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|distance| *distance *= MEMORY);
-        for (k, knots) in motion.intervals.iter().enumerate() {
+        for k in 0..motion.intervals.len() {
             for i in BOUNDED_STATES {
-                let overshoot = overshoot(knots, i, motion.kink);
+                let overshoot = overshoot(motion, k, i);
                 for node in &mut self.nodes[k..=k + 1] {
                     for (distance, overshoot) in node[i].iter_mut().zip(overshoot) {
                         *distance = distance.max((1.0 + OVERSHOOT_MARGIN) * overshoot);
@@ -130,31 +128,12 @@ fn bound_controls(node: &mut [Range; STAGE_LEN], limits: &[Range; STAGE_LEN], st
     }
 }
 
-/// Distances by which a component falls below and rises above its values at the ends of an interval.
-fn overshoot(knots: &Knots, i: usize, kink: Option<usize>) -> [f64; 2] {
-    let (begin, end) = (knots[0][i], knots[knots.len() - 1][i]);
-    let extremes = extremes(knots, i, kink);
+/// Distances by which a component falls below and rises above its values at the ends of interval `k`.
+fn overshoot(motion: &VehicleMotion, k: usize, component: usize) -> [f64; 2] {
+    let knots = &motion.intervals[k];
+    let (begin, end) = (knots[0][component], knots[SUBSTEPS][component]);
+    let extremes = motion.extremes(k, component);
     [begin.min(end) - extremes.min, extremes.max - begin.max(end)]
-}
-
-/// Smallest and largest value of a component over an interval, by the parabolas through three neighbouring states. None
-/// of them spans the step at whose beginning the controls have a `kink`.
-pub fn extremes(knots: &Knots, i: usize, kink: Option<usize>) -> Range {
-    let mut found = Range::new(f64::INFINITY, f64::NEG_INFINITY);
-    let mut consider = |value: f64| found = Range::new(found.min.min(value), found.max.max(value));
-    knots.iter().for_each(|state: &State| consider(state[i]));
-    for (first, three) in knots.windows(3).enumerate() {
-        if kink == Some(first + 1) {
-            continue;
-        }
-        let (a, b, c) = (three[0][i], three[1][i], three[2][i]);
-        let (slope, curvature) = (0.5 * (c - a), 0.5 * (a + c) - b);
-        let peak = -0.5 * slope / curvature;
-        if peak.abs() < 1.0 {
-            consider(b + 0.5 * slope * peak);
-        }
-    }
-    found
 }
 
 #[cfg(test)]
@@ -162,26 +141,25 @@ mod tests {
     use super::super::super::dynamics::Control;
     use super::*;
 
-    /// A speed that rises by 0.5 m/s in the middle of the interval.
-    fn knots() -> Knots {
-        let last = SUBSTEPS as f64;
-        std::array::from_fn(|m| {
-            let u = m as f64 / last;
-            State::new(0.0, 0.0, 400.0, 38.0 + 2.0 * u * (1.0 - u), 0.0, 0.0)
-        })
-    }
-
-    #[test]
-    fn extremes_between_the_samples_are_found() {
-        let speed = extremes(&knots(), 3, None);
-        assert!((speed.max - 38.5).abs() < 1e-12 && (speed.min - 38.0).abs() < 1e-12, "{speed:?}");
+    /// Four intervals of 5 s with a constant speed, but for a rise by 0.5 m/s in the middle of the second one.
+    fn motion(rise_mps: f64) -> VehicleMotion {
+        let state = |speed: f64| State::new(0.0, 0.0, 400.0, speed, 0.0, 0.0);
+        let u = |m: usize| m as f64 / SUBSTEPS as f64;
+        let rising = std::array::from_fn(|m| state(38.0 + 4.0 * rise_mps * u(m) * (1.0 - u(m))));
+        let rates = std::array::from_fn(|m| {
+            State::from_fn(|i, _| if i == 3 { 4.0 * rise_mps / 5.0 * (1.0 - 2.0 * u(m)) } else { 0.0 })
+        });
+        let (constant, none) = ([state(38.0); SUBSTEPS + 1], [State::zeros(); SUBSTEPS + 1]);
+        VehicleMotion {
+            intervals: vec![constant, rising, constant, constant],
+            rates: vec![none, rates, none, none],
+            dt_s: 5.0,
+        }
     }
 
     #[test]
     fn bounds_are_tightened_by_the_overshoot() {
         let bounds = [Range::new(-1000.0, 1000.0); STAGE_LEN];
-        let constant = [State::zeros(); SUBSTEPS + 1];
-        let motion = VehicleMotion { intervals: vec![constant, knots(), constant, constant], dt_s: 5.0, kink: Some(2) };
         let trajectory = Iterate {
             states: vec![State::new(0.0, 0.0, 400.0, 38.0, 0.0, 0.0); 5],
             controls: vec![Control::new(0.0, 0.0, 1.0); 5],
@@ -189,16 +167,15 @@ mod tests {
             ramp: 0.25,
         };
         let mut tightening = Tightening::new(5);
-        tightening.observe(&motion);
+        tightening.observe(&motion(0.5));
         let tightened = tightening.applied_to(&bounds, &trajectory, false);
         let margin = LIMIT_MARGIN * 2000.0;
         let moved = |node: usize| 1000.0 - margin - tightened[node][3].max;
         assert_eq!(moved(3), 0.0);
-        assert!(moved(1) > 0.5 && moved(1) < 0.7 && moved(1) == moved(2), "{}", moved(1));
+        assert!((moved(1) - 1.3 * 0.5).abs() < 1e-9 && moved(1) == moved(2), "{}", moved(1));
         assert!(tightened[1..4].iter().all(|node| node[3].min == margin - 1000.0));
         assert!([0, 4].iter().all(|end| tightened[*end][3].max == f64::MAX), "start and goal are given");
-        let straight = VehicleMotion { intervals: vec![constant; 4], ..motion };
-        tightening.observe(&straight);
+        tightening.observe(&motion(0.0));
         assert!((tightening.nodes[1][SPEED][1] - MEMORY * moved(1)).abs() < 1e-9, "released gradually");
     }
 

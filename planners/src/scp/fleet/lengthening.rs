@@ -134,7 +134,7 @@ mod tests {
         let world = Map { x_m: all, y_m: all, z_m: all };
         let map = ObstacleMap { obstacles: &[], map: &world, margin_m: 10.0 };
         let start = Pose { position_m: [0.0, 0.0], heading_rad: 0.0 };
-        let route = Route::along(&DubinsPath::shortest(start, goal, 100.0), 100.0);
+        let route = Route::along(&DubinsPath::all(start, goal, 100.0)[0], 100.0);
         let to = Lengthening {
             ends: [start, goal],
             map: &map,

@@ -39,7 +39,8 @@ impl RefinedMotion {
         // a whole number of pieces for ramps of a quarter of an interval
         let pieces = 4 * (trajectory.dt_s / (4.0 * SUBSTEPS as f64 * MAX_STEP_S)).ceil().max(1.0) as usize;
         let ramp_pieces = (trajectory.ramp * pieces as f64).round() as usize;
-        let mut intervals = Vec::with_capacity(pieces * trajectory.intervals());
+        let count = pieces * trajectory.intervals();
+        let (mut intervals, mut rates) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let mut defect = NodeDefect { amount_m: 0.0, at_s: 0.0 };
         let mut open_loop = trajectory.states[0];
         for k in 0..trajectory.intervals() {
@@ -47,8 +48,10 @@ impl RefinedMotion {
             let (mut state, mut since) = (interval.states[0], 0);
             for piece in 1..=pieces {
                 let part = [piece - 1, piece].map(|end| end as f64 / pieces as f64);
-                intervals.push(shooting::flow_within(&interval, state, part));
-                state = intervals[intervals.len() - 1][SUBSTEPS];
+                let knots = shooting::flow_within(&interval, state, part);
+                intervals.push(knots);
+                rates.push(shooting::rates_within(&interval, &knots, part));
+                state = knots[SUBSTEPS];
                 open_loop = shooting::flow_within(&interval, open_loop, part)[SUBSTEPS];
                 if piece == ramp_pieces || piece == pieces {
                     let node = if piece == pieces { interval.states[1] } else { shooting::ramp_end(&interval) };
@@ -61,12 +64,7 @@ impl RefinedMotion {
         let end = trajectory.states[trajectory.intervals()];
         let rollout_error_m = (end - open_loop).fixed_rows::<3>(0).norm();
         let dt_s = trajectory.dt_s / pieces as f64;
-        Self {
-            motion: VehicleMotion { intervals, dt_s, kink: None },
-            defect,
-            rollout_error_m,
-            open_loop_end: open_loop,
-        }
+        Self { motion: VehicleMotion { intervals, rates, dt_s }, defect, rollout_error_m, open_loop_end: open_loop }
     }
 }
 

@@ -31,8 +31,11 @@ const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
 /// Relative difference below which step lengths are made equal: vehicles that arrive together share their nodes.
 const EQUAL_DT_TOLERANCE: f64 = 1e-6;
 
-/// Number of rounds of search and settling from one initial guess.
-const MAX_ROUNDS: usize = 2;
+/// Violation of a subproblem, in scaled units, that is left when a vehicle has no way near its present trajectory.
+const MAX_VIOLATION: f64 = 1e-5;
+
+/// Factor on the penalty after vehicles have been stuck: what they would have saved by their violations exceeded it.
+const REROUTED_PENALTY_FACTOR: f64 = 5.0;
 
 /// Length of an interval, relative to what the vehicle's agility asks for, above which it is too long.
 const COARSE: f64 = 1.6;
@@ -91,6 +94,12 @@ pub struct ScpSolver<'a> {
     /// Factors on the trust region of every vehicle.
     scales: Vec<State>,
     trajectories: Vec<Iterate>,
+    /// Penalty of the subproblems, s per scaled unit of violation.
+    penalty: f64,
+    /// Violation that the last subproblem of each vehicle was left with, in scaled units.
+    violations: Vec<f64>,
+    /// Number of routes that each vehicle has tried before its present one.
+    attempts: Vec<usize>,
     /// The vehicles by number of intervals: subproblems of one shape are solved together.
     order: Vec<usize>,
     schedule: TrustRegionSchedule,
@@ -99,36 +108,61 @@ pub struct ScpSolver<'a> {
 }
 
 impl<'a> ScpSolver<'a> {
-    /// The solver at the initial guess of an `attempt`.
-    pub fn new(scenario: &'a Scenario, options: Options, attempt: usize) -> Self {
+    /// The solver at the initial guess.
+    pub fn new(scenario: &'a Scenario, options: Options) -> Self {
         let constraints = AvoidanceConstraints::new(scenario, options.margin_m);
         let limits = |vehicle| &scenario.fixed_wing_model(vehicle).planning_limits;
         let map = |vehicle| scenario.world.map.inset(scenario.fixed_wing_model(vehicle).body_radius_m);
         let bounds = |vehicle| subproblem::node_bounds(limits(vehicle), &map(vehicle));
-        let planned = |(vehicle, trajectory)| climb::bounds_in_use(&bounds(vehicle), trajectory);
-        let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &constraints, attempt);
-        let mut order: Vec<usize> = (0..trajectories.len()).collect();
-        order.sort_by_key(|vehicle| trajectories[*vehicle].intervals());
+        let attempts = vec![0; scenario.vehicles.len()];
+        let InitialGuess { trajectories, boundary } = InitialGuess::new(scenario, &constraints, &attempts);
         let scale = |vehicle| match scenario.planner.trust_region {
             Some(_) => State::repeat(1.0),
             None => Agility::new(limits(vehicle)).trust_region_scale(),
         };
-        let simultaneous_dt_s = scenario.fleet.simultaneous_arrival.then(|| max_dt_s(&trajectories));
-        let release = options.time_bound_release;
+        let bounds: Vec<_> = scenario.vehicles.iter().map(bounds).collect();
         Self {
             scenario,
             constraints,
             tightening: trajectories.iter().map(|trajectory| Tightening::new(trajectory.states.len())).collect(),
-            planned: scenario.vehicles.iter().zip(&trajectories).map(planned).collect(),
-            bounds: scenario.vehicles.iter().map(bounds).collect(),
+            planned: bounds.iter().zip(&trajectories).map(|(bounds, it)| climb::bounds_in_use(bounds, it)).collect(),
+            bounds,
             boundary,
             scales: scenario.vehicles.iter().map(scale).collect(),
-            order,
-            schedule: TrustRegionSchedule::new(options.trust_region, options.shrink, release, simultaneous_dt_s),
+            order: by_intervals(&trajectories),
+            schedule: schedule(scenario, &options, &trajectories),
             solvers: TOLERANCES.map(|tolerance| SubproblemSolver::new(options.solver, options.solver_start, tolerance)),
+            penalty: options.penalty,
+            violations: vec![0.0; trajectories.len()],
+            attempts,
             options,
             trajectories,
         }
+    }
+
+    /// Begins to search again, at a higher penalty: vehicles whose subproblems are left with a violation have another
+    /// initial route, the others begin with their present trajectories. Those that have to share their nodes with one whose
+    /// route has another number of intervals begin anew.
+    pub fn reroute(&mut self) {
+        let is_stuck = |vehicle: &usize| self.violations[*vehicle] > MAX_VIOLATION;
+        let mut rerouted: Vec<usize> = (0..self.violations.len()).filter(is_stuck).collect();
+        rerouted.iter().for_each(|&vehicle| self.attempts[vehicle] += 1);
+        let InitialGuess { trajectories, boundary } =
+            InitialGuess::new(self.scenario, &self.constraints, &self.attempts);
+        let shares_nodes = |vehicle: &usize| trajectories[*vehicle].intervals() == self.trajectories[0].intervals();
+        if self.scenario.fleet.simultaneous_arrival && !rerouted.iter().all(shares_nodes) {
+            rerouted = (0..trajectories.len()).collect();
+        }
+        for vehicle in rerouted {
+            let trajectory = &trajectories[vehicle];
+            self.tightening[vehicle] = Tightening::new(trajectory.states.len());
+            self.planned[vehicle] = climb::bounds_in_use(&self.bounds[vehicle], trajectory);
+            self.trajectories[vehicle] = trajectory.clone();
+            self.boundary[vehicle] = boundary[vehicle];
+        }
+        self.order = by_intervals(&self.trajectories);
+        self.schedule = schedule(self.scenario, &self.options, &self.trajectories);
+        self.penalty = REROUTED_PENALTY_FACTOR * self.options.penalty;
     }
 
     /// One iteration. `inspect` receives the subproblems and their solutions.
@@ -141,13 +175,16 @@ impl<'a> ScpSolver<'a> {
         let programs = self.programs(&rows);
         let solutions = self.solvers[usize::from(!self.schedule.is_searching())].solve(&programs);
         inspect(&programs, &solutions);
-        let violations =
-            programs.par_iter().zip(&solutions).map(|(program, solution)| program.max_violation(&solution.z));
-        let violation = violations.collect::<Vec<_>>().into_iter().fold(0.0, f64::max);
+        let violations = programs.par_iter().zip(&solutions);
+        let violations = violations
+            .map(|(program, solution)| [program.max_violation(&solution.z), program.max_stage_violation(&solution.z)]);
+        let violations: Vec<[f64; 2]> = violations.collect();
+        let violation = violations.iter().map(|[violation, _]| *violation).fold(0.0, f64::max);
         let last = self.trajectories.clone();
-        for (&vehicle, solution) in self.order.iter().zip(&solutions) {
+        for ((&vehicle, solution), [_, violation]) in self.order.iter().zip(&solutions).zip(violations) {
             let updated = subproblem::updated(&last[vehicle], &solution.z);
             self.trajectories[vehicle] = with_ends(updated, &self.boundary[vehicle]);
+            self.violations[vehicle] = violation;
         }
         let iteration = self.summary(&last, &solutions, violation, started);
         self.schedule.observe(self.objective_s(), iteration.dt_s, violation);
@@ -159,9 +196,9 @@ impl<'a> ScpSolver<'a> {
         (!self.schedule.is_searching()).then(|| self.checked())
     }
 
-    /// Has it searched and settled as often as is worth it from one initial guess?
+    /// Has it settled without a solution?
     pub fn has_stalled(&self) -> bool {
-        self.schedule.failed_rounds() >= MAX_ROUNDS
+        self.schedule.has_failed()
     }
 
     /// The trajectories with what follows on them, if they can be flown.
@@ -218,6 +255,7 @@ impl<'a> ScpSolver<'a> {
             let bounds = self.tightening[i].applied_to(&self.planned[i], &self.trajectories[i], goes_on);
             let context = Context {
                 options: &self.options,
+                penalty: self.penalty,
                 boundary: self.boundary[i],
                 bounds: &bounds,
                 trust_region: self.schedule.trust_region().component_mul(&self.scales[i]),
@@ -264,6 +302,18 @@ impl<'a> ScpSolver<'a> {
             distributed_s: wall_s * rayon::current_num_threads() as f64 * max as f64 / sum.max(1) as f64,
         }
     }
+}
+
+/// The vehicles by number of intervals.
+fn by_intervals(trajectories: &[Iterate]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..trajectories.len()).collect();
+    order.sort_by_key(|vehicle| trajectories[*vehicle].intervals());
+    order
+}
+
+fn schedule(scenario: &Scenario, options: &Options, trajectories: &[Iterate]) -> TrustRegionSchedule {
+    let simultaneous_dt_s = scenario.fleet.simultaneous_arrival.then(|| max_dt_s(trajectories));
+    TrustRegionSchedule::new(options.trust_region, options.shrink, options.time_bound_release, simultaneous_dt_s)
 }
 
 /// The trajectory, with exactly the given start and goal: a distance from them becomes a defect of the dynamics.
