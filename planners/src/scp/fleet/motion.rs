@@ -87,7 +87,7 @@ fn turning_values([a, b]: [f64; 2], [slope_a, slope_b]: [f64; 2]) -> [Option<f64
     let d = slope_a + slope_b - 2.0 * (b - a);
     // the zeros of slope_a + 2 c u + 3 d u², in the form without cancellation
     let q = -(c + c.signum() * (c * c - 3.0 * d * slope_a).sqrt());
-    [q / (3.0 * d), slope_a / q].map(|u| (0.0 < u && u < 1.0).then(|| a + u * (slope_a + u * (c + u * d))))
+    [q / (3.0 * d), slope_a / q].map(|u| (0.0 < u && u < 1.0).then_some(a + u * (slope_a + u * (c + u * d))))
 }
 
 /// The interval at a time, and the fraction of it that has passed.
