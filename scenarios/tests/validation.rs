@@ -326,6 +326,11 @@ fn geofences_are_simple_polygons_and_allow_start_and_goal() {
     let with = |fence: &str| format!("radius_m = 50\n\n[[world.geofences]]\nname = \"zone\"\n{fence}");
     let crossed = with("kind = \"keep-out\"\npolygon_m = [[0, 0], [9, 9], [9, 0], [0, 9]]");
     assert_issue("radius_m = 50", &crossed, ("world.geofences[0].polygon_m", 15, 13), "4 corners", "simple polygon");
+    let square = "kind = \"keep-out\"\npolygon_m = [[0, 0], [9, 0], [9, 9], [0, 9]]\nrings_m = ";
+    for ring in ["[[3, 3], [12, 3], [3, 6]]", "[[3, 3], [6, 3]]", "[[3, 3], [6, 6], [6, 3], [3, 6]]"] {
+        let ring = with(&format!("{square}[{ring}]"));
+        assert_issue("radius_m = 50", &ring, ("world.geofences[0].rings_m", 16, 11), "cross, touch", "polygon_m");
+    }
     let floor = "kind = \"keep-out\"\npolygon_m = [[0, 0], [9, 0], [0, 9]]\nz_m = [300, 200]";
     assert_issue("radius_m = 50", &with(floor), ("world.geofences[0].z_m", 16, 7), "[300, 200]", "min below max");
     let start = with("kind = \"keep-out\"\npolygon_m = [[-950, -250], [-850, -250], [-850, -150], [-950, -150]]");

@@ -6,14 +6,13 @@ use super::counter_rng::CounterRng;
 use super::deadlock_recovery::{DetourMap, ProgressMonitor, roadmap_motion};
 use super::evaluate::SimdLevel;
 use super::optimiser::{Budget, Solution, optimise};
-use super::problem::{Attraction, ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion};
+use super::problem::{
+    Attraction, CLEARANCE_TOLERANCE_M, ControlGrid, Cost, EvaluationOptions, HorizonProblem, Repulsion,
+};
 use super::sampler::SamplerKind;
 use crate::free_space::{FreeSpace, Point};
 use crate::multirotor::{PlanningLimits, PointMassMotion, PointMassState, sagitta_m};
 use crate::roadmap::{CostMap, RoadmapKind};
-
-/// Rounding error between two computations of one distance, m.
-const CLEARANCE_TOLERANCE_M: f64 = 1e-9;
 
 /// Settings of a controller.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Recovery from deadlocks. Where a vehicle gets no nearer to its goal, because the sampler does not find the way through a
 //! passage to which the cost map leads, it follows the roadmap until it has got past.
 
-use super::problem::HorizonProblem;
+use super::problem::{CLEARANCE_TOLERANCE_M, HorizonProblem};
 use crate::free_space::{FreeSpace, Obstacle, Point};
 use crate::multirotor::PointMassMotion;
 use crate::roadmap::CostMap;
@@ -124,9 +124,6 @@ pub fn roadmap_motion(
         motion.is_clear(0.0, problem.space, problem.clearance_m - CLEARANCE_TOLERANCE_M).then_some(motion)
     })
 }
-
-/// Rounding error between two computations of one distance, m.
-const CLEARANCE_TOLERANCE_M: f64 = 1e-8;
 
 /// The first `length_m` of a path, without repeated points.
 fn beginning(path: &[Point], length_m: f64) -> Vec<Point> {

@@ -4,6 +4,9 @@ use crate::free_space::{FreeSpace, MovingObstacle, Obstacle, Point};
 use crate::multirotor::{PlanningLimits, PointMassState, sagitta_m};
 use crate::roadmap::{CostMap, CostToGoQuery};
 
+/// Rounding error between two computations of one distance, m.
+pub const CLEARANCE_TOLERANCE_M: f64 = 1e-9;
+
 /// Rate at which the required clearance grows over the horizon if the start violates it, m/s.
 const CLEARANCE_RECOVERY_MPS: f64 = 0.25;
 

@@ -8,6 +8,8 @@
 //!   nodes, and two vehicles share the missing distance;
 //! - the initial guess is nearly flyable: Dubins paths around obstacles, with a roundabout where many vehicles meet;
 //! - the common time bound is released in the search phase;
+//! - where the plan does not settle, the vehicles that are left with violations get another initial guess, by other turns, and
+//!   the others keep their trajectories;
 //! - unless the scenario gives their number, the intervals are as long as the vehicle's agility allows;
 //! - the plan of a vehicle that arrives before the others goes on: it holds, clear of all, until the last one has arrived;
 //!   if one cannot, all arrive at the same time;

@@ -2,6 +2,7 @@
 
 use super::identifier::entity_names;
 use super::quantity::{not_negative, ordered, positive};
+use crate::world::is_simple;
 use crate::{BoxObstacle, Gate, Geofence, Issue, MovingCylinder, Prism, World, closest_name};
 
 pub(super) fn issues(world: &World) -> Vec<Issue> {
@@ -83,9 +84,15 @@ fn gate_issues(index: usize, gate: &Gate) -> Vec<Issue> {
 fn geofence_issues(index: usize, fence: &Geofence) -> Vec<Issue> {
     let field = format!("world.geofences[{index}]");
     let shape = (!fence.is_simple()).then(|| {
-        let found = format!("{} corners whose edges cross, touch or fold back", fence.polygon_m.len());
-        Issue::new(format!("{field}.polygon_m"), found, "at least three corners of a simple polygon, in order")
-            .remedy("list the corners in order along the boundary, each once, without repeating the first at the end")
+        let remedy = "list the corners in order along the boundary, each once, without repeating the first at the end";
+        let issue = if is_simple(&fence.polygon_m) {
+            let expected = "rings of at least three corners each that meet neither each other nor `polygon_m`";
+            Issue::new(format!("{field}.rings_m"), "edges that cross, touch or fold back", expected)
+        } else {
+            let found = format!("{} corners whose edges cross, touch or fold back", fence.polygon_m.len());
+            Issue::new(format!("{field}.polygon_m"), found, "at least three corners of a simple polygon, in order")
+        };
+        issue.remedy(remedy)
     });
     let z_m = fence.z_m.and_then(|range| ordered(&format!("{field}.z_m"), range));
     shape.into_iter().chain(z_m).collect()

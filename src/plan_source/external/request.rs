@@ -33,7 +33,8 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
     })
 }
 
-/// Map, origin on the Earth if the scenario gives it, static obstacles (boxes as prisms; files of meshes and terrain by their absolute paths), ground, gates and geofences.
+/// Map, origin on the Earth if the scenario gives it, static obstacles (boxes as prisms; files of meshes and terrain by their
+/// absolute paths), ground, gates and geofences.
 pub(super) fn world(world: &World) -> Value {
     json!({
         "map": world.map,

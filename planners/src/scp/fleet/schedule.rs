@@ -24,7 +24,7 @@ const MIN_RELEASE_WIDTH: f64 = 0.15;
 const VIOLATED_SHRINK: f64 = 0.75;
 
 /// Largest violation of a satisfied row, in scaled units.
-const MAX_VIOLATION: f64 = 1e-5;
+pub const MAX_VIOLATION: f64 = 1e-5;
 
 /// Smallest half-widths of the states at a position half-width of [`MIN_SEARCH_M`], in their units. They scale with the
 /// square root of the position half-width, because the linearisation error grows with the square of the change of

@@ -22,7 +22,7 @@ use super::conflict_detection::FleetMotion;
 use super::holding::{self, Blocked};
 use super::initial_guess::InitialGuess;
 use super::intersample_bounds::Tightening;
-use super::schedule::TrustRegionSchedule;
+use super::schedule::{MAX_VIOLATION, TrustRegionSchedule};
 use crate::convex::{HalfspaceConstraint, Program, STAGE_LEN, Solution, Status};
 
 /// Relative gap of the subproblems in the search phase and in the settling phase.
@@ -30,9 +30,6 @@ const TOLERANCES: [f64; 2] = [1e-5, 1e-8];
 
 /// Relative difference below which step lengths are made equal: vehicles that arrive together share their nodes.
 const EQUAL_DT_TOLERANCE: f64 = 1e-6;
-
-/// Violation of a subproblem, in scaled units, that is left when a vehicle has no way near its present trajectory.
-const MAX_VIOLATION: f64 = 1e-5;
 
 /// Factor on the penalty after vehicles have been stuck: what they would have saved by their violations exceeded it.
 const REROUTED_PENALTY_FACTOR: f64 = 5.0;
