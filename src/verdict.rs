@@ -39,7 +39,6 @@ pub mod reconstruction;
 mod requirements;
 mod rotors;
 mod separation;
-mod separation_shape;
 pub mod slung_load;
 #[cfg(test)]
 mod still_sample;
@@ -65,7 +64,6 @@ pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, KnotDefect, Motion};
 pub use provenance::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
 pub use separation::at_nodes as separation_at_nodes;
-pub use separation_shape::SeparationShape;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,
 };

@@ -118,7 +118,7 @@ pub(crate) fn ignored_solid(scenario: &Scenario) -> Option<String> {
 mod tests {
     use std::path::Path;
 
-    use scenarios::{Geofence, GeofenceKind, Scenario, Sphere};
+    use scenarios::{Geofence, GeofenceKind, Scenario, SeparationShape, Sphere, Waypoint};
 
     #[test]
     fn planners_that_do_not_know_geofences_refuse_them_by_name() {
@@ -137,6 +137,30 @@ mod tests {
             let planner = crate::find(&scenario.planner.name).unwrap();
             assert!((planner.unsupported_reason)(&scenario).unwrap().contains("`airport`"), "{file}");
         }
+    }
+
+    /// Fixed wings may cross above each other within a cylinder's height; their planners keep them apart horizontally.
+    #[test]
+    fn planners_refuse_separation_rules_that_they_cannot_keep() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+        let load = |file: &str| scenarios::load(&folder.join(file)).unwrap();
+        let reason = |scenario: &Scenario| {
+            (crate::find(&scenario.planner.name).unwrap().unsupported_reason)(scenario).unwrap_or_default()
+        };
+        let mut fleet = load("fixed-wing/rendezvous-7.toml");
+        fleet.fleet.separation_shape = Some(SeparationShape::Cylinder);
+        fleet.fleet.separation_height_m = Some(30.0);
+        assert_eq!(reason(&fleet), "");
+        assert_eq!(fleet.horizontal_separation_m(), Some(100.0));
+        let first = fleet.vehicles[0].start.clone();
+        fleet.vehicles[1].start = Waypoint { z_m: first.z_m + 40.0, ..first };
+        assert!(reason(&fleet).contains("start nearer to each other"), "{}", reason(&fleet));
+        let mut crossing = load("multirotor/crossing-4.toml");
+        crossing.fleet.separation_shape = Some(SeparationShape::Ellipsoid);
+        crossing.fleet.separation_height_m = Some(1.5);
+        assert_eq!(reason(&crossing), "");
+        crossing.fleet.separation_shape = Some(SeparationShape::Horizontal);
+        assert!(reason(&crossing).contains("in space"), "{}", reason(&crossing));
     }
 
     #[test]

@@ -25,7 +25,7 @@ mod time_bound;
 mod transcription;
 mod trapezoid;
 
-use scenarios::{Scenario, Vehicle};
+use scenarios::{Scenario, Vehicle, Waypoint};
 
 use crate::planner::{Planner, ignored_geofence, ignored_solid};
 
@@ -44,6 +44,27 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     let is_other = |vehicle: &&Vehicle| !scenario.models.fixed_wing.contains_key(&vehicle.model);
     match scenario.vehicles.iter().find(is_other) {
         Some(other) => Some(format!("vehicle `{}` is not a fixed-wing aircraft", other.name)),
-        None => ignored_geofence(scenario).or_else(|| ignored_flat_face(scenario)).or_else(|| ignored_solid(scenario)),
+        None => ignored_geofence(scenario)
+            .or_else(|| ignored_flat_face(scenario))
+            .or_else(|| ignored_solid(scenario))
+            .or_else(|| above_each_other(scenario)),
     }
+}
+
+/// Two vehicles that begin or end nearer to each other than these planners keep them.
+fn above_each_other(scenario: &Scenario) -> Option<String> {
+    let separation_m = scenario.horizontal_separation_m()?;
+    let ends: [(&str, fn(&Vehicle) -> &Waypoint); 2] = [("start", |it| &it.start), ("end", |it| &it.goal)];
+    scenario.vehicles.iter().enumerate().find_map(|(later, vehicle)| {
+        scenario.vehicles[..later].iter().find_map(|other| {
+            let (verb, _) = ends.iter().find(|(_, end)| {
+                let (a, b) = (end(vehicle), end(other));
+                (a.x_m - b.x_m).hypot(a.y_m - b.y_m) < separation_m
+            })?;
+            let [a, b] = [&other.name, &vehicle.name];
+            Some(format!(
+                "it keeps vehicles {separation_m} m apart horizontally, and `{a}` and `{b}` {verb} nearer to each other"
+            ))
+        })
+    })
 }

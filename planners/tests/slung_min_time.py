@@ -6,15 +6,15 @@
 Independent of `slung-lgr`: body rates in place of Euler angle rates, Runge-Kutta steps, thrusts that are constant on each
 of 60 intervals. The coarse thrusts make the flights a little longer; the constraints hold at the ends of the intervals.
 
-The minimum over 4 starts beside the flight time of `slung-lgr`, whose cost has a small weight on the effort, s (last column: on
-meshes of 40 segments of 4 points at first):
+The minimum over 4 starts beside the flight time of `slung-lgr`, s, whose cost has a weight on the effort of 3e-5 of the time; then
+with three times and with a third of that weight (last column: on meshes of 40 segments of 4 points at first):
 
-    case         shooting    slung-lgr    with 0.3 of the weight    with 0.1 of the weight
-    block, left   2.9122       2.9298            2.9094                    2.9079
-    level         1.9276       1.9405            1.9274                    1.9261
-    diagonal      1.9165       1.9280            1.9175                    1.9149
-    climb         1.5052       1.5050            1.5038                    1.5032
-    short         1.4711       1.4778            1.4718                    1.4710
+    case         shooting    slung-lgr    weight 1e-4    weight 1e-5
+    block, left   2.9122       2.9094        2.9298         2.9079
+    level         1.9276       1.9274        1.9405         1.9261
+    diagonal      1.9165       1.9175        1.9280         1.9149
+    climb         1.5052       1.5038        1.5050         1.5032
+    short         1.4711       1.4718        1.4778         1.4710
 """
 
 import sys

@@ -58,7 +58,7 @@ const MULTIROTORS: &[Family] = &[Multirotor];
 /// Skipped, with the reason, for fixed wings.
 const LOADS_NAMED: &[Family] = &[FixedWing, SlungLoad];
 
-const SEPARATION: LimitField = LimitField::Fields(&["fleet.separation_m"]);
+const SEPARATION: LimitField = LimitField::Fields(&["fleet.separation_m", "fleet.separation_volume"]);
 const ENVELOPE: LimitField = LimitField::Fields(&["verdict.envelope_m"]);
 const REST: LimitField = LimitField::Fields(&["verdict.rest_mps"]);
 const ARRIVAL: LimitField = LimitField::Fields(&["verdict.arrival_spread_s", "fleet.simultaneous_arrival"]);

@@ -100,6 +100,14 @@ impl Solid {
         matches!(self.shape, Shape::Terrain(_))
     }
 
+    /// The heights of a terrain; `None` of other shapes.
+    pub fn terrain_grid(&self) -> Option<&TerrainGrid> {
+        match &self.shape {
+            Shape::Terrain(grid) => Some(grid),
+            _ => None,
+        }
+    }
+
     /// The nearest point of its surface, and the signed distance from it. A mesh that is not closed has no inside.
     pub fn nearest(&self, point_m: [f64; 3]) -> NearestPoint {
         if !point_m.iter().all(|coordinate| coordinate.is_finite()) {

@@ -28,6 +28,7 @@ mod random;
 mod range;
 pub mod requirement;
 mod scenario;
+mod separation;
 pub mod shipped;
 mod simulation;
 pub mod slung_load;
@@ -53,6 +54,7 @@ pub use planner_settings::{
 pub use random::stream;
 pub use range::Range;
 pub use scenario::Scenario;
+pub use separation::{Separation, SeparationMeasure, SeparationShape, SeparationVolume};
 pub use simulation::{GustPulse, Gusts, Mismatch, Planning, PlanningClock, Sensors, Simulation, Tracker, Wind};
 pub use trajectory::{Interpolation, TrajectoryNodes};
 pub use validate::{validate, wind_without_effect};

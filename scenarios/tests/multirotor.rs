@@ -111,6 +111,37 @@ fn multirotors_may_start_above_each_other_and_fixed_wings_may_not() {
     assert!(stacked("3.5").is_ok(), "{:?}", stacked("3.5").err());
     let error = stacked("3.4").expect_err("0.1 m too close").to_string();
     assert!(!error.is_empty());
+    let shaped = |rule: &str| {
+        let text = TEXT.replace("\n[planner]", &second.replace("HIGH", "3.5").replace("separation_m = 1.5", rule));
+        parse("quad.toml", &text).map_err(|error| error.to_string())
+    };
+    let cylinder = "separation_m = 9\nseparation_shape = \"cylinder\"\nseparation_height_m =";
+    assert!(shaped(&format!("{cylinder} 1.5")).is_ok());
+    assert!(shaped(&format!("{cylinder} 1.6")).is_err());
+    assert!(shaped("separation_m = 1\nseparation_shape = \"horizontal\"").is_err());
+    assert!(shaped("separation_volume = \"nmac\"").is_err());
+}
+
+#[test]
+fn a_separation_rule_is_stated_once_and_completely() {
+    for (rule, field, expected) in [
+        ("separation_shape = \"cylinder\"", "fleet.separation_shape", "`fleet.separation_m` beside it"),
+        ("separation_m = 1\nseparation_shape = \"ellipsoid\"", "fleet.separation_shape", "`fleet.separation_height_m`"),
+        ("separation_m = 1\nseparation_height_m = 2", "fleet.separation_height_m", "only cylinders and ellipsoids"),
+        (
+            "separation_m = 1\nseparation_shape = \"cylinder\"\nseparation_height_m = 0",
+            "fleet.separation_height_m",
+            "greater than 0",
+        ),
+        (
+            "separation_m = 1\nseparation_volume = \"nmac\"",
+            "fleet.separation_m",
+            "no such key beside `separation_volume`",
+        ),
+    ] {
+        let rule = format!("\n[fleet]\n{rule}\n\n[planner]");
+        assert_issue("\n[planner]", &rule, field, "", expected);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use sim::Flight;
 use super::flight::{self, Dispersion};
 use super::{FlightMetrics, Metrics, PlanMetrics, SmallestDistances, finite};
 use crate::verdict::fixed_wing::{PlannedMotions, clearance_at_nodes, closest_obstacle};
-use crate::verdict::{self, Motion, SeparationShape};
+use crate::verdict::{self, Motion};
 
 /// Measures a flyable plan and, if there is one, its flight.
 pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Metrics {
@@ -44,7 +44,7 @@ fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
         sum_abs_n_y: controls(1, 0.0),
         sum_abs_n_z_minus_1: controls(2, 1.0),
         at_nodes: SmallestDistances {
-            separation_m: verdict::separation_at_nodes(plan, SeparationShape::Horizontal)
+            separation_m: verdict::separation_at_nodes(plan, scenario.separation_measure())
                 .and_then(|nearest| finite(nearest.lower_m)),
             clearance_m: clearance_at_nodes(scenario, plan).and_then(|nearest| finite(nearest.lower_m)),
         },
@@ -54,7 +54,7 @@ fn of_plan(scenario: &Scenario, plan: &Plan) -> PlanMetrics {
 
 fn distances(scenario: &Scenario, motions: &[Motion]) -> SmallestDistances {
     SmallestDistances {
-        separation_m: verdict::closest_vehicles(motions, SeparationShape::Horizontal).map(|nearest| nearest.lower_m),
+        separation_m: verdict::closest_vehicles(motions, scenario.separation_measure()).map(|nearest| nearest.lower_m),
         clearance_m: closest_obstacle(scenario, motions).map(|nearest| nearest.lower_m),
     }
 }

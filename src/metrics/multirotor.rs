@@ -4,7 +4,7 @@ use scenarios::{Plan, Scenario};
 use sim::Flight;
 
 use super::{Metrics, SmallestDistances, flight, in_loop};
-use crate::verdict::{self, Motion, SeparationShape};
+use crate::verdict::{self, Motion};
 
 /// Measures a flyable plan and, if there is one, its flight.
 pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Metrics {
@@ -18,7 +18,7 @@ pub fn measure(scenario: &Scenario, plan: &Plan, flight: Option<&Flight>) -> Met
 
 fn distances(scenario: &Scenario, motions: &[Motion]) -> SmallestDistances {
     SmallestDistances {
-        separation_m: verdict::closest_vehicles(motions, SeparationShape::Spatial).map(|nearest| nearest.lower_m),
+        separation_m: verdict::closest_vehicles(motions, scenario.separation_measure()).map(|nearest| nearest.lower_m),
         clearance_m: verdict::multirotor::closest(scenario, motions).map(|nearest| nearest.lower_m),
     }
 }

@@ -1,11 +1,11 @@
 //! Smallest distances of a fleet over time, for plots; the smallest of all, over continuous time, is in the verdict.
 
 use rayon::prelude::*;
-use scenarios::Scenario;
+use scenarios::{Scenario, SeparationMeasure};
 
+use crate::verdict::Motion;
 use crate::verdict::fixed_wing::clearance_at;
 use crate::verdict::multirotor::Clearances;
-use crate::verdict::{Motion, SeparationShape};
 
 /// The smallest distance at one instant, and the bodies between which it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,20 +21,17 @@ pub struct DistanceSample {
 /// Smallest distance between any two of `motions`, every `step_s` from 0 s on, while at least two last.
 ///
 /// For a plot: the smallest of all, over continuous time, is in the verdict.
-pub fn separation_over_time(motions: &[Motion], shape: SeparationShape, step_s: f64) -> Vec<DistanceSample> {
+pub fn separation_over_time(motions: &[Motion], measure: SeparationMeasure, step_s: f64) -> Vec<DistanceSample> {
     at_instants(motions, step_s, |present, nearest| {
         // A sweep from west to east: no vehicle farther east than the best distance can be nearer.
+        let eastward = measure.scale()[0];
         present.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]));
         for (place, (i, first)) in present.iter().enumerate() {
             for (j, second) in &present[place + 1..] {
-                if second[0] - first[0] > nearest.distance_m {
+                if eastward * (second[0] - first[0]) > nearest.distance_m {
                     break;
                 }
-                let horizontal_m = (first[0] - second[0]).hypot(first[1] - second[1]);
-                let distance_m = match shape {
-                    SeparationShape::Horizontal => horizontal_m,
-                    SeparationShape::Spatial => horizontal_m.hypot(first[2] - second[2]),
-                };
+                let distance_m = measure.distance_m([0, 1, 2].map(|axis| first[axis] - second[axis]));
                 nearest.consider(distance_m, [*i.min(j), *i.max(j)]);
             }
         }

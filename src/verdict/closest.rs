@@ -4,17 +4,17 @@
 //! smallest value. One search runs over all segments with the best distance so far, so that a segment, or a whole
 //! [block](super::broad_phase) of them, that is farther away costs one look at a box.
 
+mod cylinder;
 mod search;
 
 use std::ops::Range;
 
 use rayon::prelude::*;
-use scenarios::Cylinder;
+use scenarios::{Cylinder, SeparationMeasure};
 use search::{Bound, Search};
 
 use crate::verdict::broad_phase::{Block, Blocks, Frame};
 use crate::verdict::motion::{Motion, Segment};
-use crate::verdict::separation_shape::SeparationShape;
 
 /// A smallest distance over continuous time, with bounds: the true one lies in [`lower_m`, `upper_m`]. Of curves they are
 /// 1e-9 m apart or less, except where rounding allows no more (two vehicles meeting at a point: 1e-7 m); of motions that
@@ -41,19 +41,15 @@ impl ClosestApproach {
 }
 
 /// Smallest distance between any two of `motions` while both last. `None` with fewer than two.
-pub fn between_vehicles(motions: &[Motion], shape: SeparationShape) -> Option<ClosestApproach> {
-    let seen = match shape {
-        SeparationShape::Horizontal => horizontal,
-        SeparationShape::Spatial => |relative_m| relative_m,
-    };
+pub fn between_vehicles(motions: &[Motion], measure: SeparationMeasure) -> Option<ClosestApproach> {
     let radii_m = vec![0.0; motions.len()];
-    bounded(motions, |bound| sweep(motions, &radii_m, Search::new(bound), seen))
+    bounded(motions, |bound| sweep(motions, &radii_m, Search::new(bound), measure))
 }
 
 /// The deepest overlap, in space, of any two of `motions` while both last, each a ball of its radius: a negative distance.
 /// `None` if no two touch.
 pub fn overlap(motions: &[Motion], radii_m: &[f64]) -> Option<ClosestApproach> {
-    sweep(motions, radii_m, Search::below(0.0, Bound::Curve), |relative_m| relative_m)
+    sweep(motions, radii_m, Search::below(0.0, Bound::Curve), SeparationMeasure::Spatial)
 }
 
 /// Smallest signed horizontal distance from any of `motions`, balls of `radii_m`, to the surface of any of `cylinders`,
@@ -97,8 +93,7 @@ fn bounded(motions: &[Motion], search: impl Fn(Bound) -> Option<ClosestApproach>
     Some(ClosestApproach { upper_m: closest.upper_m.min(certain.upper_m), ..closest })
 }
 
-/// The smallest distance between any two of `motions`, balls of `radii_m`, by the control points of one relative to the other
-/// as `seen` leaves them.
+/// The smallest distance between any two of `motions`, balls of `radii_m`.
 ///
 /// Block by block in time, a sweep from west to east: a pair is looked at only if its boxes are nearer to each other in
 /// x than the best so far, so that the cost grows with the number of neighbours, not with that of pairs.
@@ -106,12 +101,13 @@ fn sweep(
     motions: &[Motion],
     radii_m: &[f64],
     mut search: Search,
-    seen: fn([[f64; 3]; 4]) -> [[f64; 3]; 4],
+    measure: SeparationMeasure,
 ) -> Option<ClosestApproach> {
     let frame = Frame::over(motions);
     let of_motion: Vec<Blocks> = motions.par_iter().map(|motion| Blocks::new(motion, &frame)).collect();
     let reaches_m: Vec<f64> =
         motions.iter().zip(radii_m).map(|(motion, &radius_m)| search.bound().max_reach_m(radius_m, motion)).collect();
+    let horizontal = measure.scale()[0];
     let widest_m = 2.0 * reaches_m.iter().copied().fold(0.0, f64::max);
     for index in 0..frame.count() {
         let blocks: Vec<&Block> = of_motion.iter().map(|of_motion| &of_motion[index]).collect();
@@ -119,14 +115,14 @@ fn sweep(
         eastward.sort_by(|&i, &j| blocks[i].west_m().total_cmp(&blocks[j].west_m()));
         for (place, &i) in eastward.iter().enumerate() {
             for &j in &eastward[place + 1..] {
-                if !search.may_be_within(blocks[j].west_m() - blocks[i].east_m(), widest_m) {
+                if !search.may_be_within(horizontal * (blocks[j].west_m() - blocks[i].east_m()), widest_m) {
                     break;
                 }
                 let who = [i.min(j), i.max(j)];
-                if search.may_be_within(blocks[i].gap_m(blocks[j]), reaches_m[i] + reaches_m[j]) {
+                if search.may_be_within(horizontal * blocks[i].gap_m(blocks[j]), reaches_m[i] + reaches_m[j]) {
                     let segments = who.map(|i| blocks[i].segments.clone());
                     each_common_span(who.map(|i| &motions[i]), segments, |relative_m, span| {
-                        search.look(&seen(relative_m), span, radii_m[i] + radii_m[j], who);
+                        search.look_at_pair(&relative_m, span, radii_m[i] + radii_m[j], who, measure);
                     });
                 }
             }
@@ -176,9 +172,9 @@ fn each_common_span(
 
 #[cfg(test)]
 mod tests {
-    use scenarios::Cylinder;
+    use scenarios::{Cylinder, SeparationMeasure};
 
-    use super::{ClosestApproach, SeparationShape, between_vehicles, to_cylinders, to_point};
+    use super::{ClosestApproach, between_vehicles, to_cylinders, to_point};
     use crate::verdict::motion::{Knot, Motion};
     use crate::verdict::random::Uniform;
 
@@ -209,7 +205,7 @@ mod tests {
                 line([0.0, -710.0, 500.0], [0.0, 35.0, 1.0], other_s, 40.0),
             ];
             assert_is(
-                &between_vehicles(&crossing, SeparationShape::Horizontal).unwrap(),
+                &between_vehicles(&crossing, SeparationMeasure::Horizontal).unwrap(),
                 50.0_f64.sqrt(),
                 705.0 / 35.0,
             );
@@ -219,9 +215,10 @@ mod tests {
     #[test]
     fn three_vehicles_have_their_nearest_pair_named() {
         let north = |y_m| line([0.0, y_m, 0.0], [30.0, 0.0, 0.0], 0.05, 10.0);
-        let nearest = between_vehicles(&[north(0.0), north(170.0), north(300.0)], SeparationShape::Horizontal).unwrap();
+        let nearest =
+            between_vehicles(&[north(0.0), north(170.0), north(300.0)], SeparationMeasure::Horizontal).unwrap();
         assert_eq!(nearest.who, [1, 2]);
-        assert!(between_vehicles(&[north(0.0)], SeparationShape::Horizontal).is_none());
+        assert!(between_vehicles(&[north(0.0)], SeparationMeasure::Horizontal).is_none());
     }
 
     /// Two lines 10 m apart, of which one is known up to 2 m: 8 m are possible, 12 m certain.
@@ -230,7 +227,7 @@ mod tests {
         let exact = line([0.0; 3], [30.0, 0.0, 0.0], 0.5, 10.0);
         let tube = line([0.0, 10.0, 0.0], [30.0, 0.0, 0.0], 0.5, 10.0).within(|_| 2.0);
         for pair in [[exact.clone(), tube.clone()], [tube, exact]] {
-            let found = between_vehicles(&pair, SeparationShape::Spatial).unwrap();
+            let found = between_vehicles(&pair, SeparationMeasure::Spatial).unwrap();
             assert!((found.lower_m - 8.0).abs() < 1e-6 && (found.upper_m - 12.0).abs() < 1e-6, "{found:?}");
         }
     }
@@ -240,7 +237,7 @@ mod tests {
         // At 10 s they would meet; the second motion ends at 8 s, 40 m earlier.
         let first = line([-100.0, 0.0, 0.0], [10.0, 0.0, 0.0], 0.1, 20.0);
         let second = line([100.0, 0.0, 0.0], [-10.0, 0.0, 0.0], 0.1, 8.0);
-        assert_is(&between_vehicles(&[first, second], SeparationShape::Horizontal).unwrap(), 40.0, 8.0);
+        assert_is(&between_vehicles(&[first, second], SeparationMeasure::Horizontal).unwrap(), 40.0, 8.0);
     }
 
     #[test]
@@ -283,7 +280,7 @@ mod tests {
         let mut uniform = Uniform::seeded(3);
         for round in 0..40 {
             let motions: Vec<Motion> = (0..3).map(|_| wild(&mut uniform)).collect();
-            let nearest = between_vehicles(&motions, SeparationShape::Horizontal).unwrap();
+            let nearest = between_vehicles(&motions, SeparationMeasure::Horizontal).unwrap();
             let distance_at = |i: usize, j: usize, t_s: f64| {
                 let (a, b) = (motions[i].position_m(t_s)?, motions[j].position_m(t_s)?);
                 Some((a[0] - b[0]).hypot(a[1] - b[1]))

@@ -24,7 +24,6 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion};
-use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::tube::EndError;
 use crate::verdict::{Check, collision, end, flight_integrity, goal, requirements, separation};
 
@@ -53,9 +52,7 @@ struct FleetCase<'a> {
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| {
-        separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Horizontal)
-    }),
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.flyable()?, it.provenance)),
     ("nodes.control_limits", |spec, it| limits::check_node_controls(spec, it.scenario, it.flyable()?, it.provenance)),
@@ -63,14 +60,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         goal::check_nodes(spec, it.scenario, it.flyable()?, |index, end| it.end_error(index, end))
     }),
     ("plan.separation", |spec, it| {
-        let shape = SeparationShape::Horizontal;
-        separation::check_with_coast(
-            spec,
-            it.scenario,
-            it.planned_motions(),
-            |motions| Ok(it.planned_coast(motions)),
-            shape,
-        )
+        separation::check_with_coast(spec, it.scenario, it.planned_motions(), |motions| Ok(it.planned_coast(motions)))
     }),
     ("plan.clearance", |spec, it| {
         clearance::check(spec, it.scenario, it.planned_motions(), |motions| Ok(it.planned_coast(motions)))
@@ -93,8 +83,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.separation", |spec, it| {
-        let shape = SeparationShape::Horizontal;
-        separation::check_with_coast(spec, it.scenario, it.flown_motions(), |_| it.flown_coast(), shape)
+        separation::check_with_coast(spec, it.scenario, it.flown_motions(), |_| it.flown_coast())
     }),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions(), |_| it.flown_coast())),
     ("flight.state_limits", |spec, it| {

@@ -22,7 +22,6 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence};
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::motion::{Knot, Motion, Segment};
-use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::tube::{EndError, Stretch, Tube};
 use crate::verdict::{Check, collision, flight_integrity, goal, in_loop_planner, requirements, separation};
 
@@ -54,7 +53,7 @@ struct FleetCase<'a> {
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.clearance", |spec, it| clearance::check_nodes(spec, it.scenario, it.planned()?)),
     ("nodes.state_limits", |spec, it| limits::check_node_states(spec, it.scenario, it.planned()?, &it.between)),
     ("nodes.control_limits", |spec, it| match it.between.iter().any(BetweenNodes::gives_velocities) {
@@ -62,7 +61,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         false => Ok(spec.skip(NO_NODE_ACCELERATIONS)),
     }),
     ("nodes.goal", |spec, it| goal::check_nodes(spec, it.scenario, it.flyable()?, |index, _| it.rounding(index))),
-    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering(), SeparationShape::Spatial)),
+    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.hovering())),
     ("plan.clearance", |spec, it| clearance::check(spec, it.scenario, it.hovering()?)),
     ("plan.state_limits", |spec, it| limits::check_planned_states(spec, it.scenario, it.planned()?, &it.between)),
     ("plan.control_limits", |spec, it| limits::check_accelerations(spec, it.scenario, it.planned()?, &it.between)),
@@ -80,9 +79,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &FleetCase<'_>) -> CheckResult> = &[
         Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), contact))
     }),
     ("flight.planner", |spec, it| Ok(in_loop_planner::check(spec, it.scenario, it.flight()?))),
-    ("flight.separation", |spec, it| {
-        separation::check(spec, it.scenario, it.flown_motions(), SeparationShape::Spatial)
-    }),
+    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown_motions())),
     ("flight.clearance", |spec, it| clearance::check(spec, it.scenario, it.flown_motions()?)),
     ("flight.state_limits", |spec, it| limits::check_flown_states(spec, it.scenario, it.flown()?, it.flown_motions()?)),
     ("flight.control_limits", |spec, it| limits::check_flown_controls(spec, it.scenario, it.flown()?)),

@@ -33,7 +33,6 @@ use crate::verdict::case::{Case, CheckTable, function_of};
 use crate::verdict::compare::is_larger;
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::separation_shape::SeparationShape;
 use crate::verdict::{Check, flight_integrity, requirements, separation};
 
 /// Required clearance of the envelope in flight, m. The plan keeps a larger one, which the tracker may use up.
@@ -66,7 +65,7 @@ struct VehicleCase<'a> {
 }
 
 const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
-    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable(), SeparationShape::Spatial)),
+    ("nodes.separation", |spec, it| separation::check_nodes(spec, it.scenario, it.flyable())),
     ("nodes.clearance", |spec, it| it.shape_pairs.check_nodes(spec, it.trajectory())),
     ("nodes.envelope", |spec, it| it.shape_pairs.check_envelope_nodes(spec, it.trajectory(), it.envelope_m())),
     ("nodes.rotor_clearance", |spec, it| it.shape_pairs.check_own_nodes(spec, it.trajectory())),
@@ -74,9 +73,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("nodes.control_limits", |spec, it| it.limits.check_node_thrusts(spec, it.trajectory()?)),
     ("nodes.goal", |spec, it| it.end.check_node_goal(spec, it.trajectory()?)),
     ("nodes.gates", |spec, it| it.gates.check_nodes(spec, it.trajectory())),
-    ("plan.separation", |spec, it| {
-        separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]), SeparationShape::Spatial)
-    }),
+    ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]))),
     ("plan.clearance", |spec, it| {
         it.shape_pairs.check(spec, it.planned_motion(), it.planned().map(|it| &it.motions[1]))
     }),
@@ -100,9 +97,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     }),
     // The clearance of body, cable and load is that of their true shapes: in a contact it is not positive.
     ("flight.crash", |spec, it| Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), || None))),
-    ("flight.separation", |spec, it| {
-        separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]), SeparationShape::Spatial)
-    }),
+    ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]))),
     ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion(), it.flown().map(|it| &it.motions[1]))),
     ("flight.envelope", |spec, it| {
         it.shape_pairs.check_envelope(spec, it.flown_motion(), it.envelope_m().map(|_| FLOWN_ENVELOPE_M))

@@ -4,9 +4,10 @@ use harness::verdict::{Check, Status, judge};
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
 use scenarios::requirement::{AppliesTo, Requirement, SIGNALS};
-use scenarios::{Cylinder, Geofence, GeofenceKind, Plan, Scenario};
+use scenarios::{Cylinder, Geofence, GeofenceKind, Plan, Scenario, Sphere};
 
 use crate::fleet::{Case, check};
+use crate::solids::terrain;
 
 const HOVERER: &str = include_str!("../scenarios/hoverer.toml");
 const PAGE: &str = include_str!("../../docs/requirements.md");
@@ -124,6 +125,66 @@ fn limits_are_kept_and_broken_by_what_geometry_says() {
             assert!(check.lower <= check.upper && check.limit == Some(0.0), "{check:?}");
         }
     }
+}
+
+/// The first path crosses a ridge along y, 300 m high at x = 300 m, whose feet are 100 m away.
+#[test]
+fn heights_are_above_the_terrain_below() {
+    let mut case = Case::good();
+    case.scenario.world.terrain = Some(terrain(|x, _| if x == 300.0 { 300.0 } else { 0.0 }));
+    case.scenario.requirements.push(requirement("always height > 99 m"));
+    for (least_m, robustness) in [("99 m", 1.0), ("101 m", -1.0)] {
+        case.scenario.requirements[0].formula = format!("always height > {least_m}");
+        let verdict = case.judge();
+        for name in ["plan.requirement.r", "flight.requirement.r"] {
+            let check = check(&verdict, name);
+            assert!((check.value.unwrap() - robustness).abs() < 1e-4, "{check:?}");
+            assert_eq!(check.status, if robustness > 0.0 { Status::Pass } else { Status::Fail }, "{check:?}");
+            assert!((check.at_s.unwrap() - 300.0 / 35.0).abs() < 1e-2, "{check:?}");
+        }
+    }
+    case.scenario.world.terrain = None;
+    case.scenario.world.ground_m = None;
+    let error = case.scenario.requirements[0].formula(&case.scenario).expect_err("no ground");
+    assert!(error.expected.contains("world.terrain"), "{error}");
+}
+
+/// A ball 50 m beside the first path.
+#[test]
+fn obstacles_of_any_shape_have_names() {
+    let mut case = Case::good();
+    case.scenario.world.spheres.push(Sphere {
+        name: "balloon".into(),
+        center_m: [300.0, -60.0, 400.0],
+        radius_m: 10.0,
+    });
+    for (least, status) in [("49 m", Status::Pass), ("51 m", Status::Fail)] {
+        case.scenario.requirements = vec![requirement(&format!("always distance(uav-1, balloon) > {least}"))];
+        let verdict = case.judge();
+        assert_eq!(check(&verdict, "plan.requirement.r").status, status);
+        assert_eq!(check(&verdict, "flight.requirement.r").status, status);
+    }
+}
+
+/// Straight and level: n_x is 0, n_z is 1.
+#[test]
+fn controls_that_acted_are_signals_of_the_family_that_has_them() {
+    for (formula, robustness) in [
+        ("always load_factor_z < 1.2", 0.2),
+        ("always abs(load_factor_y) < 0.5", 0.5),
+        ("always load_factor_x > 0.1", -0.1),
+    ] {
+        let [planned, flown] = checks(formula);
+        assert_eq!(planned.status, Status::Skip);
+        assert!((flown.value.unwrap() - robustness).abs() < 1e-3, "{formula}: {flown:?}");
+        assert_eq!(flown.status, if robustness > 0.0 { Status::Pass } else { Status::Fail });
+    }
+    let fleet = Case::good().scenario;
+    let error = requirement("always thrust < 5 N").formula(&fleet).expect_err("no rotors");
+    assert!(error.expected.contains("rotors"), "{error}");
+    let slung = scenarios::load("shipped:gate".as_ref()).expect("a shipped scenario");
+    assert!(requirement("always thrust < 5 N").formula(&slung).is_ok());
+    assert!(requirement("always load_factor_z < 2").formula(&slung).is_err());
 }
 
 #[test]

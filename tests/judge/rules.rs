@@ -2,8 +2,8 @@
 
 use harness::metrics::over_time::{clearance_over_time, separation_over_time};
 use harness::metrics::{Metrics, measure};
-use harness::verdict::{FlownMotions, Outcome, SeparationShape, Status, Verdict};
-use scenarios::{CHECKS, Cylinder, Geofence, GeofenceKind, PlanStatus};
+use harness::verdict::{FlownMotions, Outcome, Status, Verdict};
+use scenarios::{CHECKS, Cylinder, Geofence, GeofenceKind, PlanStatus, SeparationMeasure};
 
 use crate::fleet::{Case, SPEED_MPS, check, factors};
 
@@ -243,7 +243,7 @@ fn distances_over_time_agree_with_the_verdict() {
         sample.velocity_mps[1] = -2.0;
     }
     let flown = FlownMotions::new(&case.scenario, &case.plan, case.flight.as_ref().unwrap()).unwrap();
-    let separation = separation_over_time(&flown.motions, SeparationShape::Horizontal, 0.5);
+    let separation = separation_over_time(&flown.motions, SeparationMeasure::Horizontal, 0.5);
     assert_eq!(separation.len(), 41);
     for nearest in &separation {
         let apart_m = 200.0 - 2.0 * nearest.t_s;

@@ -103,7 +103,8 @@ fn a_flight_inside_a_mesh_fails() {
     assert_status(&case(|world| world.meshes.push(mesh(&crossed))), &CONTINUOUS, Status::Fail, "wall");
 }
 
-fn terrain(heights_m: impl Fn(f64, f64) -> f64) -> Terrain {
+/// Hills from -500 to 1500 m along both axes, by their height at corners 100 m apart.
+pub fn terrain(heights_m: impl Fn(f64, f64) -> f64) -> Terrain {
     let (cell_m, size) = (100.0, [21, 21]);
     let at = |index: usize| {
         (f64::from((index % 21) as u32) * cell_m - 500.0, f64::from((index / 21) as u32) * cell_m - 500.0)

@@ -1,6 +1,7 @@
 //! Separation of multirotors: in space, while they hover too, and until the end of the mission.
 
 use harness::verdict::{Outcome, Status};
+use scenarios::SeparationShape;
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
 use sim::{Event, EventKind};
@@ -33,6 +34,39 @@ fn separation_is_a_distance_in_space() {
     }
     case.scenario.fleet.separation_m = Some(1.6);
     assert_eq!(case.status("plan.separation"), Status::Fail);
+}
+
+/// One vehicle 1.5 m above the other, all the time.
+#[test]
+fn separation_has_the_shape_that_the_scenario_states() {
+    use SeparationShape::{Cylinder, Ellipsoid, Horizontal, Sphere};
+    let mut case = Case::good();
+    above(&mut case, 1.5);
+    let mut judged = |shape, radius_m, height_m| {
+        let fleet = &mut case.scenario.fleet;
+        (fleet.separation_shape, fleet.separation_height_m) = (Some(shape), height_m);
+        fleet.separation_m = Some(radius_m);
+        ["nodes.separation", "plan.separation", "flight.separation"].map(|name| {
+            let check = case.check(name);
+            let margin_m = check.margin.expect("a margin");
+            assert_eq!(check.status, if margin_m < 0.0 { Status::Fail } else { Status::Pass }, "{shape:?} {check:?}");
+            margin_m
+        })
+    };
+    for (shape, radius_m, height_m, expected_m) in [
+        (Sphere, 1.0, None, 0.5),
+        (Horizontal, 1.0, None, -1.0),
+        // Far enough above each other, and not so.
+        (Cylinder, 5.0, Some(1.4), 0.1),
+        (Cylinder, 5.0, Some(1.7), -0.2),
+        // Downwash: 1.5 of 2 m in height, and of 1.2 m.
+        (Ellipsoid, 0.8, Some(2.0), 0.8 * (1.5 / 2.0 - 1.0)),
+        (Ellipsoid, 0.8, Some(1.2), 0.8 * (1.5 / 1.2 - 1.0)),
+    ] {
+        let margins_m = judged(shape, radius_m, height_m);
+        assert!(margins_m[..2].iter().all(|it| (it - expected_m).abs() < 1e-6), "{shape:?} {margins_m:?}");
+        assert!((margins_m[2] - expected_m).abs() < 0.05, "{shape:?} {margins_m:?}");
+    }
 }
 
 #[test]

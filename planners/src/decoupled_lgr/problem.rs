@@ -72,7 +72,9 @@ impl Problem {
                 })
                 .collect(),
             neighbours: Vec::new(),
-            separation: scenario.fleet.separation_m.map_or(0.0, |separation_m| (separation_m + margin_m) / LENGTH_M),
+            separation: scenario
+                .horizontal_separation_m()
+                .map_or(0.0, |separation_m| (separation_m + margin_m) / LENGTH_M),
             duration,
         }
     }

@@ -58,9 +58,22 @@ const fn planner(
         name,
         summary,
         handles: "multirotors among obstacles known, sensed or moving",
-        unsupported_reason: multirotor::unsupported_reason,
+        unsupported_reason,
         mode: PlanningMode::InLoop(create),
     }
+}
+
+/// Distance in space between two vehicles with which the separation rule holds, m.
+fn separation_m(scenario: &Scenario) -> Option<f64> {
+    scenario.separation()?.spatial_m
+}
+
+fn unsupported_reason(scenario: &Scenario) -> Option<String> {
+    let is_horizontal = scenario.separation().is_some_and(|rule| rule.spatial_m.is_none());
+    multirotor::unsupported_reason(scenario).or_else(|| {
+        let reason = "it keeps vehicles apart in space, not horizontally: set fleet.separation_shape to another shape";
+        is_horizontal.then(|| reason.to_owned())
+    })
 }
 
 fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> Box<dyn InLoopPlanner> {
@@ -74,7 +87,7 @@ fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> B
         controller: RecedingHorizonController::new(settings, own.goal.position_m().into(), altitudes_m, stream),
         space: FreeSpace::empty(world::bounds_m(&scenario.world, scenario.is_planar())),
         known_names: HashSet::new(),
-        min_neighbour_radius_m: scenario.fleet.separation_m.map_or(0.0, |separation_m| separation_m - body_radius_m),
+        min_neighbour_radius_m: separation_m(scenario).map_or(0.0, |separation_m| separation_m - body_radius_m),
         is_planar: scenario.is_planar(),
         name: own.name.clone(),
         clearance_m,

@@ -78,7 +78,7 @@ fn solve(fleet: &FleetProblem, last: &[Iterate], trust_region: State) -> Vec<Sub
 /// n · C ((s_i[k] - sbar_i[k]) - (s_j[k] - sbar_j[k])) >= R - |C (sbar_i[k] - sbar_j[k])|
 /// ```
 fn pairs(fleet: &FleetProblem, last: &[Iterate], trust_region_m: f64) -> Vec<PairConstraint> {
-    let Some(separation_m) = fleet.scenario.fleet.separation_m else { return Vec::new() };
+    let Some(separation_m) = fleet.scenario.horizontal_separation_m() else { return Vec::new() };
     let required_m = separation_m + fleet.options.margin_m;
     let mut pairs = Vec::new();
     for (i, first) in last.iter().enumerate() {

@@ -188,7 +188,7 @@ impl<'a> FleetProblem<'a> {
             };
             append_halfspaces(&last[i], &keep_out, trust_region_m, &mut halfspaces);
         }
-        let Some(separation_m) = self.scenario.fleet.separation_m else { return halfspaces };
+        let Some(separation_m) = self.scenario.horizontal_separation_m() else { return halfspaces };
         for (j, other) in last.iter().enumerate().filter(|(j, _)| *j != i && (avoidance.avoids)(i, *j)) {
             let keep_out = KeepOut {
                 center_m: &|k| other.position_m(k),

@@ -112,7 +112,7 @@ pub fn status(
     let Some(last) = history.last() else {
         return (PlanStatus::NotConverged, Some("no iteration was allowed".to_string()));
     };
-    let separation_m = scenario.fleet.separation_m.unwrap_or(0.0);
+    let separation_m = scenario.horizontal_separation_m().unwrap_or(0.0);
     let too_close = last.separation_m.is_some_and(|distance| distance < separation_m - NODE_TOLERANCE_M);
     let failure_reason = if last.unsolved > 0 {
         // a trajectory whose subproblem was not solved may be unchanged without having converged

@@ -68,7 +68,7 @@ const TIME_WEIGHT: f64 = 30.0;
 
 /// Weight of the effort relative to time in minimum-time problems: it selects one of the controls that are equally
 /// fast.
-const EFFORT_PER_TIME: f64 = 1e-4;
+const EFFORT_PER_TIME: f64 = 3e-5;
 
 impl Weights {
     /// Weights Q' and R' of the paper.

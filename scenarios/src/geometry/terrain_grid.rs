@@ -1,3 +1,5 @@
+mod height_range;
+
 use super::NearestPoint;
 use super::round::{difference, norm};
 use super::surface::nearest_of_triangle;
@@ -18,6 +20,9 @@ pub struct TerrainGrid {
     heights_m: Vec<f64>,
     /// The lowest and highest point of blocks of 1, 2, 4 ... cells along each axis.
     levels: Vec<Level>,
+    /// Largest slope of a triangle, height per distance.
+    steepest: f64,
+    has_gaps: bool,
 }
 
 /// Blocks of cells.
@@ -45,7 +50,9 @@ impl TerrainGrid {
     /// Panics if there are fewer than two rows or columns, or not as many heights.
     pub fn new(origin_m: [f64; 2], cell_m: f64, size: [usize; 2], heights_m: Vec<f64>) -> Self {
         assert!(size[0] >= 2 && size[1] >= 2 && size[0] * size[1] == heights_m.len(), "one height for each corner");
-        let mut grid = Self { origin_m, cell_m, size, heights_m, levels: Vec::new() };
+        let has_gaps = heights_m.iter().any(|height_m| height_m.is_nan());
+        let mut grid = Self { origin_m, cell_m, size, heights_m, levels: Vec::new(), steepest: 0.0, has_gaps };
+        grid.steepest = grid.largest_slope();
         let mut level = grid.cells();
         while level.size != [1, 1] {
             let coarser = level.halved();
@@ -84,8 +91,18 @@ impl TerrainGrid {
             (cell, cells - cell as f64)
         };
         let ((i, u), (j, v)) = (along(0, x_m), along(1, y_m));
+        Some(self.height_in_cell_m([i, j], [u, v]))
+    }
+
+    /// Height at a fraction of a cell from its west and south side, m.
+    fn height_in_cell_m(&self, [i, j]: [usize; 2], [u, v]: [f64; 2]) -> f64 {
         let [[sw, se], [nw, ne]] = [0, 1].map(|north| [0, 1].map(|east| self.corner_m(i + east, j + north)[2]));
-        Some(if u >= v { sw + u * (se - sw) + v * (ne - se) } else { sw + v * (nw - sw) + u * (ne - nw) })
+        if u >= v { sw + u * (se - sw) + v * (ne - se) } else { sw + v * (nw - sw) + u * (ne - nw) }
+    }
+
+    /// The largest slope, height per distance.
+    pub fn steepest(&self) -> f64 {
+        self.steepest
     }
 
     /// The place of a corner without data inside a rectangle, or next to it, m; `None` if there is none.

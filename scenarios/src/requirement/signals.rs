@@ -24,7 +24,17 @@ pub enum Quantity {
     WindSpeed,
     TrackingError,
     Bank,
+    /// Of an axis: x, y, z.
+    LoadFactor(usize),
+    Thrust,
     Tension,
+}
+
+impl Quantity {
+    /// Whether it is known only at the samples of the flight log.
+    pub fn is_logged(self) -> bool {
+        SIGNALS.iter().any(|spec| spec.quantity == self && spec.is_logged)
+    }
 }
 
 /// What a signal is relative to: its last argument.
@@ -86,7 +96,7 @@ pub const SIGNALS: &[SignalSpec] = {
         motion("east", Quantity::East, D::LENGTH, None, "Coordinate x of the world frame."),
         motion("north", Quantity::North, D::LENGTH, None, "Coordinate y of the world frame."),
         motion("altitude", Quantity::Altitude, D::LENGTH, None, "Coordinate z of the world frame."),
-        motion("height", Quantity::Height, D::LENGTH, None, "Altitude above `world.ground_m`."),
+        motion("height", Quantity::Height, D::LENGTH, None, "Altitude above the terrain below, or above `world.ground_m` where there is no terrain."),
         motion("climb_rate", Quantity::ClimbRate, D::SPEED, None, "Vertical velocity, positive upwards."),
         motion("speed", Quantity::Speed, D::SPEED, None, "Magnitude of the velocity over ground, in space."),
         motion("ground_speed", Quantity::GroundSpeed, D::SPEED, None, "Magnitude of the horizontal velocity over ground."),
@@ -101,6 +111,10 @@ pub const SIGNALS: &[SignalSpec] = {
         logged("wind_speed", Quantity::WindSpeed, D::SPEED, "Magnitude of the velocity of the air."),
         logged("tracking_error", Quantity::TrackingError, D::LENGTH, "Distance from the reference that is tracked."),
         logged("bank", Quantity::Bank, D::ANGLE, "Angle between the lateral axis of the body and the horizontal, without sign."),
+        logged("load_factor_x", Quantity::LoadFactor(0), D::NUMBER, "Load factor along the velocity, as it acted."),
+        logged("load_factor_y", Quantity::LoadFactor(1), D::NUMBER, "Load factor to the side, as it acted."),
+        logged("load_factor_z", Quantity::LoadFactor(2), D::NUMBER, "Load factor upwards, as it acted."),
+        logged("thrust", Quantity::Thrust, D::FORCE, "Largest thrust of a rotor, as it acted."),
         logged("tension", Quantity::Tension, D::FORCE, "Mean tension of the cable over one step of the log."),
     ]
 };

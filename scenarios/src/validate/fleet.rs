@@ -1,16 +1,49 @@
 //! Distances between the vehicles at their starts and goals.
 
 use super::quantity::positive_if_given;
-use crate::{Issue, Scenario, Vehicle, Waypoint};
+use crate::{FleetRules, Issue, Scenario, Separation, SeparationShape, Vehicle, Waypoint};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
-    let mut issues: Vec<Issue> =
-        positive_if_given("fleet.separation_m", scenario.fleet.separation_m).into_iter().collect();
+    let mut issues = rule_issues(&scenario.fleet);
     for (later, vehicle) in scenario.vehicles.iter().enumerate() {
         for other in &scenario.vehicles[..later] {
             issues.extend(too_close(scenario, format!("vehicles[{later}].start"), vehicle, other, |v| &v.start));
             issues.extend(too_close(scenario, format!("vehicles[{later}].goal"), vehicle, other, |v| &v.goal));
         }
+    }
+    issues
+}
+
+/// A rule that is not complete, or stated twice.
+fn rule_issues(fleet: &FleetRules) -> Vec<Issue> {
+    let height = ("fleet.separation_height_m", fleet.separation_height_m.map(|height_m| height_m.to_string()));
+    let shape = ("fleet.separation_shape", fleet.separation_shape.map(|shape| format!("{shape:?}").to_lowercase()));
+    let radius = ("fleet.separation_m", fleet.separation_m.map(|radius_m| radius_m.to_string()));
+    let beside = |(field, found): (&str, Option<String>), expected: &str, remedy: &str| {
+        found.map(|found| Issue::new(field, found, expected).remedy(remedy))
+    };
+    if fleet.separation_volume.is_some() {
+        let expected = "no such key beside `separation_volume`, which states the whole rule";
+        let issues = [radius, shape, height].map(|given| beside(given, expected, "remove one of the two keys"));
+        return issues.into_iter().flatten().collect();
+    }
+    let positive =
+        [("fleet.separation_m", fleet.separation_m), ("fleet.separation_height_m", fleet.separation_height_m)];
+    let mut issues: Vec<Issue> =
+        positive.iter().filter_map(|(field, value)| positive_if_given(field, *value)).collect();
+    if fleet.separation_m.is_none() {
+        let given = [shape, height].map(|given| beside(given, "`fleet.separation_m` beside it", "add separation_m"));
+        issues.extend(given.into_iter().flatten());
+        return issues;
+    }
+    let has_height = matches!(fleet.separation_shape, Some(SeparationShape::Cylinder | SeparationShape::Ellipsoid));
+    if has_height && fleet.separation_height_m.is_none() {
+        let (field, found) = shape;
+        let issue = Issue::new(field, found.unwrap_or_default(), "`fleet.separation_height_m` beside it");
+        issues.push(issue.remedy("add separation_height_m, how far the volume reaches up and down"));
+    } else if !has_height {
+        let expected = "no such key: only cylinders and ellipsoids have a height";
+        issues.extend(beside(height, expected, "set separation_shape to \"cylinder\" or \"ellipsoid\""));
     }
     issues
 }
@@ -31,13 +64,12 @@ fn too_close(
         let found = format!("a point {distance_m:.3} m from that of `{}`: the two bodies overlap", other.name);
         return Some(Issue::new(field, found, format!("{touching_m} m or more, the sum of the body radii")));
     }
-    let separation_m = scenario.fleet.separation_m?;
-    let flies_on = scenario.models.get(&vehicle.model).is_some_and(|model| !model.family().hovers());
-    let (apart_m, sense) = if flies_on { (horizontal_m, " (horizontally)") } else { (distance_m, "") };
-    (apart_m < separation_m).then(|| {
-        let found = format!("a point {apart_m:.3} m{sense} from that of `{}`", other.name);
-        Issue::new(field, found, format!("{separation_m} m or more, the separation of the fleet"))
-            .remedy("move one of them, or lower fleet.separation_m")
+    let Separation { measure, limit_m, .. } = scenario.separation()?;
+    let apart_m = measure.distance_m([a.x_m - b.x_m, a.y_m - b.y_m, a.z_m - b.z_m]);
+    (apart_m < limit_m).then(|| {
+        let found = format!("a point {apart_m:.3} m ({}) from that of `{}`", measure.describe(), other.name);
+        Issue::new(field, found, format!("{limit_m} m or more, the separation of the fleet"))
+            .remedy("move one of them, or relax the separation rule in [fleet]")
     })
 }
 

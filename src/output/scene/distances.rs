@@ -2,10 +2,10 @@
 
 use scenarios::Scenario;
 
-use super::{Curve, Scene, Series, colours};
+use super::{Curve, PlotView, Scene, Series, colours};
 use crate::metrics::over_time::{DistanceSample, separation_over_time};
 use crate::output::run::JudgedRun;
-use crate::verdict::{FlownMotions, Motion, SeparationShape, is_flyable};
+use crate::verdict::{FlownMotions, Motion, is_flyable};
 
 /// Time between two points, s.
 const STEP_S: f64 = 0.02;
@@ -14,24 +14,22 @@ const MAX_POINTS: usize = 4000;
 
 /// Adds separation and clearance of the fleet with their limits, and returns them.
 ///
-/// - `shape`: how the separation is measured
 /// - `clearance_over_time`: smallest clearance of any of the motions, at steps of the given length, s
 pub(super) fn add(
     scene: &mut Scene<'_>,
     run: &JudgedRun<'_>,
-    shape: SeparationShape,
     clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
 ) -> Distances {
-    let distances = Distances::new(run, shape, clearance_over_time);
+    let distances = Distances::new(run, clearance_over_time);
     let end_s = scene.end_s;
     let fleet = |group, title: &str, curve: &Curve| Series {
         title: title.to_owned(),
         width: 1.8,
         ..Series::new(group, "fleet", colours::FLEET, curve.clone().decimated(MAX_POINTS))
     };
-    if let (Some(curve), Some(limit_m)) = (&distances.separation, run.scenario.fleet.separation_m) {
+    if let (Some(curve), Some(rule)) = (&distances.separation, run.scenario.separation()) {
         scene.series.push(fleet("separation_m", "smallest separation", curve));
-        scene.series.push(Series::limit("separation_m", "limit", limit_m, "m", end_s));
+        scene.series.push(Series::limit("separation_m", "limit", rule.limit_m, "m", end_s));
     }
     if let Some(curve) = &distances.clearance {
         scene.series.push(fleet("clearance_m", "smallest clearance", curve));
@@ -50,25 +48,26 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    fn new(
-        run: &JudgedRun<'_>,
-        shape: SeparationShape,
-        clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
-    ) -> Self {
+    fn new(run: &JudgedRun<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
         let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
         let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
             return Self::default();
         };
-        let separation = match run.scenario.fleet.separation_m {
-            Some(_) => separation_over_time(&flown.motions, shape, STEP_S),
-            None => Vec::new(),
-        };
+        let rule = run.scenario.separation();
+        let separation = rule.map_or_else(Vec::new, |rule| separation_over_time(&flown.motions, rule.measure, STEP_S));
         let clearance = clearance_over_time(run.scenario, &flown.motions, STEP_S);
         Self {
             separation: with_worst(run, "flight.separation", &separation),
             clearance: with_worst(run, "flight.clearance", &clearance),
         }
     }
+}
+
+/// The plot of the fleet's separation, if it has a rule.
+pub(super) fn separation_plot(scenario: &Scenario, distances: &Distances) -> Option<PlotView> {
+    let (curve, rule) = (distances.separation.as_ref()?, scenario.separation()?);
+    let title = format!("Smallest separation of the fleet, {} [m]", rule.measure.describe());
+    Some(PlotView::new("separation_m", &title, 1.0).zoomed(curve, 4.0 * rule.limit_m))
 }
 
 /// The curve through `series` and through the worst instant of the check, which lies between two points of the series: the

@@ -4,7 +4,7 @@ mod airframe;
 mod open_loop;
 mod quantity;
 
-use scenarios::Scenario;
+use scenarios::{Scenario, Separation, SeparationMeasure};
 use sim::{Flight, VehicleLog};
 
 use self::quantity::Quantity;
@@ -16,7 +16,6 @@ use super::{
 use crate::metrics::over_time::clearance_over_time;
 use crate::number_format::given;
 use crate::output::run::JudgedRun;
-use crate::verdict::SeparationShape;
 
 /// Shortest time between two poses, s.
 const POSE_INTERVAL_S: f64 = 0.1;
@@ -41,7 +40,7 @@ pub const SCENE: FamilyScene = FamilyScene { add, legend, end_of_plan: "the plan
 fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     add_bodies(scene, run.scenario, flight);
     open_loop::add(scene, run);
-    let distances = distances::add(scene, run, SeparationShape::Horizontal, clearance_over_time);
+    let distances = distances::add(scene, run, clearance_over_time);
     for quantity in Quantity::ALL {
         for (name, value) in quantity.limits(run.scenario) {
             scene.series.push(Series::limit(quantity.group(), &name, value, quantity.unit(), scene.end_s));
@@ -85,7 +84,7 @@ fn add_bodies<'a>(scene: &mut Scene<'a>, scenario: &Scenario, flight: &'a Flight
 fn parts(scenario: &Scenario, log: &VehicleLog, colour: [u8; 3]) -> Vec<Part> {
     let are_names_shown = scenario.vehicles.len() <= MAX_NAMES;
     let name = Points::one([0.0; 3], colour, 1.5, log.vehicle.as_str(), are_names_shown);
-    let safety = scenario.fleet.separation_m.map(|separation_m| safety_volume(scenario, separation_m, colour));
+    let safety = scenario.separation().map(|rule| safety_volume(scenario, &rule, colour));
     let airframe = Part::fixed("airframe", airframe::mesh(drawn_span_m(scenario), colour));
     [airframe, Part::upright("name", name)]
         .into_iter()
@@ -93,15 +92,15 @@ fn parts(scenario: &Scenario, log: &VehicleLog, colour: [u8; 3]) -> Vec<Part> {
         .collect()
 }
 
-/// Upright cylinder of radius R/2: two of them touch when the separation is R. Separation is horizontal, so that the height
-/// of the cylinder has no meaning; a quarter of the map's is enough to be visible.
-fn safety_volume(scenario: &Scenario, separation_m: f64, colour: [u8; 3]) -> Cylinders {
-    let cylinder = Cylinder {
-        centre_m: [0.0; 3],
-        length_m: scenario.world.map.z_m.width() / 4.0,
-        radius_m: separation_m / 2.0,
-        name: None,
+/// Upright cylinder of half the size: two of them touch when the separation is at its limit. A horizontal separation gives it
+/// no height; a quarter of the map's is enough to be visible.
+fn safety_volume(scenario: &Scenario, rule: &Separation, colour: [u8; 3]) -> Cylinders {
+    let length_m = match rule.measure {
+        SeparationMeasure::Horizontal => scenario.world.map.z_m.width() / 4.0,
+        SeparationMeasure::Spatial => rule.limit_m,
+        SeparationMeasure::Cylinder { height_m, .. } | SeparationMeasure::Ellipsoid { height_m, .. } => height_m,
     };
+    let cylinder = Cylinder { centre_m: [0.0; 3], length_m, radius_m: rule.horizontal_m / 2.0, name: None };
     Cylinders { cylinders: vec![cylinder], paint: Paint::translucent(colour, 0.7), radius: 0.5 }
 }
 
@@ -115,10 +114,7 @@ fn drawn_span_m(scenario: &Scenario) -> f64 {
 
 fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distances: &distances::Distances) {
     use Quantity::{Airspeed, Altitude, Nx, Ny, Nz, Tracking};
-    if let (Some(curve), Some(limit_m)) = (&distances.separation, scenario.fleet.separation_m) {
-        let plot = PlotView::new("separation_m", "Smallest separation of the fleet, horizontal [m]", 1.0);
-        scene.verdict_plots.push(plot.zoomed(curve, 4.0 * limit_m));
-    }
+    scene.verdict_plots.extend(distances::separation_plot(scenario, distances));
     if let Some(curve) = &distances.clearance {
         let plot = PlotView::new("clearance_m", "Smallest clearance to an obstacle [m]", 1.0);
         let radii_m = scenario.world.cylinders.iter().map(|cylinder| cylinder.radius_m);
@@ -137,8 +133,8 @@ fn legend(run: &JudgedRun<'_>) -> Vec<String> {
     let body_m = scenario.vehicles.iter().filter_map(|vehicle| scenario.models.fixed_wing.get(&vehicle.model));
     let body_m = body_m.map(|model| 2.0 * model.body_radius_m).fold(0.0, f64::max);
     let span_m = drawn_span_m(scenario);
-    let safety = scenario.fleet.separation_m.map(|separation_m| {
-        let radius_m = given(separation_m / 2.0);
+    let safety = scenario.separation().map(|rule| {
+        let radius_m = given(rule.horizontal_m / 2.0);
         format!("- cylinder around an aircraft: radius R/2 = {radius_m} m; two touch when the separation is R")
     });
     let lines = [

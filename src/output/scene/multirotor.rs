@@ -10,7 +10,6 @@ use sim::{Actuation, Flight, Sample, VehicleLog};
 use super::{Channel, Channels, FamilyScene, Plot, PlotView, Scene, Series, Tab, colours, distance_m, distances, norm};
 use crate::metrics::over_time::clearance_in_space_over_time;
 use crate::output::run::JudgedRun;
-use crate::verdict::SeparationShape;
 
 /// Largest number of points of one series.
 const MAX_POINTS: usize = 2000;
@@ -31,7 +30,7 @@ fn add<'a>(scene: &mut Scene<'a>, run: &JudgedRun<'a>, flight: &'a Flight) {
     if let Some(log) = &flight.planning {
         planning::add(scene, run.scenario, log);
     }
-    let distances = distances::add(scene, run, SeparationShape::Spatial, clearance_in_space_over_time);
+    let distances = distances::add(scene, run, clearance_in_space_over_time);
     let end_s = scene.end_s;
     let tracking_max_m = run.scenario.limits().tracking_max_m;
     scene.series.push(Series::limit("tracking_m", "limit", tracking_max_m, "m", end_s));
@@ -127,10 +126,7 @@ fn thrust_n(sample: &Sample, rotor: usize) -> f64 {
 }
 
 fn add_plots(scene: &mut Scene<'_>, scenario: &Scenario, flight: &Flight, distances: &distances::Distances) {
-    if let (Some(curve), Some(limit_m)) = (&distances.separation, scenario.fleet.separation_m) {
-        let plot = PlotView::new("separation_m", "Smallest separation of the fleet, horizontal [m]", 1.0);
-        scene.verdict_plots.push(plot.zoomed(curve, 4.0 * limit_m));
-    }
+    scene.verdict_plots.extend(distances::separation_plot(scenario, distances));
     if let Some(curve) = &distances.clearance {
         let plot = PlotView::new("clearance_m", "Smallest clearance to an obstacle [m]", 1.0);
         scene.verdict_plots.push(plot.zoomed(curve, CLEARANCE_WINDOW_M));

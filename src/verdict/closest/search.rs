@@ -1,7 +1,9 @@
 //! The search for a smallest distance over the segments of motions.
 
+use scenarios::SeparationMeasure;
+
 use crate::verdict::bernstein;
-use crate::verdict::closest::ClosestApproach;
+use crate::verdict::closest::{ClosestApproach, cylinder};
 use crate::verdict::motion::{Motion, Segment};
 
 /// Distance between the bounds that counts as close enough, m.
@@ -79,6 +81,34 @@ impl Search {
         self.lower_m = self.lower_m.min((minimum.lower - rounding).max(0.0).sqrt() - radius_m);
         if let Some(u) = minimum.at {
             self.upper_m = (minimum.upper + rounding).sqrt() - radius_m;
+            self.at = Some((span.instant_s(u), who, span.deviation_m));
+        }
+    }
+
+    /// Two vehicles, balls whose radii together are `radius_m`, by the control points of one relative to the other.
+    pub fn look_at_pair(
+        &mut self,
+        relative_m: &[[f64; 3]; 4],
+        span: &Segment,
+        radius_m: f64,
+        who: [usize; 2],
+        measure: SeparationMeasure,
+    ) {
+        let scale = measure.scale();
+        let scaled_m = relative_m.map(|point| [0, 1, 2].map(|axis| scale[axis] * point[axis]));
+        let SeparationMeasure::Cylinder { radius_m: cylinder_m, height_m } = measure else {
+            return self.look(&scaled_m, span, radius_m, who);
+        };
+        let radius_m = self.bound.reach_m(radius_m, span.deviation_m);
+        let reach_m = self.upper_m + radius_m;
+        if reach_m <= 0.0 || squared_gap_to_box(&scaled_m) >= reach_m * reach_m {
+            return;
+        }
+        let raised_m = cylinder_m - height_m;
+        let minimum = cylinder::minimise(relative_m, raised_m, reach_m, RESOLUTION_M);
+        self.lower_m = self.lower_m.min(minimum.lower - radius_m);
+        if let Some(u) = minimum.at {
+            self.upper_m = minimum.upper - radius_m;
             self.at = Some((span.instant_s(u), who, span.deviation_m));
         }
     }

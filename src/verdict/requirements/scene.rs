@@ -1,10 +1,11 @@
 //! What formulas are about: bodies, obstacles, geofences and logs.
 
-use scenarios::geometry::Solid;
+use scenarios::geometry::{Solid, TerrainGrid};
 use scenarios::requirement::{Quantity, Subject};
 use scenarios::{Cylinder, Geofence, GeofenceKind, MovingCylinder, Prism, Scenario};
-use sim::{Flight, Sample};
+use sim::{Actuation, Flight, Sample};
 
+use crate::verdict::compare::larger;
 use crate::verdict::motion::Motion;
 use crate::verdict::requirements::body::Body;
 use crate::verdict::requirements::interval::Interval;
@@ -17,6 +18,8 @@ pub struct Scene<'a> {
     pub obstacles: Vec<Obstacle<'a>>,
     /// The geofences, positive inside whatever their kind.
     pub geofences: Vec<Geofence>,
+    /// Of the solid that is the terrain, if there is one.
+    terrain: Option<Solid>,
     flight: Option<&'a Flight>,
 }
 
@@ -58,6 +61,7 @@ impl<'a> Scene<'a> {
             bodies: motions.iter().map(Body::new).collect(),
             obstacles: obstacles.map(|(name, shape)| Obstacle { name, shape }).collect(),
             geofences: world.geofences.iter().map(inside).collect(),
+            terrain: world.solids().into_iter().find(Solid::is_terrain),
             flight,
         }
     }
@@ -71,6 +75,11 @@ impl<'a> Scene<'a> {
             Subject::Variable(variable) => assigned[variable],
             Subject::Load => self.scenario.vehicles.len(),
         }
+    }
+
+    /// The heights of the terrain, if there is one.
+    pub fn terrain(&self) -> Option<&TerrainGrid> {
+        self.terrain.as_ref()?.terrain_grid()
     }
 
     /// Bounds of a logged quantity of a vehicle over an interval of time. A sample holds until the next one.
@@ -97,6 +106,14 @@ fn logged_value(quantity: Quantity, sample: &Sample) -> f64 {
             // The vertical component of the body's y axis.
             (2.0 * (y * z + w * x)).abs().min(1.0).asin()
         }
+        Quantity::LoadFactor(axis) => match &sample.actuation {
+            Actuation::LoadFactors(it) => it.control.to_array()[axis],
+            _ => f64::NAN,
+        },
+        Quantity::Thrust => match &sample.actuation {
+            Actuation::Thrusts(it) => it.control.thrust_n.into_iter().fold(f64::NEG_INFINITY, larger),
+            _ => f64::NAN,
+        },
         _ => f64::NAN,
     }
 }

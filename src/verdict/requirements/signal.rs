@@ -1,7 +1,7 @@
 //! Signals and terms over a cell of time, as [`Jet`]s.
 
 use scenarios::Geofence;
-use scenarios::geometry::Solid;
+use scenarios::geometry::{Solid, TerrainGrid};
 use scenarios::requirement::{Quantity, Signal, Target, Term};
 
 use crate::verdict::requirements::body::Enclosure;
@@ -48,12 +48,8 @@ impl Instance<'_> {
 
     fn signal(&self, signal: &Signal, cell: [f64; 2]) -> Jet {
         let body = self.scene.body_of(signal.subject, &self.assigned);
-        let logged = || Jet::rough(self.scene.logged(signal.quantity, body, cell), 0.0);
-        if matches!(
-            signal.quantity,
-            Quantity::Airspeed | Quantity::WindSpeed | Quantity::TrackingError | Quantity::Bank | Quantity::Tension
-        ) {
-            return logged();
+        if signal.quantity.is_logged() {
+            return Jet::rough(self.scene.logged(signal.quantity, body, cell), 0.0);
         }
         let it = self.scene.bodies[body].over(cell);
         let jet = match signal.quantity {
@@ -66,10 +62,13 @@ impl Instance<'_> {
                 let load = self.scene.bodies[self.scene.scenario.vehicles.len()].over(cell);
                 swing(&relative(&load, &self.scene.bodies[0].over(cell)))
             }
-            Quantity::Height => {
-                let ground_m = self.scene.scenario.world.ground_m.unwrap_or(f64::NAN);
-                coordinate(&it, 2).plus(Jet::constant(-ground_m))
-            }
+            Quantity::Height => match self.scene.terrain() {
+                Some(terrain) => above_terrain(terrain, &it),
+                None => {
+                    let ground_m = self.scene.scenario.world.ground_m.unwrap_or(f64::NAN);
+                    coordinate(&it, 2).plus(Jet::constant(-ground_m))
+                }
+            },
             _ => of_motion(signal, &it),
         };
         if it.jumps { Jet { slope: Interval::ALL, ..jet } } else { jet }
@@ -205,6 +204,16 @@ fn of_motion(signal: &Signal, it: &Enclosure) -> Jet {
 
 fn coordinate(it: &Enclosure, axis: usize) -> Jet {
     Jet { value: it.position[axis], slope: it.velocity[axis], error: it.errors[0] }
+}
+
+/// The altitude above a terrain. Beyond its edges it is not known.
+fn above_terrain(terrain: &TerrainGrid, it: &Enclosure) -> Jet {
+    let [x_m, y_m] = [0, 1].map(|axis| [it.position[axis].min, it.position[axis].max]);
+    let Some([low_m, high_m]) = terrain.height_range_m(x_m, y_m) else { return Jet::rough(Interval::ALL, 0.0) };
+    let steepest = terrain.steepest();
+    let climb_mps = it.velocity[2] + Interval::within(steepest * norm(&it.velocity[..2]).max);
+    let value = it.position[2] - Interval::new(low_m, high_m);
+    Jet { value, slope: climb_mps, error: (1.0 + steepest) * it.errors[0] }
 }
 
 /// One body as seen from another.

@@ -3,7 +3,8 @@
 //! Momentum: the logged thrusts, tension and air determine the motion of quadrotor and load. Complementarity of the cable: it
 //! is never longer than its length, never pushes, and pulls only at its full length.
 
-use scenarios::slung_load::Trajectory;
+use nalgebra::Vector3;
+use scenarios::slung_load::{GRAVITY_MPS2, Trajectory};
 use scenarios::{CheckSpec, Plan, Scenario, Vehicle, Wind};
 use sim::slung_load::{AppliedControls, Plant, Replay, SlungLoadState};
 use sim::{Actuation, Flight, LoggedAir, VehicleLog};
@@ -17,7 +18,8 @@ use crate::verdict::rotors::Rotors;
 
 /// Length of the windows at whose beginning the replay is restarted, s: about the time constant of the feedback.
 const WINDOW_S: f64 = 0.1;
-/// The ground may support a load that is this close to its resting height, and the log does not contain that force, m.
+/// The ground may support a load that is this close to its resting height, and the log does not contain that force, m. From
+/// there it also supports the load for an unknown part of the step in which the cable lifts it off.
 const NEAR_GROUND_M: f64 = 1e-3;
 /// Tension below which a cable does not pull, N: rounding.
 const MIN_PULL_N: f64 = 1e-6;
@@ -77,7 +79,9 @@ impl<'a> LogReplay<'a> {
         for step in 1..log.samples.len() {
             let (from, to) = (&log.samples[step - 1], &log.samples[step]);
             let step_s = to.t_s - from.t_s;
-            if from.t_s - began_s >= WINDOW_S || self.is_near_ground(&bodies[step - 1]) {
+            let supported_s = if self.is_near_ground(&bodies[step - 1]) { step_s } else { 0.0 };
+            let has_lifted_off = step > 1 && self.is_near_ground(&bodies[step - 2]);
+            if from.t_s - began_s >= WINDOW_S || supported_s > 0.0 || has_lifted_off {
                 (motion, began_s, allowance_m) = (None, from.t_s, 0.0);
             }
             let tension_n = log.loads[step].tension_n;
@@ -92,7 +96,7 @@ impl<'a> LogReplay<'a> {
             let change_ns = (tension_n - log.loads[step - 1].tension_n).abs() * step_s;
             allowance_m += 0.5 * step_s * change_ns / self.plant.load_mass_kg;
             let defects_m = [
-                self.momentum_m(&flown, &bodies[step], allowance_m),
+                self.momentum_m(&flown, &bodies[step], supported_s, allowance_m),
                 self.cable_m([&bodies[step - 1], &bodies[step]], tension_n, step_s),
             ];
             let largest_m = if is_larger(defects_m[1], defects_m[0]) { defects_m[1] } else { defects_m[0] };
@@ -103,14 +107,17 @@ impl<'a> LogReplay<'a> {
     }
 
     /// Difference between replay and log, m.
-    fn momentum_m(&self, flown: &SlungLoadState, logged: &SlungLoadState, allowance_m: f64) -> f64 {
+    ///
+    /// - `supported_s`: the time during which the ground may have carried up to the load's weight, which the replay lacks, s
+    fn momentum_m(&self, flown: &SlungLoadState, logged: &SlungLoadState, supported_s: f64, allowance_m: f64) -> f64 {
         let quadrotor = difference_m(
             &(flown.position_m - logged.position_m),
             &((flown.velocity_mps - logged.velocity_mps) * WINDOW_S),
         );
+        let support_mps = GRAVITY_MPS2 * supported_s;
         let load = difference_m(
-            &(flown.load_position_m - logged.load_position_m),
-            &((flown.load_velocity_mps - logged.load_velocity_mps) * WINDOW_S),
+            &without_support(flown.load_position_m - logged.load_position_m, support_mps * supported_s / 2.0),
+            &(without_support(flown.load_velocity_mps - logged.load_velocity_mps, support_mps) * WINDOW_S),
         );
         let load = if self.is_near_ground(logged) { 0.0 } else { load };
         let larger_m = if is_larger(load, quadrotor) { load } else { quadrotor };
@@ -135,6 +142,12 @@ impl<'a> LogReplay<'a> {
     }
 }
 
+/// What remains of a difference between replay and log if the ground may have raised the load by up to `most`.
+fn without_support(difference: Vector3<f64>, most: f64) -> Vector3<f64> {
+    let raised = (-difference.z).clamp(0.0, most);
+    difference + Vector3::z() * raised
+}
+
 /// Commanded total thrust, N.
 fn commanded_n(actuation: &Actuation) -> f64 {
     match actuation {
@@ -145,7 +158,7 @@ fn commanded_n(actuation: &Actuation) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{UnitQuaternion, Vector3};
+    use nalgebra::UnitQuaternion;
     use scenarios::Interpolation;
 
     use super::*;
@@ -185,7 +198,7 @@ mod tests {
                 let logged = above(rest_m + height_m, 0.5, 0.0);
                 let mut flown = logged;
                 flown.load_position_m.x += 0.25;
-                replay.momentum_m(&flown, &logged, 0.05)
+                replay.momentum_m(&flown, &logged, 0.0, 0.05)
             };
             assert!((off(1.0) - 0.2).abs() < 1e-12, "{}", off(1.0));
             assert!((off(2.0 * NEAR_GROUND_M) - 0.2).abs() < 1e-12, "{}", off(2.0 * NEAR_GROUND_M));
@@ -193,7 +206,27 @@ mod tests {
             // A velocity counts by what it does in a window.
             let logged = above(rest_m + 1.0, 0.5, 0.0);
             let flown = above(rest_m + 1.0, 0.5, 2.0);
-            assert!((replay.momentum_m(&flown, &logged, 0.0) - 2.0 * WINDOW_S).abs() < 1e-12);
+            assert!((replay.momentum_m(&flown, &logged, 0.0, 0.0) - 2.0 * WINDOW_S).abs() < 1e-12);
+        });
+    }
+
+    /// A cable lifts the load off the ground within a step of 10 ms, at up to 0.0981 m/s faster than without the ground.
+    #[test]
+    fn the_ground_carries_a_load_until_it_is_lifted_off_and_pushes_it_no_further() {
+        with_replay(|replay| {
+            let lifted = above(replay.plant.resting_height_m + 0.02, 0.5, -1.0);
+            let defect_m = |raised_mps: f64, sideways_mps: f64, supported_s: f64| {
+                let mut logged = lifted;
+                logged.load_velocity_mps += Vector3::new(sideways_mps, 0.0, raised_mps);
+                replay.momentum_m(&lifted, &logged, supported_s, 0.0)
+            };
+            let is = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+            assert!(is(defect_m(0.05, 0.0, 0.01), 0.0));
+            assert!(is(defect_m(0.05, 0.0, 0.0), 0.05 * WINDOW_S));
+            assert!(is(defect_m(0.1981, 0.0, 0.01), 0.1 * WINDOW_S));
+            assert!(is(defect_m(-0.05, 0.0, 0.01), 0.05 * WINDOW_S));
+            assert!(is(defect_m(0.05, 0.1, 0.01), 0.1 * WINDOW_S));
+            assert!(defect_m(f64::NAN, 0.0, 0.01).is_nan());
         });
     }
 

@@ -111,7 +111,7 @@ impl<'a> AvoidanceConstraints<'a> {
         Self {
             cylinders: &scenario.world.cylinders,
             clearance_m,
-            separation_m: scenario.fleet.separation_m.unwrap_or(0.0).max(2.0 * clearance_m),
+            separation_m: scenario.horizontal_separation_m().unwrap_or(0.0).max(2.0 * clearance_m),
             margin_m,
         }
     }

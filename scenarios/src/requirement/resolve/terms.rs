@@ -127,7 +127,11 @@ impl Resolver<'_> {
         let world = &self.scenario.world;
         let carries_load = self.scenario.family() == Family::SlungLoad;
         let missing = match quantity {
-            Quantity::Height if world.ground_m.is_none() => "a scenario with `world.ground_m`",
+            Quantity::Height if world.ground_m.is_none() && world.terrain.is_none() => {
+                "a scenario with `world.ground_m` or `world.terrain`"
+            }
+            Quantity::LoadFactor(_) if self.scenario.family() != Family::FixedWing => "a fixed wing",
+            Quantity::Thrust if !carries_load => "a vehicle whose rotors are modelled: a quadrotor with a load",
             Quantity::Swing | Quantity::Tension if !carries_load => "a vehicle that carries a load",
             _ if target == Some(&Target::AnyObstacle) && self.obstacle_names().next().is_none() => {
                 "a scenario with obstacles"
@@ -204,11 +208,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn obstacle_names(&self) -> impl Iterator<Item = &str> + Clone {
-        let world = &self.scenario.world;
-        let cylinders = world.cylinders.iter().map(|it| it.name.as_str());
-        let boxes = world.boxes.iter().map(|it| it.name.as_str());
-        let prisms = world.prisms.iter().map(|it| it.name.as_str());
-        cylinders.chain(boxes).chain(prisms).chain(world.moving.iter().map(|it| it.name.as_str()))
+    fn obstacle_names(&self) -> impl Iterator<Item = &str> {
+        self.scenario.world.obstacle_names()
     }
 }
