@@ -1,9 +1,10 @@
 //! What every planner needs: distances to the world, cubics through knots, closest approach.
 
-use harness::verdict::{self, Knot, Motion, SeparationShape};
+use harness::verdict::{self, Knot, Motion};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
+use scenarios::SeparationMeasure;
 use sim::Obstacles;
 
 use crate::arrays::{bytes, numbers, triples};
@@ -81,8 +82,8 @@ pub fn closest_approach<'py>(
     horizontal: bool,
 ) -> PyResult<Option<(f64, f64, f64)>> {
     let motions = [motion(py, "first", &first)?, motion(py, "second", &second)?];
-    let shape = if horizontal { SeparationShape::Horizontal } else { SeparationShape::Spatial };
-    let found = py.detach(|| verdict::closest_vehicles(&motions, shape));
+    let measure = if horizontal { SeparationMeasure::Horizontal } else { SeparationMeasure::Spatial };
+    let found = py.detach(|| verdict::closest_vehicles(&motions, measure));
     Ok(found.map(|approach| (approach.lower_m, approach.upper_m, approach.at_s)))
 }
 

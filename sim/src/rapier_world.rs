@@ -11,6 +11,8 @@ use crate::kinematics::{AttitudeState, PointState};
 
 /// Half the edge of the block whose top is the ground, m.
 const HALF_GROUND_M: f64 = 1000.0;
+/// How deep a ball at rest may be in the ground, m.
+const MAX_REST_DEPTH_M: f64 = 1e-4;
 /// Coefficient of friction between a ball and the ground: the ball stays where it lies.
 const FRICTION: f64 = 0.8;
 
@@ -54,6 +56,7 @@ impl RapierWorld {
         physics.integration_parameters.num_solver_iterations = 1;
         physics.integration_parameters.num_internal_stabilization_iterations = 0;
         physics.integration_parameters.normalized_max_linear_velocity = max_speed_mps;
+        physics.integration_parameters.normalized_allowed_linear_error = MAX_REST_DEPTH_M;
         Self { physics, bodies: Vec::new() }
     }
 

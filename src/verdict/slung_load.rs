@@ -6,6 +6,7 @@ mod closest;
 mod flown;
 mod gates;
 mod limits;
+mod lowest_load;
 mod motion;
 mod physics;
 mod planned;
@@ -74,9 +75,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     ("nodes.goal", |spec, it| it.end.check_node_goal(spec, it.trajectory()?)),
     ("nodes.gates", |spec, it| it.gates.check_nodes(spec, it.trajectory())),
     ("plan.separation", |spec, it| separation::check(spec, it.scenario, it.planned().map(|it| &it.motions[..1]))),
-    ("plan.clearance", |spec, it| {
-        it.shape_pairs.check(spec, it.planned_motion(), it.planned().map(|it| &it.motions[1]))
-    }),
+    ("plan.clearance", |spec, it| it.shape_pairs.check(spec, it.planned_motion())),
     ("plan.envelope", |spec, it| it.shape_pairs.check_envelope(spec, it.planned_motion(), it.envelope_m())),
     ("plan.rotor_clearance", |spec, it| it.shape_pairs.check_own(spec, it.planned_motion())),
     ("plan.state_limits", |spec, it| it.limits.check_planned_states(spec, it.planned()?)),
@@ -98,7 +97,7 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &VehicleCase<'_>) -> CheckResult> = &[
     // The clearance of body, cable and load is that of their true shapes: in a contact it is not positive.
     ("flight.crash", |spec, it| Ok(flight_integrity::check_crash(spec, it.flight()?, it.mission_end_s(), || None))),
     ("flight.separation", |spec, it| separation::check(spec, it.scenario, it.flown().map(|it| &it.motions[..1]))),
-    ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion(), it.flown().map(|it| &it.motions[1]))),
+    ("flight.clearance", |spec, it| it.shape_pairs.check(spec, it.flown_motion())),
     ("flight.envelope", |spec, it| {
         it.shape_pairs.check_envelope(spec, it.flown_motion(), it.envelope_m().map(|_| FLOWN_ENVELOPE_M))
     }),

@@ -117,6 +117,7 @@ fn quality(program: &Transcription, x: &[f64], phase: usize, segment: usize) -> 
     let mut acceleration = vec![0.0; program.layout.coordinates];
     let mut path_constraints = vec![0.0; program.system.path_constraint_count(phase)];
     let mut quality = Quality { error, ..Quality::default() };
+    let mut before = [path_constraints.clone(), path_constraints.clone()];
     let samples = SAMPLES_PER_POINT * order;
     for k in 0..=samples {
         let point = MeshPoint { phase, segment, τ: -1.0 + 2.0 * k as f64 / samples as f64 };
@@ -125,8 +126,25 @@ fn quality(program: &Transcription, x: &[f64], phase: usize, segment: usize) -> 
         let overshoot = (states..width).map(|r| (lower[r] - node[r]).max(node[r] - upper[r])).fold(0.0, f64::max);
         let violation = path_constraints.iter().map(|d| -d).fold(0.0, f64::max);
         quality = quality.worst(Quality { error, violation, overshoot });
+        if k >= 2 {
+            let [first, second] = &before;
+            let three = first.iter().zip(second).zip(&path_constraints);
+            let violation = three.map(|((a, b), c)| peak([-a, -b, -c])).fold(0.0, f64::max);
+            quality = quality.worst(Quality { error, violation, overshoot });
+        }
+        before.rotate_left(1);
+        before[1].copy_from_slice(&path_constraints);
     }
     quality
+}
+
+/// The peak of the parabola through three equidistant values; the largest of them if it is not the second one.
+fn peak([a, b, c]: [f64; 3]) -> f64 {
+    if b < a.max(c) {
+        return a.max(c);
+    }
+    let curvature = 2.0 * b - a - c;
+    if curvature > 0.0 { b + (c - a).powi(2) / (8.0 * curvature) } else { b }
 }
 
 /// Relative error of the states on a segment, with X̂ the integral of the dynamics along the interpolated solution X:
@@ -163,4 +181,19 @@ fn error(program: &Transcription, x: &[f64], phase: usize, segment: usize) -> f6
         }
     }
     max
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peak;
+
+    #[test]
+    fn the_peak_is_that_of_the_parabola_or_an_end() {
+        // 3 - (t - 0.25)² at t = -1, 0, 1
+        assert!((peak([3.0 - 1.5625, 3.0 - 0.0625, 3.0 - 0.5625]) - 3.0).abs() < 1e-15);
+        assert_eq!(peak([1.0, 2.0, 4.0]), 4.0);
+        assert_eq!(peak([4.0, 2.0, 1.0]), 4.0);
+        assert_eq!(peak([1.0, 1.0, 1.0]), 1.0);
+        assert!(peak([1.0, f64::NAN, 1.0]).is_nan());
+    }
 }

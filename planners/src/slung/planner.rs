@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use scenarios::{Alternative, Iteration, Plan, PlanDiagnostics, PlanStatus, PlanTimings, PlannedEvent, Scenario};
 
 use super::envelope::{Envelope, envelope};
-use super::optimise::{Candidate, MeshIteration, optimise};
+use super::optimise::{Candidate, MeshIteration, Options, optimise};
 use super::problem::Problem;
 use super::route::{Route, routes};
 use super::{problem_builder, solution};
@@ -39,7 +39,7 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
     let begin = Instant::now();
     let (problem, options) = (problem_builder::problem(scenario), problem_builder::options(scenario));
     let routes = candidate_routes(&problem);
-    let candidates: Vec<Candidate> = routes.par_iter().map(|route| optimise(&problem, route, &options)).collect();
+    let candidates = optimised(&problem, &routes, &options);
     let elapsed = begin.elapsed();
     let Some(best) = best(&candidates) else {
         let reason = "no path between the obstacles leads from start to goal".to_owned();
@@ -58,6 +58,21 @@ fn plan(scenario: &Scenario, seed: u64, progress: Progress<'_>) -> Plan {
         timings: timings(elapsed),
         ..Plan::new(&scenario.name, NAME, seed, vec![trajectory.into()])
     }
+}
+
+/// A candidate along each route. If none is solved and a load is to be picked up, other guesses of when are tried in turn.
+fn optimised<'a>(problem: &Problem, routes: &'a [Route], options: &Options) -> Vec<Candidate<'a>> {
+    let along_all = |problem: &Problem| -> Vec<Candidate<'a>> {
+        routes.par_iter().map(|route| optimise(problem, route, options)).collect()
+    };
+    let mut candidates = along_all(problem);
+    for other in problem.other_lift_offs() {
+        if candidates.iter().any(Candidate::is_solved) {
+            break;
+        }
+        candidates.extend(along_all(&other));
+    }
+    candidates
 }
 
 /// Switches of the envelope and of the cable, and the alternatives that were not chosen.

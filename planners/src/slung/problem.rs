@@ -62,6 +62,9 @@ pub struct Weights {
     pub time: f64,
 }
 
+/// Other guesses of when a load is lifted off the ground, as fractions of the flight time: optima lie from 0.05 to 0.7.
+const LIFT_OFF_FRACTIONS: [f64; 4] = [0.3, 0.15, 0.45, 0.6];
+
 /// Cost per second of minimum-time problems: large enough for the barrier to be small in comparison, as it is beside
 /// the effort.
 const TIME_WEIGHT: f64 = 30.0;
@@ -259,15 +262,42 @@ impl Problem {
         if self.weights.time > 0.0 { cost / self.weights.time } else { cost }
     }
 
-    /// The minimum-effort problem with the same phases, in the guessed total time.
-    pub fn min_effort(&self) -> Self {
-        let mut problem = Self { weights: Weights::effort(), ..self.clone() };
-        let guess_s = |duration: Duration| match duration {
+    /// The same problem with other guesses of the instant at which the load is lifted off the ground: the method may converge
+    /// from one of them and not from another. Empty if it does not lie there.
+    pub fn other_lift_offs(&self) -> Vec<Self> {
+        let total_s = self.guessed_time_s();
+        let with_lift_off = |fraction: f64| {
+            let mut problem = self.clone();
+            let first = problem.phases.first_mut().filter(|phase| phase.mode == CableMode::OnGround)?;
+            let Duration::Free { min_s, guess_s, max_s } = first.duration else { return None };
+            let moved_s = (fraction * total_s).clamp(min_s, max_s);
+            first.duration = Duration::Free { min_s, guess_s: moved_s, max_s };
+            if let Some(Phase { duration: Duration::Free { guess_s: last_s, .. }, .. }) = problem.phases.last_mut() {
+                *last_s = (*last_s + guess_s - moved_s).max(min_s);
+            }
+            Some(problem)
+        };
+        LIFT_OFF_FRACTIONS.into_iter().filter_map(with_lift_off).collect()
+    }
+
+    /// The guessed duration of the flight, s.
+    fn guessed_time_s(&self) -> f64 {
+        let guess_s = |phase: &Phase| match phase.duration {
             Duration::Free { guess_s, .. } => guess_s,
             Duration::Fixed(seconds) => seconds,
             Duration::Remainder(_) => 0.0,
         };
-        let total_s = self.phases.iter().map(|phase| guess_s(phase.duration)).sum();
+        let total_s = self.phases.iter().rev().find_map(|phase| match phase.duration {
+            Duration::Remainder(total_s) => Some(total_s),
+            _ => None,
+        });
+        total_s.unwrap_or_else(|| self.phases.iter().map(guess_s).sum())
+    }
+
+    /// The minimum-effort problem with the same phases, in the guessed total time.
+    pub fn min_effort(&self) -> Self {
+        let mut problem = Self { weights: Weights::effort(), ..self.clone() };
+        let total_s = self.guessed_time_s();
         if let Some(last) = problem.phases.last_mut() {
             last.duration = Duration::Remainder(total_s);
         }

@@ -12,9 +12,7 @@ use super::shape_pairs::{Shape, ShapePairs};
 use crate::verdict::Check;
 use crate::verdict::compare::{exceeds, is_smaller};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
-use crate::verdict::map_bounds::extremes_m;
 use crate::verdict::missing_evidence::MissingEvidence;
-use crate::verdict::motion::Motion;
 
 /// A load that lies on the ground may be this deep in it: the contact of the simulator is not rigid, m.
 const RESTING_TOLERANCE_M: f64 = 1e-3;
@@ -26,15 +24,8 @@ const OWN_ROTORS: &str = "own rotors";
 impl ShapePairs<'_> {
     /// Body, cable and load against every obstacle, and the body against the ground, in which the load must not be either. The
     /// limit is 0.
-    ///
-    /// - `load`: the motion of the load alone
-    pub fn check(
-        &self,
-        spec: &CheckSpec,
-        motion: Evidence<'_, SlungLoadMotion>,
-        load: Evidence<'_, Motion>,
-    ) -> CheckResult {
-        let lowest = load.ok().map(|load| extremes_m(load, 2)[0]).map(|lowest| (lowest.value, lowest.t_s));
+    pub fn check(&self, spec: &CheckSpec, motion: Evidence<'_, SlungLoadMotion>) -> CheckResult {
+        let lowest = motion.ok().and_then(SlungLoadMotion::lowest_load_m);
         let check = self.check_pairs(spec, &self.parts(), 0.0, |shapes| Ok(self.closest(motion?, shapes)))?;
         Ok(lowest.and_then(|lowest| self.load_in_ground(spec, lowest)).unwrap_or(check))
     }

@@ -6,7 +6,7 @@ use sim::slung_load::SlungLoadState;
 use crate::verdict::bernstein;
 
 /// A larger mean acceleration within a segment is an impact, m/s².
-const IMPACT_MPS2: f64 = 50.0;
+pub const IMPACT_MPS2: f64 = 50.0;
 
 /// Derivatives are not estimated from shorter segments, s: rounding would dominate them.
 const MIN_SEGMENT_S: f64 = 1e-5;
@@ -191,6 +191,11 @@ impl SlungLoadMotion {
             let (until, _) = bernstein::split(&points.map(|point| point.dot(direction)), fraction[1]);
             bernstein::split(&until, fraction[0] / fraction[1]).1
         })
+    }
+
+    /// Control points of the load in a segment, m.
+    pub fn load_points_m(&self, segment: usize) -> [Vector3<f64>; 4] {
+        self.control_points(segment)[1]
     }
 
     /// The rotation within a segment, about an axis that is constant in the world frame: axis times angle, rad.

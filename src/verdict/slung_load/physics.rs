@@ -10,7 +10,7 @@ use sim::slung_load::{AppliedControls, Plant, Replay, SlungLoadState};
 use sim::{Actuation, Flight, LoggedAir, VehicleLog};
 
 use super::flown::motion_sample;
-use crate::verdict::compare::is_larger;
+use crate::verdict::compare::{is_larger, larger};
 use crate::verdict::evidence::CheckResult;
 use crate::verdict::missing_evidence::MissingEvidence;
 use crate::verdict::physics::{Defect, check_largest, difference_m};
@@ -64,8 +64,8 @@ impl<'a> LogReplay<'a> {
 
     /// Largest defect of a log. `None` if it has no step.
     ///
-    /// The log does not contain the instant within a step at which the cable began to pull. The displacement that this leaves
-    /// open, half a step times the change of velocity, is subtracted.
+    /// The log does not contain the instants within a step at which the cable pulled. The displacement that this leaves open,
+    /// half a step times the change of velocity by what the tension differs from that of the steps around, is subtracted.
     fn largest_defect(&self, log: &VehicleLog) -> Result<Option<Defect>, MissingEvidence> {
         let (samples, loads) = (log.samples.len(), log.loads.len());
         if loads != samples {
@@ -93,7 +93,9 @@ impl<'a> LogReplay<'a> {
             };
             let flown = self.replay.advanced(&motion.unwrap_or(bodies[step - 1]), &applied);
             motion = Some(flown);
-            let change_ns = (tension_n - log.loads[step - 1].tension_n).abs() * step_s;
+            let around = [Some(&log.loads[step - 1]), log.loads.get(step + 1)].into_iter().flatten();
+            let changes_n = around.map(|load| (tension_n - load.tension_n).abs());
+            let change_ns = changes_n.fold(0.0, larger) * step_s;
             allowance_m += 0.5 * step_s * change_ns / self.plant.load_mass_kg;
             let defects_m = [
                 self.momentum_m(&flown, &bodies[step], supported_s, allowance_m),
