@@ -108,6 +108,12 @@ pub(crate) fn ignored_geofence(scenario: &Scenario) -> Option<String> {
     Some(format!("it does not plan around geofences such as `{}`", fence.name))
 }
 
+/// Why a planner that flies straight to the goal cannot handle a scenario; `None` if there are no via-points.
+pub(crate) fn ignored_via_point(scenario: &Scenario) -> Option<String> {
+    let vehicle = scenario.vehicles.iter().find(|vehicle| !vehicle.via.is_empty())?;
+    Some(format!("it does not plan through via-points, which `{}` has", vehicle.name))
+}
+
 /// Why a planner that models upright obstacles only cannot handle a scenario; `None` if there are no others.
 pub(crate) fn ignored_solid(scenario: &Scenario) -> Option<String> {
     let solid = scenario.world.solids().into_iter().next()?;
@@ -118,7 +124,7 @@ pub(crate) fn ignored_solid(scenario: &Scenario) -> Option<String> {
 mod tests {
     use std::path::Path;
 
-    use scenarios::{Geofence, GeofenceKind, Scenario, SeparationShape, Sphere, Waypoint};
+    use scenarios::{Geofence, GeofenceKind, Scenario, SeparationShape, Sphere, ViaPoint, Waypoint};
 
     #[test]
     fn planners_that_do_not_know_geofences_refuse_them_by_name() {
@@ -161,6 +167,19 @@ mod tests {
         assert_eq!(reason(&crossing), "");
         crossing.fleet.separation_shape = Some(SeparationShape::Horizontal);
         assert!(reason(&crossing).contains("in space"), "{}", reason(&crossing));
+    }
+
+    #[test]
+    fn rhc_alone_flies_through_via_points() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+        for file in ["slung/rectangle.toml", "fixed-wing/rendezvous-7.toml", "multirotor/trap.toml"] {
+            let mut scenario = scenarios::load(&folder.join(file)).unwrap();
+            let [x_m, y_m, z_m] = scenario.vehicles[0].start.position_m();
+            scenario.vehicles[0].via = vec![ViaPoint { x_m, y_m, z_m, radius_m: 0.5, window_s: None }];
+            let fitting = crate::registry().iter().filter(|planner| (planner.unsupported_reason)(&scenario).is_none());
+            assert!(fitting.clone().all(|planner| planner.name.starts_with("rhc")), "{file}");
+            assert_eq!(fitting.count() > 0, file.starts_with("multirotor"), "{file}");
+        }
     }
 
     #[test]

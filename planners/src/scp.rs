@@ -27,7 +27,7 @@ mod trapezoid;
 
 use scenarios::{Scenario, Vehicle, Waypoint};
 
-use crate::planner::{Planner, ignored_geofence, ignored_solid};
+use crate::planner::{Planner, ignored_geofence, ignored_solid, ignored_via_point};
 
 /// The planners of the fixed-wing family.
 pub(crate) const PLANNERS: &[Planner] =
@@ -47,6 +47,7 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
         None => ignored_geofence(scenario)
             .or_else(|| ignored_flat_face(scenario))
             .or_else(|| ignored_solid(scenario))
+            .or_else(|| ignored_via_point(scenario))
             .or_else(|| above_each_other(scenario)),
     }
 }

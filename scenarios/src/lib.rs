@@ -36,6 +36,7 @@ mod trajectory;
 mod validate;
 mod vehicle;
 mod verdict_limits;
+mod via_point;
 mod world;
 
 pub use checks::{CHECKS, CheckSpec, Group, LimitField, REQUIREMENT_CHECKS, check_names, check_spec, checks_of};
@@ -60,6 +61,7 @@ pub use trajectory::{Interpolation, TrajectoryNodes};
 pub use validate::{validate, wind_without_effect};
 pub use vehicle::{LoadPoint, Vehicle, Waypoint};
 pub use verdict_limits::{AppliedLimits, VerdictLimits};
+pub use via_point::ViaPoint;
 pub use world::{
     BoxObstacle, Capsule, Cuboid, Cylinder, Gate, Geofence, GeofenceKind, Map, Mesh, MovingCylinder, Origin, Prism,
     Sphere, Terrain, Window, World,

@@ -76,7 +76,10 @@ impl Scenario {
     pub fn is_planar(&self) -> bool {
         let world = &self.world;
         let ends = world.boxes.iter().map(|it| it.z_m).chain(world.prisms.iter().map(|it| it.z_m));
-        let is_level = |vehicle: &Vehicle| vehicle.start.z_m == vehicle.goal.z_m;
+        let is_level = |vehicle: &Vehicle| {
+            let start_m = vehicle.start.z_m;
+            vehicle.goal.z_m == start_m && vehicle.via.iter().all(|via| via.z_m == start_m)
+        };
         ends.chain(world.moving.iter().map(|it| it.z_m)).all(|z_m| z_m.is_none())
             && !world.has_solids()
             && self.vehicles.iter().all(is_level)

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fixed_wing;
+use crate::{ViaPoint, fixed_wing};
 
 /// One vehicle of the fleet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -15,6 +15,9 @@ pub struct Vehicle {
     pub start: Waypoint,
     /// Position and velocity on arrival.
     pub goal: Waypoint,
+    /// Points that it passes on its way, in this order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub via: Vec<ViaPoint>,
 }
 
 /// A position, a velocity in polar form, and the position of a slung load if there is one.

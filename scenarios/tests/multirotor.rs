@@ -123,6 +123,20 @@ fn multirotors_may_start_above_each_other_and_fixed_wings_may_not() {
 }
 
 #[test]
+fn via_points_are_on_the_map_clear_of_obstacles_and_in_order_of_time() {
+    let rejects = |via: &str, field: &str, found: &str| {
+        let goal = "goal = { x_m = 10, y_m = 0, z_m = 2 }";
+        let with_via = format!("{goal}\nvia = [{{ x_m = 8, y_m = 2, z_m = 2, radius_m = 0.5 }}, {{ {via} }}]");
+        assert_issue(goal, &with_via, &format!("vehicles[0].via[1]{field}"), found, "");
+    };
+    rejects("x_m = 80, y_m = 2, z_m = 2, radius_m = 0.5", ".x_m", "80");
+    rejects("x_m = 4, y_m = 0, z_m = 2, radius_m = 0.5", "", "box");
+    rejects("x_m = 8, y_m = 2, z_m = 2, radius_m = 0", ".radius_m", "0");
+    rejects("x_m = 8, y_m = 2, z_m = 2, radius_m = 0.5, window_s = [9, 4]", ".window_s", "[9, 4]");
+    rejects("x_m = 8, y_m = 2, z_m = 2, radius_m = 0.5, window_s = [-1, 4]", ".window_s", "-1");
+}
+
+#[test]
 fn a_separation_rule_is_stated_once_and_completely() {
     for (rule, field, expected) in [
         ("separation_shape = \"cylinder\"", "fleet.separation_shape", "`fleet.separation_m` beside it"),

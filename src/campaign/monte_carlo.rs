@@ -88,7 +88,8 @@ impl Sweep {
     pub fn new(experiment: &Experiment<'_>, samples: usize, dispersions: Dispersions) -> Self {
         let Experiment { scenario, system } = experiment;
         let of_flight = checks_of(scenario.family()).filter(|check| check.group == Group::Flight);
-        let of_requirements = scenario.requirements.iter().flat_map(Requirement::check_names);
+        let requirements = scenario.all_requirements();
+        let of_requirements = requirements.iter().flat_map(Requirement::check_names);
         let of_requirements = of_requirements.filter(|name| name.starts_with("flight."));
         Self {
             schema: SCHEMA,

@@ -91,10 +91,9 @@ impl ShrinkCommand {
 /// Refuses a check that no verdict of the scenario has.
 pub fn require_check(scenario: &Scenario, file: &Path, check: Option<&str>) -> Result<(), Error> {
     let Some(check) = check else { return Ok(()) };
-    let of_requirements = scenario
-        .requirements
-        .iter()
-        .flat_map(|it| ["plan", "flight"].map(|group| format!("{group}.requirement.{}", it.name)));
+    let requirements = scenario.all_requirements();
+    let of_requirements =
+        requirements.iter().flat_map(|it| ["plan", "flight"].map(|group| format!("{group}.requirement.{}", it.name)));
     let known: Vec<String> =
         scenarios::check_names(scenario.family()).map(str::to_owned).chain(of_requirements).collect();
     if known.iter().any(|name| name == check) {

@@ -30,12 +30,12 @@ pub fn as_plan(scenario: &Scenario, planner: &str, seed: u64, log: &PlanningLog)
     }
 }
 
-/// Whether a vehicle does not start within the tolerance of its goal, where it may stay.
+/// Whether a vehicle has via-points, or does not start within the tolerance of its goal, where it may stay.
 fn has_to_move(scenario: &Scenario, vehicle: usize) -> bool {
-    let Vehicle { start, goal, .. } = &scenario.vehicles[vehicle];
+    let Vehicle { start, goal, via, .. } = &scenario.vehicles[vehicle];
     let [start_m, goal_m] = [start.position_m(), goal.position_m()];
     let distance_m = (0..3).map(|axis| (start_m[axis] - goal_m[axis]).powi(2)).sum::<f64>().sqrt();
-    distance_m > scenario.limits().goal_m
+    distance_m > scenario.limits().goal_m || !via.is_empty()
 }
 
 fn failure_reason(replan: &Replan) -> Option<String> {

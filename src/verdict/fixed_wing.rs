@@ -31,7 +31,7 @@ use crate::verdict::{Check, collision, end, flight_integrity, goal, requirements
 pub fn checks(case: &Case<'_>) -> Vec<Check> {
     let fleet = FleetCase::new(case);
     let mut checks = case.checks(Family::FixedWing, |spec| Some(function_of(CHECKS, spec)?(spec, &fleet)));
-    if !case.scenario.requirements.is_empty() {
+    if !case.scenario.all_requirements().is_empty() {
         let (planned, flown) = (fleet.planned_mission(), fleet.flown_mission());
         requirements::insert(&mut checks, case, planned.as_ref().map(Vec::as_slice), flown.as_ref().map(Vec::as_slice));
     }

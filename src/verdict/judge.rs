@@ -85,11 +85,12 @@ fn apply_check_policy(scenario: &Scenario, checks: &mut Vec<Check>) {
             None => checks.push(Check::unknown(name)),
         }
     }
+    let requirements = scenario.all_requirements();
     for check in checks {
         let may_be_advisory = check_spec(&check.name).is_some_and(CheckSpec::may_be_advisory);
         let of_requirement = |it: &&Requirement| it.advisory && it.check_names().any(|name| name == check.name);
-        let is_advisory = scenario.verdict.advisory.contains(&check.name)
-            || scenario.requirements.iter().any(|it| of_requirement(&it));
+        let is_advisory =
+            scenario.verdict.advisory.contains(&check.name) || requirements.iter().any(|it| of_requirement(&it));
         check.advisory = may_be_advisory && is_advisory;
     }
 }

@@ -39,7 +39,7 @@ pub fn insert(
     let end_of_plan = checks.iter().position(|check| check.name.starts_with("flight.")).unwrap_or(checks.len());
     let [of_plan, of_flight] = &REQUIREMENT_CHECKS;
     let (mut planned, mut flown) = (of_group(of_plan, case, planned), of_group(of_flight, case, flown));
-    for requirement in &case.scenario.requirements {
+    for requirement in &case.scenario.all_requirements() {
         require_answer(requirement, planned.iter_mut().chain(&mut flown));
     }
     checks.extend(flown);
@@ -60,15 +60,15 @@ fn require_answer<'a>(requirement: &Requirement, checks: impl Iterator<Item = &'
 }
 
 fn of_group(spec: &CheckSpec, case: &Case<'_>, motions: Evidence<'_, [Motion]>) -> Vec<Check> {
-    let asked: Vec<&Requirement> =
-        case.scenario.requirements.iter().filter(|it| it.applies_to.covers(spec.group)).collect();
+    let mut asked = case.scenario.all_requirements();
+    asked.retain(|it| it.applies_to.covers(spec.group));
     if asked.is_empty() {
         return Vec::new();
     }
     let flight = case.flight().ok().filter(|_| spec.group == Group::Flight);
     let scene = motions.map(|motions| Scene::new(case.scenario, motions, flight));
     let is_reconstructed = motions.is_ok_and(|motions| motions.iter().any(Motion::is_reconstructed));
-    let named = |requirement: &&Requirement| {
+    let named = |requirement: &Requirement| {
         let check = if spec.group == Group::Plan && case.is_planned_in_loop() {
             spec.skip(PLANNED_IN_LOOP)
         } else {

@@ -80,7 +80,7 @@ const FLOORS: &[(&str, u64)] = &[
     ("blocks", 4),
     ("passages", 4),
     ("gates", 4),
-    ("pick-up", 1),
+    ("pick-up", 4),
     ("drop", 4),
     ("field", 4),
     ("field --hidden", 4),

@@ -81,7 +81,7 @@ pub fn check(verdict: &Verdict, name: &str) -> Check {
 fn vehicle(index: usize, y_m: f64) -> Vehicle {
     let at = |x_m| Waypoint { speed_mps: SPEED_MPS, ..Waypoint::at_rest([x_m, y_m, ALTITUDE_M]) };
     let (start, goal) = (at(0.0), at(SPEED_MPS * END_S));
-    Vehicle { name: format!("uav-{}", index + 1), model: "paper".to_owned(), start, goal }
+    Vehicle { name: format!("uav-{}", index + 1), model: "paper".to_owned(), start, goal, via: Vec::new() }
 }
 
 fn scenario(vehicles: Vec<Vehicle>, step_s: f64) -> Scenario {

@@ -1,10 +1,10 @@
 //! The registered planners, and the translation of observations for the controller.
 
-use std::collections::HashSet;
+use std::collections::{HashSet, VecDeque};
 
 use rand::Rng;
 use scenarios::in_loop::{self, InLoopPlanner, Observation, PlannerRemarks, ReplanDiagnostics, ReplanResult};
-use scenarios::{Scenario, stream};
+use scenarios::{Scenario, ViaPoint, stream};
 
 use super::controller::{Decision, RecedingHorizonController, Replan};
 use super::obstacle_prediction::predict;
@@ -78,13 +78,23 @@ fn unsupported_reason(scenario: &Scenario) -> Option<String> {
 
 fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> Box<dyn InLoopPlanner> {
     let own = &scenario.vehicles[vehicle];
-    let stream = stream(seed, &format!("horizon/{}", own.name));
     let settings = settings::controller_settings(scenario, vehicle, variant);
     let body_radius_m = multirotor::body_radius_m(scenario, vehicle);
     let clearance_m = settings.clearance_m;
     let altitudes_m = settings::node_altitudes_m(scenario, vehicle);
+    let controller = |leg: String, target_m: [f64; 3]| {
+        let stream = stream(seed, &format!("horizon/{leg}"));
+        RecedingHorizonController::new(settings.clone(), target_m.into(), altitudes_m.clone(), stream)
+    };
+    let via = own.via.iter().enumerate();
+    let to_via =
+        via.map(|(index, via)| (controller(format!("{}/via-{index}", own.name), via.position_m()), Some(*via)));
+    let mut legs: VecDeque<_> = to_via.chain([(controller(own.name.clone(), own.goal.position_m()), None)]).collect();
+    let (controller, via) = legs.pop_front().expect("the leg to the goal");
     Box::new(HorizonPlanner {
-        controller: RecedingHorizonController::new(settings, own.goal.position_m().into(), altitudes_m, stream),
+        controller,
+        via,
+        legs,
         space: FreeSpace::empty(world::bounds_m(&scenario.world, scenario.is_planar())),
         known_names: HashSet::new(),
         min_neighbour_radius_m: separation_m(scenario).map_or(0.0, |separation_m| separation_m - body_radius_m),
@@ -99,7 +109,11 @@ fn create(scenario: &Scenario, vehicle: usize, seed: u64, variant: Variant) -> B
 
 /// A controller with the world that its vehicle knows so far.
 struct HorizonPlanner<R> {
+    /// To the via-point `via`, or to the goal.
     controller: RecedingHorizonController<R>,
+    via: Option<ViaPoint>,
+    /// The legs after that one.
+    legs: VecDeque<(RecedingHorizonController<R>, Option<ViaPoint>)>,
     space: FreeSpace,
     /// Names of the static obstacles in `space`.
     known_names: HashSet<String>,
@@ -119,7 +133,8 @@ struct HorizonPlanner<R> {
 
 impl<R: Rng + Send> InLoopPlanner for HorizonPlanner<R> {
     fn replan(&mut self, observation: &Observation<'_>) -> ReplanResult {
-        let is_map_updated = self.update_space(observation);
+        let begins_leg = self.begin_next_leg(observation);
+        let is_map_updated = self.update_space(observation) || begins_leg;
         let here = PointMassState::at_rest(observation.position_m.into());
         let in_force = motion_from_nodes(observation.in_force, observation.takes_effect_s)
             .unwrap_or_else(|| PointMassMotion::from(here));
@@ -143,10 +158,28 @@ impl<R: Rng + Send> InLoopPlanner for HorizonPlanner<R> {
     }
 }
 
+/// A via-point counts as passed within this fraction of its radius: positions are measured with noise.
+const PASSED_FRACTION: f64 = 0.8;
+
 /// Time before the horizon over which the applied acceleration is averaged, s.
 const APPLIED_WINDOW_S: f64 = 0.05;
 
 impl<R: Rng> HorizonPlanner<R> {
+    /// Goes on to the next leg where a via-point is passed. True if it does.
+    fn begin_next_leg(&mut self, observation: &Observation<'_>) -> bool {
+        let is_passed = |via: ViaPoint| {
+            let offset = Point::from(observation.position_m) - Point::from(via.position_m());
+            let has_opened = via.window_s.is_none_or(|window| observation.t_s > window.min);
+            has_opened && offset.norm() <= PASSED_FRACTION * via.radius_m
+        };
+        if !self.via.is_some_and(is_passed) {
+            return false;
+        }
+        let Some((controller, via)) = self.legs.pop_front() else { return false };
+        (self.controller, self.via) = (controller, via);
+        true
+    }
+
     /// Adds newly known static obstacles and replaces the moving ones. True if there are new static obstacles.
     fn update_space(&mut self, observation: &Observation<'_>) -> bool {
         let before = self.space.static_obstacles.len();

@@ -32,12 +32,12 @@ pub enum Variant {
 /// Altitudes at which cost maps have their nodes, m: in the plane only that of the vehicle.
 pub fn node_altitudes_m(scenario: &Scenario, vehicle: usize) -> Vec<f64> {
     let vehicle = &scenario.vehicles[vehicle];
-    let [start_m, goal_m] = [&vehicle.start, &vehicle.goal].map(|point| point.position_m()[2]);
-    let mut altitudes_m = vec![start_m];
+    let mut altitudes_m = vec![vehicle.start.z_m];
     if !scenario.is_planar() {
         let range = scenario.world.map.z_m;
         let fraction = |level: usize| (level + 1) as f64 / (NODE_ALTITUDES + 1) as f64;
-        altitudes_m.push(goal_m);
+        altitudes_m.push(vehicle.goal.z_m);
+        altitudes_m.extend(vehicle.via.iter().map(|via| via.z_m));
         altitudes_m.extend((0..NODE_ALTITUDES).map(|level| range.min + fraction(level) * (range.max - range.min)));
     }
     altitudes_m.sort_by(f64::total_cmp);

@@ -11,7 +11,7 @@ use super::{PathProblem, timing};
 use crate::free_space::{FreeSpace, Point, path_length_m};
 use crate::multirotor::reference::nodes_from_motion;
 use crate::multirotor::{self, PlanningLimits, PointMassMotion};
-use crate::planner::{Planner, PlanningMode, Progress};
+use crate::planner::{Planner, PlanningMode, Progress, ignored_via_point};
 
 /// Sparse A*.
 pub const SPARSE_ASTAR: Planner = planner(
@@ -48,6 +48,7 @@ const CORNER_MARGIN_FRACTION: f64 = 0.5;
 
 fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     multirotor::unsupported_reason(scenario)
+        .or_else(|| ignored_via_point(scenario))
         .or_else(|| (scenario.vehicles.len() > 1).then(|| "it plans for one vehicle".to_owned()))
 }
 

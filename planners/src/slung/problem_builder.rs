@@ -8,7 +8,7 @@ use super::polygon::Polygon;
 use super::problem::{
     Avoidance, CableMode, Gate, InitialCondition, Limits, Phase, Problem, TorqueModel, VehicleParameters, Weights,
 };
-use crate::planner::{ignored_geofence, ignored_solid};
+use crate::planner::{ignored_geofence, ignored_solid, ignored_via_point};
 use crate::pseudospectral::{Duration, Tolerances};
 
 /// The paper's safety distance r', m.
@@ -48,7 +48,9 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
     if scenario.family() != Family::SlungLoad {
         return Some(format!("vehicle `{}` is not a quadrotor with a slung load", vehicle.name));
     }
-    if let Some(reason) = ignored_geofence(scenario).or_else(|| ignored_solid(scenario)) {
+    if let Some(reason) =
+        ignored_geofence(scenario).or_else(|| ignored_solid(scenario)).or_else(|| ignored_via_point(scenario))
+    {
         return Some(reason);
     }
     let settings = scenario.planner.collocation.clone().unwrap_or_default();

@@ -2,9 +2,9 @@
 
 use super::body::{beyond_geofences, too_near_edges};
 use super::identifier::entity_names;
-use super::quantity::inside;
+use super::quantity::{inside, not_negative, ordered, positive};
 use crate::geometry::Solid;
-use crate::{Issue, Scenario, Vehicle, World, closest_name};
+use crate::{Issue, Scenario, Vehicle, ViaPoint, World, closest_name};
 
 pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
     if scenario.vehicles.is_empty() {
@@ -24,7 +24,21 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
             issues.extend(beyond_geofences(radius_m, world, &field, waypoint.position_m()));
             issues.extend(model.iter().flat_map(|model| model.waypoint_issues(&scenario.world, &field, waypoint)));
         }
+        for (place, via) in vehicle.via.iter().enumerate() {
+            issues.extend(via_issues(&scenario.world, &format!("vehicles[{index}].via[{place}]"), via));
+        }
     }
+    issues
+}
+
+/// A via-point's size and window, and its centre against map and obstacles.
+fn via_issues(world: &World, field: &str, via: &ViaPoint) -> Vec<Issue> {
+    let mut issues = outside_map(world, field, via.position_m());
+    issues.extend(inside_obstacle(world, field, via.position_m()));
+    issues.extend(positive(&format!("{field}.radius_m"), via.radius_m));
+    let window = format!("{field}.window_s");
+    issues.extend(via.window_s.and_then(|window_s| ordered(&window, window_s)));
+    issues.extend(via.window_s.and_then(|window_s| not_negative(&window, window_s.min)));
     issues
 }
 

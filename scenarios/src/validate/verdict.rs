@@ -25,7 +25,8 @@ pub(super) fn issues(scenario: &Scenario) -> Vec<Issue> {
         limits.envelope_m.and_then(|value| not_negative("verdict.envelope_m", value)),
         limits.saturation.and_then(|value| fraction("verdict.saturation", value)),
     ];
-    let of_requirements = scenario.requirements.iter().flat_map(Requirement::check_names);
+    let requirements = scenario.all_requirements();
+    let of_requirements = requirements.iter().flat_map(Requirement::check_names);
     let known: Vec<String> = CHECKS.iter().map(|check| check.name.to_owned()).chain(of_requirements).collect();
     let names = unknown_checks("verdict.advisory", &limits.advisory, &known);
     rules

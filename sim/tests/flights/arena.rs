@@ -50,7 +50,7 @@ fn model() -> Model {
 
 fn vehicle(number: usize) -> Vehicle {
     let nowhere = Waypoint { speed_mps: 35.0, ..Waypoint::at_rest([0.0, 0.0, 400.0]) };
-    Vehicle { name: format!("uav-{number}"), model: "plane".into(), start: nowhere, goal: nowhere }
+    Vehicle { name: format!("uav-{number}"), model: "plane".into(), start: nowhere, goal: nowhere, via: Vec::new() }
 }
 
 pub fn cylinder(name: &str, x_m: f64, y_m: f64, radius_m: f64) -> Cylinder {

@@ -47,6 +47,7 @@ pub fn scenario() -> Scenario {
             model: "quad".into(),
             start: Waypoint::at_rest([0.0; 3]),
             goal: Waypoint::at_rest([0.0; 3]),
+            via: Vec::new(),
         }],
         fleet: FleetRules::default(),
         planner: PlannerSettings::default(),

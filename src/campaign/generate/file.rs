@@ -138,7 +138,7 @@ fn moving(moving: &MovingCylinder) -> String {
     )
 }
 
-fn vehicle(Vehicle { name, model, start, goal }: &Vehicle) -> String {
+fn vehicle(Vehicle { name, model, start, goal, via: _ }: &Vehicle) -> String {
     let (start, goal) = (waypoint(start), waypoint(goal));
     format!("\n[[vehicles]]\nname = \"{name}\"\nmodel = \"{model}\"\nstart = {start}\ngoal = {goal}\n")
 }

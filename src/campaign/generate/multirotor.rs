@@ -97,7 +97,7 @@ fn level_map(length_m: f64, width_m: f64) -> Map {
 /// A vehicle that starts and ends at rest.
 fn vehicle(index: usize, [start_m, goal_m]: [[f64; 3]; 2]) -> Vehicle {
     let [start, goal] = [start_m, goal_m].map(Waypoint::at_rest);
-    Vehicle { name: format!("uav-{}", index + 1), model: "quad".to_owned(), start, goal }
+    Vehicle { name: format!("uav-{}", index + 1), model: "quad".to_owned(), start, goal, via: Vec::new() }
 }
 
 /// Length of the level path of a vehicle in a world, m.

@@ -108,6 +108,7 @@ fn carrier(initial: &InitialCondition, [start_m, goal_m]: [[f64; 2]; 2]) -> Vehi
         model: "quadrotor".to_owned(),
         start: Waypoint { load, ..Waypoint::at_rest([x_m, y_m, initial.z_m]) },
         goal: Waypoint::at_rest([goal_m[0], goal_m[1], GOAL_Z_M]),
+        via: Vec::new(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The fields of a scenario file in which the limit of a check stands.
 
-use scenarios::{LimitField, Scenario, check_spec};
+use scenarios::requirement::Requirement;
+use scenarios::{LimitField, Scenario, Vehicle, check_spec};
 
 use crate::verdict::{Check, LimitKey};
 
@@ -40,10 +41,13 @@ fn gates(check: &Check, scenario: &Scenario) -> Vec<String> {
     list("gates", check, scenario.world.gates.iter().map(|gate| gate.name.as_str()))
 }
 
-/// The formula of the requirement that the check is about.
+/// The formula of the requirement that the check is about, or the via-points.
 fn requirement(check: &Check, scenario: &Scenario) -> Option<String> {
-    let index = scenario.requirements.iter().position(|it| it.check_names().any(|name| name == check.name))?;
-    Some(format!("requirements[{index}].formula"))
+    let is_asked = |it: &Requirement| it.check_names().any(|name| name == check.name);
+    let stated = scenario.requirements.iter().position(is_asked).map(|index| format!("requirements[{index}].formula"));
+    let of_vehicle = |vehicle: &Vehicle| vehicle.via_requirement().is_some_and(|it| is_asked(&it));
+    let via = || scenario.vehicles.iter().position(of_vehicle).map(|index| format!("vehicles[{index}].via"));
+    stated.or_else(via)
 }
 
 fn geofences(check: &Check, scenario: &Scenario) -> Vec<String> {

@@ -34,9 +34,10 @@ pub(super) enum Shape {
     Polygons,
 }
 
-pub(super) const PLACES: [Place; 13] = [
+pub(super) const PLACES: [Place; 14] = [
     place("vehicles[].start", "Waypoint", "", Shape::Point, false),
     place("vehicles[].goal", "Waypoint", "", Shape::Point, false),
+    place("vehicles[].via[]", "ViaPoint", "", Shape::Point, false),
     place("vehicles[].start.load", "LoadPoint", "", Shape::Point, false),
     place("vehicles[].goal.load", "LoadPoint", "", Shape::Point, false),
     place("world.cylinders[]", "Cylinder", "center", Shape::Pair, false),

@@ -64,7 +64,13 @@ impl Member {
                 ])
             },
         );
-        Vehicle { name: format!("uav-{}", index + 1), model: self.aircraft.name.to_owned(), start, goal }
+        Vehicle {
+            name: format!("uav-{}", index + 1),
+            model: self.aircraft.name.to_owned(),
+            start,
+            goal,
+            via: Vec::new(),
+        }
     }
 }
 

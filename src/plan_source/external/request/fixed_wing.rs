@@ -14,6 +14,7 @@ pub fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
         "planning_limits": limits(&model.planning_limits),
         "start": waypoint(&vehicle.start),
         "goal": waypoint(&vehicle.goal),
+        "via": vehicle.via,
     })
 }
 

@@ -22,6 +22,7 @@ pub fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
         "airframe": airframe(model),
         "start": state(&vehicle.start),
         "goal": state(&vehicle.goal),
+        "via": vehicle.via,
     })
 }
 

@@ -18,5 +18,6 @@ pub fn vehicle(scenario: &Scenario, vehicle: &Vehicle) -> Value {
         "model": known,
         "start": state(&vehicle.start),
         "goal": state(&vehicle.goal),
+        "via": vehicle.via,
     })
 }

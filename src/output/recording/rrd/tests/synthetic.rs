@@ -99,6 +99,7 @@ fn scenario(count: usize, duration_s: f64) -> Scenario {
         model: "scout".to_owned(),
         start: waypoint(index, 0.0),
         goal: waypoint(index, duration_s),
+        via: Vec::new(),
     };
     let half_m = (0.55 * SPEED_MPS * duration_s).max(0.6 * SPACING_M * count as f64);
     let cylinder = |k: i32| Cylinder {
