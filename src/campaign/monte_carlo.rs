@@ -11,9 +11,10 @@ pub mod table;
 
 use rayon::prelude::*;
 use scenarios::requirement::Requirement;
-use scenarios::{Group, LimitField, Scenario, check_spec, checks_of};
+use scenarios::{Group, Scenario, checks_of};
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::trial::has_several_quantities;
 use crate::plan_source::PlanSource;
 use crate::verdict::{Outcome, Verdict};
 
@@ -138,14 +139,6 @@ pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flo
         Sample::of(number, perturbation, &verdict, &sweep.checks)
     };
     numbers.into_par_iter().map(sample).collect()
-}
-
-/// Whether a check compares several quantities with their limits, so that the unit of its margin is that of the decisive one.
-fn has_several_quantities(check: &str) -> bool {
-    check_spec(check).is_some_and(|spec| match spec.limit {
-        LimitField::ModelLimits => spec.unit == "-",
-        limit => matches!(limit, LimitField::Goal | LimitField::Requirement),
-    })
 }
 
 impl Sample {

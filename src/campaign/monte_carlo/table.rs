@@ -15,7 +15,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::{Row, RowAccessor};
 use parquet::schema::parser::parse_message_type;
 
-use super::{Perturbation, Sample, Sweep, has_several_quantities};
+use super::{Perturbation, Sample, Sweep};
+use crate::campaign::trial::has_several_quantities;
 use crate::error::Error;
 use crate::output;
 use crate::verdict::Outcome;
