@@ -1,5 +1,6 @@
 //! The command line.
 
+mod ab_test;
 mod bench;
 mod bench_suite;
 mod check;
@@ -15,6 +16,7 @@ mod list;
 mod merge;
 mod new;
 mod plan;
+mod probability;
 mod report;
 mod request;
 mod run;
@@ -87,6 +89,10 @@ enum Command {
     Stress(stress::StressCommand),
     #[command(name = "falsify")]
     Falsify(falsify::FalsifyCommand),
+    #[command(name = "ab-test")]
+    AbTest(ab_test::AbTestCommand),
+    #[command(name = "probability")]
+    Probability(probability::ProbabilityCommand),
     #[command(name = "shrink")]
     Shrink(shrink::ShrinkCommand),
     #[command(name = "selftest")]
@@ -129,6 +135,8 @@ impl Cli {
             Command::Merge(merge) => merge.execute(),
             Command::Stress(stress) => stress.execute(),
             Command::Falsify(falsify) => falsify.execute(),
+            Command::AbTest(ab_test) => ab_test.execute(),
+            Command::Probability(probability) => probability.execute(),
             Command::Shrink(shrink) => shrink.execute(),
             Command::Selftest(selftest) => selftest.execute(),
             Command::Schema(schema) => schema.execute(),

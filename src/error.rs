@@ -183,6 +183,17 @@ pub enum Error {
         /// What became of the candidates.
         why: String,
     },
+    /// A comparison was given one system.
+    #[error("found one planner and one scenario, expected two systems to compare")]
+    #[diagnostic(help("name the other planner with `-p`, or give a second scenario file with another [planner]"))]
+    OneSystem,
+    /// A comparison was given more than two systems.
+    #[error("found {count} planners, expected two systems to compare")]
+    #[diagnostic(help("compare them pair by pair"))]
+    TooManySystems {
+        /// Their number.
+        count: usize,
+    },
     /// A disturbance from the command line cannot act on the vehicles.
     #[error("{}: {option} has no effect: found {}, expected {}", file.display(), issue.found, issue.expected)]
     #[diagnostic(help("add the drag area to the model, or vary another disturbance"))]

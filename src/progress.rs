@@ -70,7 +70,21 @@ impl Progress {
 
     /// `done` of `total` flights of a sweep are finished. Without a terminal only every tenth part is printed.
     pub fn swept(&mut self, done: usize, total: usize) {
-        let message = format!("{done} of {total} flights");
+        self.counted(done, total, format!("{done} of {total} flights"));
+    }
+
+    /// `done` of at most `total` pairs of a comparison are finished. Without a terminal only every tenth part is printed.
+    pub fn compared(&mut self, done: usize, total: usize) {
+        self.counted(done, total, format!("{done} of at most {total} pairs"));
+    }
+
+    /// `done` of at most `total` flights of a search for rare events are finished; it has come to this probability. Without a
+    /// terminal only every tenth part is printed.
+    pub fn reached(&mut self, done: usize, total: usize, probability: f64) {
+        self.counted(done, total, format!("{done} of at most {total} flights; reached probability {probability:.1e}"));
+    }
+
+    fn counted(&self, done: usize, total: usize, message: String) {
         match &self.display {
             Display::Lines { .. } if done * 10 / total > (done - 1) * 10 / total => self.begin(message),
             Display::Lines { .. } => {}

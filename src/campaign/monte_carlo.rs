@@ -5,15 +5,17 @@
 
 mod merge;
 mod perturbation;
+pub mod resume;
 mod show;
 mod statistics;
 pub mod table;
 
 use rayon::prelude::*;
 use scenarios::requirement::Requirement;
-use scenarios::{Group, LimitField, Scenario, check_spec, checks_of};
+use scenarios::{Group, Scenario, checks_of};
 use serde::{Deserialize, Serialize};
 
+use crate::campaign::trial::has_several_quantities;
 use crate::plan_source::PlanSource;
 use crate::verdict::{Outcome, Verdict};
 
@@ -34,6 +36,11 @@ pub struct Partition {
 impl Partition {
     /// All samples.
     pub const WHOLE: Self = Self { part: 1, parts: 1 };
+
+    /// Whether a sample belongs to it.
+    pub fn holds(self, number: usize) -> bool {
+        number % self.parts == self.part - 1
+    }
 
     /// The numbers of its samples out of `samples`, counted from 0.
     pub fn numbers(self, samples: usize) -> impl Iterator<Item = usize> {
@@ -56,6 +63,9 @@ pub struct Sweep {
     pub seed: u64,
     /// Number of samples, all partitions together.
     pub samples: usize,
+    /// Fingerprint of scenario and plan, in hexadecimal digits.
+    #[serde(default)]
+    pub fingerprint: String,
     /// What is perturbed, and by how much.
     #[serde(rename = "spread")]
     pub dispersions: Dispersions,
@@ -98,6 +108,7 @@ impl Sweep {
             planner: system.name().to_owned(),
             seed: scenario.simulation.seed,
             samples,
+            fingerprint: resume::fingerprint(experiment),
             dispersions,
             checks: of_flight
                 .map(|check| (check.name.to_owned(), check.unit.to_owned()))
@@ -127,26 +138,15 @@ impl Experiment<'_> {
     }
 }
 
-/// Flies a partition of the samples, on all threads, and returns them in the order of their numbers.
+/// Flies the samples of these numbers, on all threads.
 ///
-/// - `flown`: is called after every flight, from any thread
-pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, partition: Partition, flown: &(dyn Fn() + Sync)) -> Vec<Sample> {
-    let numbers: Vec<usize> = partition.numbers(sweep.samples).collect();
-    let sample = |number: usize| {
+/// - `flown`: receives every sample after its flight, from any thread, in any order
+pub fn run(experiment: &Experiment<'_>, sweep: &Sweep, numbers: &[usize], flown: &(dyn Fn(Sample) + Sync)) {
+    numbers.par_iter().for_each(|&number| {
         let (scenario, perturbation) = experiment.scenario_of(&sweep.dispersions, number);
         let verdict = experiment.system.fly(&scenario, scenario.simulation.seed).judge(&scenario);
-        flown();
-        Sample::of(number, perturbation, &verdict, &sweep.checks)
-    };
-    numbers.into_par_iter().map(sample).collect()
-}
-
-/// Whether a check compares several quantities with their limits, so that the unit of its margin is that of the decisive one.
-fn has_several_quantities(check: &str) -> bool {
-    check_spec(check).is_some_and(|spec| match spec.limit {
-        LimitField::ModelLimits => spec.unit == "-",
-        limit => matches!(limit, LimitField::Goal | LimitField::Requirement),
-    })
+        flown(Sample::of(number, perturbation, &verdict, &sweep.checks));
+    });
 }
 
 impl Sample {
@@ -170,6 +170,8 @@ mod tests {
         let mut all: Vec<usize> = (1..=3).flat_map(|part| Partition { part, parts: 3 }.numbers(10)).collect();
         all.sort_unstable();
         assert_eq!(all, (0..10).collect::<Vec<_>>());
+        let part = Partition { part: 2, parts: 3 };
+        assert!(part.numbers(10).all(|number| part.holds(number)) && !part.holds(3));
         assert_eq!(Partition::WHOLE.numbers(4).collect::<Vec<_>>(), [0, 1, 2, 3]);
         assert_eq!(Partition { part: 7, parts: 7 }.numbers(3).count(), 0);
     }

@@ -146,6 +146,17 @@ impl ScenarioDocument {
         renamed
     }
 
+    /// The same scenario with another seed.
+    ///
+    /// - `seed`: at most `i64::MAX`, the largest integer of a TOML file
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        let simulation = self.root.entry("simulation").or_insert_with(|| Value::Table(Table::new()));
+        if let Value::Table(simulation) = simulation {
+            simulation.insert("seed".into(), Value::Integer(seed.cast_signed()));
+        }
+        self
+    }
+
     /// The number at a path.
     pub fn number(&self, path: &FieldPath) -> Option<f64> {
         let (first, rest) = path.0.split_first()?;

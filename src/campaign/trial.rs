@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use scenarios::Scenario;
+use scenarios::{LimitField, Scenario, check_spec};
 use serde::Serialize;
 
 use crate::campaign::scenario_document::ScenarioDocument;
@@ -15,12 +15,46 @@ const CONSEQUENCE: &str = "flight.complete";
 
 /// What is tried, and what is asked of it.
 pub struct TestSystem<'a> {
-    /// The planner; it plans anew in every trial.
+    /// The planner; it plans anew in every trial, unless `first_plan` is what it would plan.
     pub source: &'a PlanSource,
+    /// The plan of the scenario as it is; `None` to plan in every trial.
+    pub first_plan: Option<&'a FirstPlan>,
     /// Seed of planning and flight.
     pub seed: u64,
     /// The check that is asked; `None` for whichever fails.
     pub check: Option<&'a str>,
+}
+
+/// The plan that is made before the flight of a scenario as it is. Trials that differ in disturbances alone, which planners do
+/// not know, fly it again.
+pub struct FirstPlan {
+    known: Scenario,
+    seed: u64,
+    plan: PlanSource,
+}
+
+impl FirstPlan {
+    /// Plans. `None` of a source that plans in the loop, and if the scenario is not valid.
+    pub fn of(document: &ScenarioDocument, source: &PlanSource, seed: u64) -> Option<Self> {
+        let scenario = document.scenario().ok()?;
+        let answer = match source {
+            PlanSource::Imported(_) => None,
+            source if source.plans_in_the_loop() => None,
+            source => source.prepare(&scenario, seed, &mut |_| {}).guidance.into_plan(),
+        }?;
+        Some(Self { known: known_before_flight(&scenario), seed, plan: source.fixed_to(answer) })
+    }
+
+    fn source_for(&self, scenario: &Scenario, seed: u64) -> Option<&PlanSource> {
+        (seed == self.seed && known_before_flight(scenario) == self.known).then_some(&self.plan)
+    }
+}
+
+/// What a planner is told besides its seed.
+fn known_before_flight(scenario: &Scenario) -> Scenario {
+    let mut view = scenario.planner_view();
+    view.simulation.seed = 0;
+    view
 }
 
 /// The outcome of one trial.
@@ -60,11 +94,17 @@ pub struct Finding {
 impl TestSystem<'_> {
     /// Plans, flies and judges.
     pub fn try_out(&self, document: &ScenarioDocument) -> Trial {
+        self.try_out_with(document, self.seed)
+    }
+
+    /// [`try_out`](Self::try_out) with another seed of planning and flight.
+    pub fn try_out_with(&self, document: &ScenarioDocument, seed: u64) -> Trial {
         let Ok(scenario) = document.scenario() else { return Trial::Rejected };
         if self.is_unsupported(&scenario) {
             return Trial::Rejected;
         }
-        let verdict = self.source.fly(&scenario, self.seed).judge(&scenario);
+        let planned = self.first_plan.and_then(|plan| plan.source_for(&scenario, seed));
+        let verdict = planned.unwrap_or(self.source).fly(&scenario, seed).judge(&scenario);
         if verdict.outcome == Outcome::NoPlan {
             return Trial::NoPlan;
         }
@@ -77,6 +117,14 @@ impl TestSystem<'_> {
             PlanSource::External(_) | PlanSource::Imported(_) => false,
         }
     }
+}
+
+/// Whether a check compares several quantities with their limits, so that the unit of its margin is that of the decisive one.
+pub fn has_several_quantities(check: &str) -> bool {
+    check_spec(check).is_some_and(|spec| match spec.limit {
+        LimitField::ModelLimits => spec.unit == "-",
+        limit => matches!(limit, LimitField::Goal | LimitField::Requirement),
+    })
 }
 
 impl Trial {

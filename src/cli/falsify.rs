@@ -7,7 +7,7 @@ use super::session::start_threads;
 use super::shrink;
 use crate::campaign::falsification::{self, Falsification, FoundFailure, Method, SearchOptions, Space, VariedField};
 use crate::campaign::scenario_document::ScenarioDocument;
-use crate::campaign::trial::TestSystem;
+use crate::campaign::trial::{FirstPlan, TestSystem};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs::{self, Job};
@@ -83,7 +83,13 @@ impl FalsifyCommand {
         let space = Space::new(&document, &self.fields)
             .map_err(|field| Error::NoNumber { file: self.scenario.clone(), field: field.to_string() })?;
         shrink::require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
-        let system = TestSystem { source: &job.plan_source, seed: job.seed, check: self.check.as_deref() };
+        let first_plan = FirstPlan::of(&document, &job.plan_source, job.seed);
+        let system = TestSystem {
+            source: &job.plan_source,
+            first_plan: first_plan.as_ref(),
+            seed: job.seed,
+            check: self.check.as_deref(),
+        };
         let found = self.search(job, &space, &system);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
         output::create_folder(&folder)?;

@@ -6,7 +6,7 @@ use scenarios::{Scenario, check_spec, closest_name};
 use super::run::PlannerArgs;
 use crate::campaign::scenario_document::ScenarioDocument;
 use crate::campaign::shrinking::{self, Shrunk};
-use crate::campaign::trial::{Finding, TestSystem, Trial};
+use crate::campaign::trial::{Finding, FirstPlan, TestSystem, Trial};
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::jobs;
@@ -54,7 +54,13 @@ impl ShrinkCommand {
         let job = &jobs::load_one(&self.scenario, &self.planners.sources()?, None)?;
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
         require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
-        let system = TestSystem { source: &job.plan_source, seed: job.seed, check: self.check.as_deref() };
+        let first_plan = FirstPlan::of(&document, &job.plan_source, job.seed);
+        let system = TestSystem {
+            source: &job.plan_source,
+            first_plan: first_plan.as_ref(),
+            seed: job.seed,
+            check: self.check.as_deref(),
+        };
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let finding = match system.try_out(&document) {
             Trial::Judged(finding) if finding.fails => finding,

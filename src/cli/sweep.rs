@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -8,6 +9,7 @@ use super::plan::has_no_plan;
 use super::run::{ClockArgs, PlannerArgs};
 use super::session::start_threads;
 use crate::campaign::failure_threshold::Disturbance;
+use crate::campaign::monte_carlo::resume::{self, Checkpoint};
 use crate::campaign::monte_carlo::{self, Dispersions, Experiment, Partition, Sample, Statistics, Sweep, table};
 use crate::console;
 use crate::error::{Error, Exit};
@@ -38,6 +40,10 @@ pub struct SweepCommand {
     /// Fly only the K-th of N partitions, to distribute the samples over N machines; see `harness merge`
     #[arg(long, value_name = "K/N", value_parser = partition)]
     partition: Option<Partition>,
+    /// Keep the samples that DIR holds of the same sweep, killed or with fewer samples, and fly the others. What flies must be
+    /// the same: scenario, plan, options, and the program itself
+    #[arg(long)]
+    resume: bool,
     #[command(flatten)]
     planners: PlannerArgs,
     #[command(flatten)]
@@ -92,6 +98,8 @@ Examples:
   harness sweep scenarios/slung/rectangle-wind.toml -n 500 --wind 2 --mass 5 --at-least 95
   harness sweep scenarios/multirotor/forest.toml -n 1000 --partition 1/4 -o out/1
                                                      the part of the first of four machines
+  harness sweep scenarios/multirotor/forest.toml -n 5000 --resume
+                                                     4000 more, or the rest of a killed sweep
   harness merge out/*/forest/rhc/sweep.parquet -o out/forest
 
 Results, in out/<scenario>/<planner>/:
@@ -125,35 +133,63 @@ impl SweepCommand {
         }
         let experiment = Experiment { scenario: &job.scenario, system };
         let sweep = Sweep::new(&experiment, self.samples as usize, self.dispersions.about(job));
-        let samples = self.fly(&experiment, &sweep, progress);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
+        let known = self.known(&folder, &sweep)?;
         output::create_folder(&folder)?;
+        let samples = self.fly(&experiment, &sweep, &folder, known, progress)?;
         if let PlanSource::Imported(answer) = system {
             output::write_file(&folder.join("plan.json"), |writer| answer.plan.write_json(writer))?;
         }
         let worst = write_worst(&experiment, &sweep, &samples, &folder)?;
         let exit = self.results.finish(&sweep, &samples, &folder, &self.out)?;
+        resume::remove_checkpoint(&folder)?;
         if let Some(number) = worst.filter(|_| !self.results.quiet) {
             console::print(&format!("sample {number} failed the most checks; its scenario is in worst/"))?;
         }
         Ok(exit)
     }
 
-    fn fly(&self, experiment: &Experiment<'_>, sweep: &Sweep, progress: Progress) -> Vec<Sample> {
+    /// The samples of the partition that the folder holds; without `--resume` none.
+    fn known(&self, folder: &Path, sweep: &Sweep) -> Result<Vec<Sample>, Error> {
+        if !self.resume {
+            resume::remove_checkpoint(folder)?;
+            return Ok(Vec::new());
+        }
         let partition = self.partition.unwrap_or(Partition::WHOLE);
-        let total = partition.numbers(sweep.samples).count();
+        let mut known = resume::known_samples(folder, sweep)?;
+        known.retain(|sample| sample.number < sweep.samples && partition.holds(sample.number));
+        if !self.results.quiet {
+            let total = partition.numbers(sweep.samples).count();
+            console::eprint(&format!("{} of {total} samples are there", known.len()));
+        }
+        Ok(known)
+    }
+
+    fn fly(
+        &self,
+        experiment: &Experiment<'_>,
+        sweep: &Sweep,
+        folder: &Path,
+        known: Vec<Sample>,
+        progress: Progress,
+    ) -> Result<Vec<Sample>, Error> {
+        let flown: BTreeSet<usize> = known.iter().map(|sample| sample.number).collect();
+        let partition = self.partition.unwrap_or(Partition::WHOLE);
+        let missing: Vec<usize> = partition.numbers(sweep.samples).filter(|number| !flown.contains(number)).collect();
+        let checkpoint = Checkpoint::new(sweep, folder, known);
         let progress = Mutex::new((progress, 0));
-        let samples = monte_carlo::run(experiment, sweep, partition, &|| {
+        monte_carlo::run(experiment, sweep, &missing, &|sample| {
+            checkpoint.add(sample);
             if let Ok(mut progress) = progress.lock() {
                 progress.1 += 1;
                 let done = progress.1;
-                progress.0.swept(done, total);
+                progress.0.swept(done, missing.len());
             }
         });
         if let Ok((progress, _)) = progress.into_inner() {
             progress.finish();
         }
-        samples
+        checkpoint.finish()
     }
 }
 
@@ -184,7 +220,7 @@ impl ResultArgs {
             statistics: &'a Statistics,
         }
         let statistics = Statistics::of(sweep, samples);
-        table::write(sweep, samples, &folder.join("sweep.parquet"))?;
+        table::write(sweep, samples, &folder.join(resume::TABLE))?;
         output::write_json(&folder.join("sweep.json"), &SweepJson { sweep, statistics: &statistics })?;
         if self.html {
             page::write(out)?;

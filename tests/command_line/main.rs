@@ -11,6 +11,7 @@ mod in_ci;
 mod listing;
 mod machine_faults;
 mod planning;
+mod probability;
 #[cfg(feature = "mcap")]
 mod recordings;
 mod report_page;

@@ -114,3 +114,54 @@ fn every_failed_check_has_its_margin_and_its_unit() {
     }
     assert!(stdout(&output).contains("flight.state_limits"), "{}", stdout(&output));
 }
+
+/// Killed as by a power failure: what was written is kept, and the result is that of a sweep in one go.
+#[cfg(unix)]
+#[test]
+fn a_killed_sweep_is_resumed_without_flying_its_samples_again() {
+    let workplace = pair();
+    let sweep = ["sweep", "pair.toml", "-n", "300", "-j", "1"];
+    let checkpoint = workplace.path(format!("out/{FOLDER}/sweep-checkpoint.parquet"));
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_harness"));
+    let mut child = command.args([&sweep[..], &["-q"]].concat()).current_dir(workplace.path("")).spawn().unwrap();
+    while !checkpoint.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "the sweep ended before its first checkpoint");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+
+    let output = workplace.harness(&[&sweep[..], &["--resume"]].concat());
+    let said = stderr(&output);
+    assert!(code(&output) < 2, "{said}");
+    let kept: usize = said.split_once(" of 300 samples are there").unwrap().0.lines().last().unwrap().parse().unwrap();
+    assert!(kept > 0 && kept < 300 && said.contains(&format!("of {} flights", 300 - kept)), "{said}");
+    assert!(!checkpoint.exists());
+    let resumed = workplace.json(&format!("out/{FOLDER}/sweep.json"));
+    assert!(code(&workplace.harness(&[&sweep[..], &["-q", "-o", "whole"]].concat())) < 2);
+    assert_eq!(workplace.json(&format!("whole/{FOLDER}/sweep.json")), resumed);
+}
+
+#[test]
+fn samples_are_added_to_a_sweep_and_not_to_another_one() {
+    let workplace = pair();
+    let sweep = |more: &[&str]| {
+        let output = workplace.harness(&[&["sweep", "pair.toml"], more].concat());
+        (code(&output), stderr(&output).replace("\n  │ ", " "))
+    };
+    assert!(sweep(&["-n", "3", "-q"]).0 < 2);
+    let (code, said) = sweep(&["-n", "5", "--resume"]);
+    assert!(code < 2 && said.contains("3 of 5 samples are there") && said.contains("2 of 2 flights"), "{said}");
+    assert!(sweep(&["-n", "5", "-q", "-o", "whole"]).0 < 2);
+    let added = workplace.json(&format!("out/{FOLDER}/sweep.json"));
+    assert_eq!(workplace.json(&format!("whole/{FOLDER}/sweep.json")), added);
+    for (other, wanted) in [(["--seed", "9"], "seed differs"), (["--wind", "1"], "dispersions differs")] {
+        let (code, said) = sweep(&[&["-n", "5", "--resume"][..], &other].concat());
+        assert!(code == 2 && said.contains(wanted), "{said}");
+    }
+    let moved = shooting_pair().replace("goal = { x_m = 1000, y_m = 100,", "goal = { x_m = 1000, y_m = 101,");
+    std::fs::write(workplace.path("pair.toml"), moved).unwrap();
+    let (code, said) = sweep(&["-n", "5", "--resume"]);
+    assert!(code == 2 && said.contains("scenario or plan differs"), "{said}");
+    assert_eq!(workplace.json(&format!("out/{FOLDER}/sweep.json")), added, "it was left as it was");
+}

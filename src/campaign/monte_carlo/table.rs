@@ -12,10 +12,11 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::record::{Row, RowAccessor};
+use parquet::record::{Field, Row, RowAccessor};
 use parquet::schema::parser::parse_message_type;
 
-use super::{Perturbation, Sample, Sweep, has_several_quantities};
+use super::{Perturbation, Sample, Sweep};
+use crate::campaign::trial::has_several_quantities;
 use crate::error::Error;
 use crate::output;
 use crate::verdict::Outcome;
@@ -71,7 +72,7 @@ fn write_table(sweep: &Sweep, samples: &[Sample], path: &Path) -> Result<(), Par
     column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.noise_m))?;
     column::<DoubleType>(&mut group, perturbations().map(|perturbation| perturbation.start_m))?;
     for index in 0..sweep.checks.len() {
-        column::<DoubleType>(&mut group, samples.iter().map(|sample| sample.margins[index]))?;
+        optional_column(&mut group, samples.iter().map(|sample| sample.margins[index]))?;
         if has_several_quantities(&sweep.checks[index].0) {
             column::<ByteArrayType>(&mut group, samples.iter().map(|sample| sample.units[index].as_str().into()))?;
         }
@@ -90,14 +91,28 @@ fn column<T: DataType>(
     column.close()
 }
 
+/// NaN is written as null.
+fn optional_column(
+    group: &mut SerializedRowGroupWriter<'_, File>,
+    values: impl Iterator<Item = f64>,
+) -> Result<(), ParquetError> {
+    let mut column = group.next_column()?.expect("the schema has as many columns as are written");
+    let (mut present, mut levels) = (Vec::new(), Vec::new());
+    for value in values {
+        levels.push(i16::from(!value.is_nan()));
+        present.extend(Some(value).filter(|value| !value.is_nan()));
+    }
+    column.typed::<DoubleType>().write_batch(&present, Some(&levels), None)?;
+    column.close()
+}
+
 fn schema(sweep: &Sweep) -> String {
     let margins = sweep.checks.iter().flat_map(|(check, unit)| {
-        let margin = format!("double {}", margin_column(check, unit));
-        let unit = has_several_quantities(check).then(|| format!("binary {} (utf8)", unit_column(check)));
+        let margin = format!("optional double {};", margin_column(check, unit));
+        let unit = has_several_quantities(check).then(|| format!("required binary {} (utf8);", unit_column(check)));
         [Some(margin), unit].into_iter().flatten()
     });
-    let fields = COLUMNS.iter().map(|column| (*column).to_owned()).chain(margins);
-    let fields: String = fields.map(|field| format!("required {field};")).collect();
+    let fields: String = COLUMNS.iter().map(|column| format!("required {column};")).chain(margins).collect();
     format!("message sweep {{ {fields} }}")
 }
 
@@ -138,10 +153,14 @@ fn read_table(path: &Path) -> Result<(Sweep, Vec<Sample>), ParquetError> {
     Ok((sweep, samples))
 }
 
+fn is_null(row: &Row, column: usize) -> bool {
+    row.get_column_iter().nth(column).is_some_and(|(_, field)| matches!(field, Field::Null))
+}
+
 fn sample(row: &Row, checks: &[(String, String)]) -> Result<Sample, ParquetError> {
     let (mut margins, mut units, mut column) = (Vec::new(), Vec::new(), COLUMNS.len());
     for (check, unit) in checks {
-        margins.push(row.get_double(column)?);
+        margins.push(if is_null(row, column) { f64::NAN } else { row.get_double(column)? });
         column += 1;
         if has_several_quantities(check) {
             units.push(row.get_string(column)?.clone());
