@@ -11,6 +11,7 @@ mod diverge;
 mod falsify;
 mod figures;
 mod generate;
+mod judge;
 mod list;
 #[cfg(feature = "parquet")]
 mod merge;
@@ -50,6 +51,8 @@ Examples:
   harness run --name 'rendezvous-*'  run the scenarios whose names match
   harness check SCENARIO --plan my-plan.csv
                                      fly and judge an existing plan
+  harness judge SCENARIO --flight log.csv
+                                     judge a flight that was flown elsewhere
   harness compare out/old out/new    show what got worse between two runs
   harness report out                 write a page to look at in a browser
   harness generate forest            write a random scenario that is known to be feasible
@@ -66,6 +69,8 @@ Exit codes:
 enum Command {
     Run(run::Run),
     Check(check::Check),
+    #[command(name = "judge")]
+    Judge(judge::JudgeCommand),
     Plan(plan::PlanCommand),
     New(new::New),
     Request(request::Request),
@@ -117,6 +122,7 @@ impl Cli {
         match &self.command {
             Command::Run(run) => run.execute(),
             Command::Check(check) => check.execute(),
+            Command::Judge(judge) => judge.execute(),
             Command::Plan(plan) => plan.execute(),
             Command::New(new) => new.execute(),
             Command::Request(request) => request.execute(),

@@ -10,6 +10,7 @@ use crate::metrics::figures::Metrics;
 use crate::output::scene::FamilyScene;
 use crate::verdict::Check;
 use crate::verdict::case::Case;
+use crate::verdict::recorded::RecordedFlight;
 
 /// What the harness does with the vehicles of one family.
 pub struct VehicleFamily {
@@ -17,6 +18,8 @@ pub struct VehicleFamily {
     pub family: Family,
     /// Makes every check that applies to it, in the order of a verdict.
     pub checks: for<'a> fn(&Case<'a>) -> Vec<Check>,
+    /// Makes every check that applies to a flight flown elsewhere; `None` if it cannot be judged by its log.
+    pub recorded_checks: Option<for<'a> fn(&RecordedFlight<'a>) -> Vec<Check>>,
     /// The figures of a flyable plan and, if there is one, its flight.
     pub measure: fn(&Scenario, &Plan, Option<&Flight>) -> Metrics,
     /// A vehicle as the request to external planners describes it.
@@ -35,11 +38,12 @@ const FIXED_WING: VehicleFamily = {
     use crate::metrics::fixed_wing::measure;
     use crate::output::scene::fixed_wing::SCENE;
     use crate::plan_source::external::request::fixed_wing::vehicle as request;
-    use crate::verdict::fixed_wing::checks;
+    use crate::verdict::fixed_wing::{checks, recorded_checks};
 
     VehicleFamily {
         family: Family::FixedWing,
         checks,
+        recorded_checks: Some(recorded_checks),
         measure,
         request,
         typical_disturbances: TypicalDisturbances { wind_mps: 3.0, position_noise_m: 0.25 },
@@ -57,6 +61,7 @@ const SLUNG_LOAD: VehicleFamily = {
     VehicleFamily {
         family: Family::SlungLoad,
         checks,
+        recorded_checks: None,
         measure,
         request,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },
@@ -69,11 +74,12 @@ const MULTIROTOR: VehicleFamily = {
     use crate::metrics::multirotor::measure;
     use crate::output::scene::multirotor::SCENE;
     use crate::plan_source::external::request::multirotor::vehicle as request;
-    use crate::verdict::multirotor::checks;
+    use crate::verdict::multirotor::{checks, recorded_checks};
 
     VehicleFamily {
         family: Family::Multirotor,
         checks,
+        recorded_checks: Some(recorded_checks),
         measure,
         request,
         typical_disturbances: TypicalDisturbances { wind_mps: 1.0, position_noise_m: 0.002 },

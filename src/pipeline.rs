@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use scenarios::Plan;
+use scenarios::plan_input::Setpoints;
 use sim::{Flight, FlightOptions};
 
 use crate::campaign::margin_budget;
@@ -18,9 +19,11 @@ use crate::output;
 use crate::output::ghost::Ghost;
 use crate::output::recording::{self, Recorder, Run};
 use crate::output::tum;
+use crate::plan_source::plan_import::CompletedPlan;
 use crate::plan_source::{Flown, Guidance, PlanSource, PlannerOutput};
 use crate::progress::Progress;
 use crate::report::{ReplanTimes, Report, Timings};
+use crate::verdict::recorded::RecordedFlight;
 use crate::verdict::{self, Integration};
 
 /// File with the standard error of an external planner.
@@ -85,6 +88,39 @@ pub fn run(job: &Job, outputs: &Outputs, folder: &Path, progress: &mut Progress)
     write_log(log.as_deref(), folder)?;
     write(plan, &report, folder)?;
     Ok(JobResult { report, log })
+}
+
+/// Judges, records and reports a flight that was flown elsewhere into `folder`, which is created if necessary.
+///
+/// - `log`: its samples, and what they give
+/// - `setpoints`: where the vehicles were told to be
+///
+/// # Errors
+///
+/// [`Error::Write`] if a result cannot be written.
+pub fn judge_flight(
+    job: &Job,
+    (log, setpoints): (&CompletedPlan, &[Option<Setpoints>]),
+    outputs: &Outputs,
+    folder: &Path,
+    progress: &mut Progress,
+) -> Result<JobResult, Error> {
+    let mut timings = Timings::default();
+    let CompletedPlan { plan, provenance } = log;
+    let scenario = &job.scenario;
+    progress.judging();
+    let verdict = timed(&mut timings.judging_s, || {
+        verdict::judge_recorded(&RecordedFlight { scenario, rows: plan, provenance, setpoints })
+    });
+    output::create_folder(folder)?;
+    let run = Run { scenario, plan, flight: None, verdict: &verdict, waterfall: &[], ghost: None };
+    timed(&mut timings.recording_s, || record(&run, &outputs.recorders, folder, progress))?;
+    export(None, outputs, folder)?;
+    write_log(None, folder)?;
+    let metrics = metrics::measure(scenario, plan, None);
+    let report = Report { recorded: true, ..Report::new(log, None, verdict, metrics, timings) };
+    write(plan, &report, folder)?;
+    Ok(JobResult { report, log: None })
 }
 
 /// The plan, or the in-loop planners.

@@ -33,6 +33,9 @@ pub struct Report {
     pub seed: u64,
     /// The outcome of the verdict.
     pub verdict: Outcome,
+    /// Was the flight flown elsewhere and judged by its log? Then `plan` describes the log.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub recorded: bool,
     /// Does the planner call its plan solved although a check of the group `plan` failed?
     pub overclaimed: bool,
     /// Every check, in the order nodes, plan, flight.
@@ -204,6 +207,7 @@ impl Report {
             planner: plan.planner.clone(),
             seed: plan.seed,
             verdict: verdict.outcome,
+            recorded: false,
             overclaimed: verdict.overclaimed,
             checks: verdict.checks,
             integration: verdict.integration,

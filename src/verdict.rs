@@ -36,6 +36,7 @@ mod provenance;
 #[cfg(test)]
 mod random;
 pub mod reconstruction;
+pub mod recorded;
 mod requirements;
 mod rotors;
 mod separation;
@@ -59,7 +60,7 @@ pub use curve_as_cubics::CurveAsCubics;
 pub use flown::{FlownMotions, FlownVehicle};
 pub use integration::{Integration, Method};
 pub use integrity::is_flyable;
-pub use judge::{judge, judge_imported, judge_with};
+pub use judge::{judge, judge_imported, judge_recorded, judge_with};
 pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, KnotDefect, Motion};
 pub use provenance::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};

@@ -25,6 +25,7 @@ pub mod columns;
 mod csv;
 mod digits;
 mod error;
+mod flight;
 mod imported;
 mod json;
 mod layout;
@@ -39,6 +40,8 @@ use std::path::Path;
 
 use self::columns::Columns;
 pub use self::error::{PlanError, PlanIssue};
+pub(crate) use self::flight::flight_columns;
+pub use self::flight::{RecordedRows, RecordedTrack, Setpoints, flight_from_tables, parse_flight_csv, read_flight};
 pub use self::imported::ImportedTrajectory;
 use self::names::ColumnMap;
 use crate::curve::Curve;
@@ -170,19 +173,42 @@ pub fn read_with(
     map: &ColumnMap,
 ) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let name = path.display().to_string();
-    let unreadable = |reason| PlanError::Read { path: path.to_owned(), reason };
+    let columns = columns_of(scenario);
     let document = match path.extension().and_then(|extension| extension.to_str()) {
-        Some("csv" | "txt" | "tum" | "tsv") => {
-            csv::read(&text_of(&std::fs::read(path).map_err(unreadable)?), scenario, map)
-        }
-        Some("json") => json::read(&text_of(&std::fs::read(path).map_err(unreadable)?), columns_of(scenario)),
-        #[cfg(feature = "parquet")]
-        Some("parquet") => parquet::read(std::fs::File::open(path).map_err(unreadable)?, scenario, map),
-        #[cfg(not(feature = "parquet"))]
-        Some("parquet") => return Err(PlanError::ParquetNotBuilt { path: path.to_owned() }),
-        _ => return Err(PlanError::Kind { path: path.to_owned() }),
+        Some("json") => json::read(&text_of(&bytes_of(path)?), columns),
+        _ => read_table(path, scenario, columns, map)?.ok_or_else(|| PlanError::Kind { path: path.to_owned() })?,
     };
     finish(&name, document, scenario)
+}
+
+/// The content of a table; `None` if the extension is not that of one.
+///
+/// - `columns`: those of the kind of file
+fn read_table(
+    path: &Path,
+    scenario: &Scenario,
+    columns: &'static Columns,
+    map: &ColumnMap,
+) -> Result<Option<Result<PlanDocument, Vec<PlanIssue>>>, PlanError> {
+    Ok(match path.extension().and_then(|extension| extension.to_str()) {
+        Some("csv" | "txt" | "tum" | "tsv") => Some(csv::read(&text_of(&bytes_of(path)?), scenario, columns, map)),
+        #[cfg(feature = "parquet")]
+        Some("parquet") => {
+            let file = std::fs::File::open(path).map_err(|reason| unreadable(path, reason))?;
+            Some(parquet::read(file, scenario, columns, map))
+        }
+        #[cfg(not(feature = "parquet"))]
+        Some("parquet") => return Err(PlanError::ParquetNotBuilt { path: path.to_owned() }),
+        _ => None,
+    })
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, PlanError> {
+    std::fs::read(path).map_err(|reason| unreadable(path, reason))
+}
+
+fn unreadable(path: &Path, reason: std::io::Error) -> PlanError {
+    PlanError::Read { path: path.to_owned(), reason }
 }
 
 /// Like [`read`], from the text of a JSON document. `name` is its name in messages.
@@ -208,7 +234,7 @@ pub fn parse_csv(
     text: &str,
     scenario: &Scenario,
 ) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
-    finish(name, csv::read(text, scenario, &ColumnMap::default()), scenario)
+    finish(name, csv::read(text, scenario, columns_of(scenario), &ColumnMap::default()), scenario)
 }
 
 /// Like [`read()`], from tables in memory. `name` is their name in messages.
@@ -230,10 +256,10 @@ fn finish(
     scenario: &Scenario,
 ) -> Result<(PlanHeader, Vec<ImportedTrajectory>), PlanError> {
     let checked = document.and_then(|document| {
-        let trajectories = check::trajectories(&document, scenario)?;
+        let trajectories = check::trajectories(&document, scenario, columns_of(scenario))?;
         Ok((document.header, trajectories))
     });
-    checked.map_err(|issues| PlanError::invalid(name, &scenario.name, issues))
+    checked.map_err(|issues| PlanError::invalid(name, "plan", &scenario.name, issues))
 }
 
 fn columns_of(scenario: &Scenario) -> &'static Columns {

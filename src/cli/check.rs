@@ -85,7 +85,7 @@ by uav_trajectories and Crazyswarm. Bezier curves and B-splines are given in JSO
 A JSON file is a plan.json of `harness run`, or these columns as arrays in every trajectory.
 docs/plans.md describes all formats.";
 
-fn column_map(text: &str) -> Result<ColumnMap, String> {
+pub fn column_map(text: &str) -> Result<ColumnMap, String> {
     ColumnMap::parse(text).map_err(|issue| issue.to_string())
 }
 

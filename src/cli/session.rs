@@ -16,7 +16,7 @@ use crate::output::report::json_lines::Event;
 use crate::output::report::terminal::{self, Detail};
 use crate::output::report::{Links, Summary, comparison_table, github, json_lines, junit};
 use crate::pipeline;
-use crate::pipeline::Outputs;
+use crate::pipeline::{JobResult, Outputs};
 use crate::progress::Progress;
 use crate::report::Report;
 
@@ -98,6 +98,9 @@ pub enum Format {
     JsonLines,
 }
 
+/// Carries out one job, with its results in a folder.
+pub type Execute<'a> = dyn Fn(&Job, &Outputs, &Path, &mut Progress) -> Result<JobResult, Error> + 'a;
+
 /// Results so far.
 #[derive(Default)]
 struct Completed {
@@ -135,6 +138,11 @@ impl Session {
 
     /// Runs all valid jobs, reports the others, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
+        self.run_by(jobs, &pipeline::run)
+    }
+
+    /// As [`run`](Self::run), with `execute` in place of the pipeline.
+    pub fn run_by(&self, jobs: Jobs, execute: &Execute<'_>) -> Result<Exit, Error> {
         let outputs = Outputs {
             waterfall: self.waterfall,
             recorders: self.recorders()?,
@@ -157,7 +165,7 @@ impl Session {
             jobs.runnable.iter().map(|job| format!("{} ({})", job.scenario.name, job.plan_source.name())),
         );
         for (index, job) in jobs.runnable.into_iter().enumerate() {
-            let report = self.run_job(&job, &outputs, index + 1, total)?;
+            let report = self.run_job(&job, &outputs, [index + 1, total], execute)?;
             done.summary.add(&report);
             done.reports.push(report);
             done.jobs.push(job);
@@ -165,10 +173,16 @@ impl Session {
         self.finish(done, baseline.as_ref())
     }
 
-    fn run_job(&self, job: &Job, outputs: &Outputs, number: usize, total: usize) -> Result<Report, Error> {
+    fn run_job(
+        &self,
+        job: &Job,
+        outputs: &Outputs,
+        [number, total]: [usize; 2],
+        execute: &Execute<'_>,
+    ) -> Result<Report, Error> {
         let mut progress = Progress::new(job, number, total, self.quiet);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
-        let done = pipeline::run(job, outputs, &folder, &mut progress)?;
+        let done = execute(job, outputs, &folder, &mut progress)?;
         interrupt::complete_job();
         progress.finish();
         let detail = if self.verbose { Detail::All } else { Detail::Decisive };

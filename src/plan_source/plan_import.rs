@@ -14,9 +14,10 @@ mod velocities;
 use nalgebra::Vector3;
 use rounding::Rounding;
 use scenarios::fixed_wing::{PartialTrajectory, State, Trajectory, states_from_velocities};
-use scenarios::plan_input::{ImportedTrajectory, PlanHeader};
+use scenarios::plan_input::{ImportedTrajectory, PlanHeader, RecordedRows, Setpoints};
 use scenarios::{Interpolation, Plan, PlanStatus, Scenario, Trajectory as AnyTrajectory, Vehicle, multirotor};
 
+use crate::number_format::quantity;
 use crate::verdict::fixed_wing::max_acceleration_mps2;
 use crate::verdict::reconstruction::{max_distance_m, max_velocity_from_chord_mps};
 use crate::verdict::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
@@ -70,6 +71,56 @@ pub fn complete(
         ..Plan::new(&scenario.name, planner, seed, trajectories)
     };
     CompletedPlan { plan, provenance }
+}
+
+/// The samples of a flight that was flown elsewhere, as trajectories, and where the vehicles were told to be.
+///
+/// - `rows`: one track per vehicle, in the order of the scenario
+/// - `name`: under which the results go
+pub fn complete_flight(scenario: &Scenario, rows: RecordedRows, name: &str) -> (CompletedPlan, Vec<Option<Setpoints>>) {
+    let mut provenance = Provenance::whole();
+    provenance.remarks = rows.remarks;
+    let (mut trajectories, mut setpoints) = (Vec::new(), Vec::new());
+    for (vehicle, track) in scenario.vehicles.iter().zip(rows.tracks) {
+        let (trajectory, own) = sampled(scenario, vehicle, track.motion);
+        provenance.remarks.extend(between_samples(scenario, vehicle, &trajectory, &own.given));
+        provenance.add(own);
+        trajectories.push(trajectory);
+        setpoints.push(track.setpoints);
+    }
+    let plan = Plan {
+        status: PlanStatus::Unstated,
+        ..Plan::new(&scenario.name, name, scenario.simulation.seed, trajectories)
+    };
+    (CompletedPlan { plan, provenance }, setpoints)
+}
+
+/// The samples of one vehicle. Those of a multirotor with velocities are not its whole motion, as those of a plan are.
+fn sampled(scenario: &Scenario, vehicle: &Vehicle, motion: ImportedTrajectory) -> (AnyTrajectory, VehicleProvenance) {
+    let (trajectory, own) = completed(scenario, vehicle, motion);
+    match &trajectory {
+        AnyTrajectory::Multirotor(rows) if own.given == GivenRows::Everything => {
+            let given = GivenRows::States(rows.states.iter().map(|state| state.velocity_mps).collect());
+            (trajectory, VehicleProvenance { given, ..own })
+        }
+        _ => (trajectory, own),
+    }
+}
+
+/// What is not known between the samples of a multirotor, for people; of others the reconstruction tells it.
+fn between_samples(
+    scenario: &Scenario,
+    vehicle: &Vehicle,
+    trajectory: &AnyTrajectory,
+    given: &GivenRows,
+) -> Option<String> {
+    let AnyTrajectory::Multirotor(rows) = trajectory else { return None };
+    let GivenRows::States(_) = given else { return None };
+    let acceleration_mps2 = scenario.multirotor_model(vehicle).limits.acceleration_mps2;
+    let longest_s = rows.times_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    let [longest, known] = [(longest_s, "s"), (max_distance_m(given, acceleration_mps2, longest_s), "m")]
+        .map(|(value, unit)| quantity(value, unit));
+    Some(format!("samples of {} up to {longest} apart: between them its motion is known to {known}", vehicle.name))
 }
 
 /// What the checks at the nodes rest on, if it is not every row.

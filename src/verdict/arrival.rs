@@ -89,7 +89,11 @@ fn settled_s(trajectory: &Trajectory) -> Option<f64> {
 /// Time from which on a vehicle stays within `tolerance_m` of its goal, s; `None` if it does not at the end.
 ///
 /// - `positions_m`: in the order of time, s
-fn reached_s(positions_m: impl Iterator<Item = (f64, [f64; 3])>, vehicle: &Vehicle, tolerance_m: f64) -> Option<f64> {
+pub(super) fn reached_s(
+    positions_m: impl Iterator<Item = (f64, [f64; 3])>,
+    vehicle: &Vehicle,
+    tolerance_m: f64,
+) -> Option<f64> {
     let goal_m = Vector3::from(vehicle.goal.position_m());
     let (mut outside, mut reached_s) = (None, None);
     for (t_s, position_m) in positions_m {
@@ -105,7 +109,7 @@ fn reached_s(positions_m: impl Iterator<Item = (f64, [f64; 3])>, vehicle: &Vehic
     reached_s
 }
 
-fn any_time(spec: &CheckSpec) -> Check {
+pub(super) fn any_time(spec: &CheckSpec) -> Check {
     spec.skip("the vehicles may arrive at different times")
 }
 

@@ -54,6 +54,7 @@ pub fn node_knot(trajectory: &Trajectory, node: usize) -> Knot {
 }
 
 /// Where and how fast a vehicle ends.
+#[derive(Clone, Debug)]
 pub struct End {
     /// When, s.
     pub t_s: f64,

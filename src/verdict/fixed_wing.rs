@@ -7,6 +7,7 @@ mod dynamics;
 mod limits;
 mod physics;
 mod planned;
+mod recorded;
 mod reference;
 
 use std::ops::Deref;
@@ -17,6 +18,7 @@ use scenarios::{CheckSpec, Family, Trajectory, Vehicle};
 pub use between_rows::max_acceleration_mps2;
 pub use clearance::{at_instant as clearance_at, at_nodes as clearance_at_nodes, closest as closest_obstacle};
 pub use planned::PlannedMotions;
+pub use recorded::checks as recorded_checks;
 
 use between_rows::RowTube;
 

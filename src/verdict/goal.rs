@@ -72,7 +72,7 @@ pub fn check_flown(
 /// The check of the part, of any vehicle, that uses most of its tolerance.
 ///
 /// - `end`: of the vehicle with this index
-fn check_worst(
+pub(super) fn check_worst(
     spec: &CheckSpec,
     scenario: &Scenario,
     end: impl Fn(usize) -> Result<End, MissingEvidence>,

@@ -1,9 +1,11 @@
 use scenarios::requirement::Requirement;
-use scenarios::{CheckSpec, Group, Plan, PlanStatus, Scenario, check_spec};
+use scenarios::{CheckSpec, Group, Plan, PlanStatus, Scenario, check_spec, checks_of};
 use sim::Flight;
 
 use crate::families;
 use crate::verdict::case::Case;
+use crate::verdict::evidence::Decide;
+use crate::verdict::recorded::RecordedFlight;
 use crate::verdict::{Check, Integration, Outcome, Provenance, Status, Verdict, collision};
 
 /// Judges a plan and its flight.
@@ -70,6 +72,30 @@ pub fn judge_with(
         Outcome::Pass
     };
     Verdict { outcome, overclaimed, checks, integration }
+}
+
+/// Judges a flight that was flown elsewhere, by its log.
+///
+/// The checks of the groups `nodes` and `plan` are skipped, since there is no plan, and so are those that need more than
+/// positions, velocities and setpoints. What the vehicle may have done between two samples is unknown within its limits: it is
+/// part of every distance and of every limit, and a check that it leaves open is undecided.
+pub fn judge_recorded(recording: &RecordedFlight<'_>) -> Verdict {
+    let scenario = recording.scenario;
+    let mut checks = match families::of(scenario.family()).recorded_checks {
+        Some(checks) => checks(recording),
+        None => all_skipped(scenario),
+    };
+    apply_check_policy(scenario, &mut checks);
+    let is_asked = checks.iter().any(|check| check.status != Status::Skip);
+    let passes = is_asked && !checks.iter().any(|check| check.is_bad() && !check.advisory);
+    let outcome = if passes { Outcome::Pass } else { Outcome::Fail };
+    Verdict { outcome, overclaimed: false, checks, integration: None }
+}
+
+/// Of a family whose flights are not judged from logs.
+fn all_skipped(scenario: &Scenario) -> Vec<Check> {
+    let reason = format!("flights of a {} are not judged from logs", scenario.family());
+    checks_of(scenario.family()).map(|spec| spec.skip(&reason)).collect()
 }
 
 /// Applies the scenario's rules on single checks: advisory ones do not decide, required ones must have been made.

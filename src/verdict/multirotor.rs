@@ -6,6 +6,7 @@ mod cubic;
 pub mod guard;
 mod limits;
 mod physics;
+mod recorded;
 mod reference;
 mod rest;
 
@@ -16,6 +17,8 @@ use scenarios::multirotor::Trajectory;
 use scenarios::{CheckSpec, Family, Plan};
 
 use between_nodes::BetweenNodes;
+pub use recorded::checks as recorded_checks;
+
 pub use clearance::{Clearances, ObstacleApproach, closest};
 
 use crate::verdict::case::{Case, CheckTable, function_of};

@@ -159,6 +159,13 @@ impl Provenance {
         rounded.map_or(0.0, |rounded| 3.0_f64.sqrt() * rounded.rounding_m)
     }
 
+    /// Reconstructed controls decide nothing by less than their error.
+    pub(super) fn mark_controls_undecided(&self, check: &mut Check) {
+        if let Some(reconstruction) = &self.reconstruction {
+            reconstruction.mark_undecided(check);
+        }
+    }
+
     /// Corrects the checks of an incomplete plan: reconstructed controls decide nothing by less than their error. What may
     /// lie between the rows is part of the distances already.
     pub(super) fn mark_undecided(&self, checks: &mut [Check]) {

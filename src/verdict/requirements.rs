@@ -17,7 +17,8 @@ mod tests;
 
 use rayon::prelude::*;
 use scenarios::requirement::{Formula, Requirement};
-use scenarios::{CheckSpec, Group, REQUIREMENT_CHECKS};
+use scenarios::{CheckSpec, Group, REQUIREMENT_CHECKS, Scenario};
+use sim::Flight;
 
 use crate::verdict::case::{Case, PLANNED_IN_LOOP};
 use crate::verdict::evidence::{CheckResult, Decide, Evidence, Measurement};
@@ -38,12 +39,23 @@ pub fn insert(
 ) {
     let end_of_plan = checks.iter().position(|check| check.name.starts_with("flight.")).unwrap_or(checks.len());
     let [of_plan, of_flight] = &REQUIREMENT_CHECKS;
-    let (mut planned, mut flown) = (of_group(of_plan, case, planned), of_group(of_flight, case, flown));
+    let planned_in_loop = case.is_planned_in_loop().then_some(PLANNED_IN_LOOP);
+    let mut planned = of_group(of_plan, case.scenario, planned, None, planned_in_loop);
+    let mut flown = of_group(of_flight, case.scenario, flown, case.flight().ok(), None);
     for requirement in &case.scenario.all_requirements() {
         require_answer(requirement, planned.iter_mut().chain(&mut flown));
     }
     checks.extend(flown);
     drop(checks.splice(end_of_plan..end_of_plan, planned));
+}
+
+/// Appends the checks of the requirements on a flight that was flown elsewhere. Requirements on the plan alone are not asked.
+pub fn append_recorded(checks: &mut Vec<Check>, scenario: &Scenario, flown: Evidence<'_, [Motion]>) {
+    let mut flown = of_group(&REQUIREMENT_CHECKS[1], scenario, flown, None, None);
+    let requirements = scenario.all_requirements();
+    let asked = requirements.iter().filter(|it| it.applies_to.covers(Group::Flight));
+    asked.for_each(|requirement| require_answer(requirement, flown.iter_mut()));
+    checks.extend(flown);
 }
 
 /// A requirement that neither plan nor flight answers is not kept: its first check fails.
@@ -59,18 +71,25 @@ fn require_answer<'a>(requirement: &Requirement, checks: impl Iterator<Item = &'
     }
 }
 
-fn of_group(spec: &CheckSpec, case: &Case<'_>, motions: Evidence<'_, [Motion]>) -> Vec<Check> {
-    let mut asked = case.scenario.all_requirements();
+/// - `flight`: the simulator's log, of a flight that it flew
+/// - `skipped`: why none is asked
+fn of_group(
+    spec: &CheckSpec,
+    scenario: &Scenario,
+    motions: Evidence<'_, [Motion]>,
+    flight: Option<&Flight>,
+    skipped: Option<&str>,
+) -> Vec<Check> {
+    let mut asked = scenario.all_requirements();
     asked.retain(|it| it.applies_to.covers(spec.group));
     if asked.is_empty() {
         return Vec::new();
     }
-    let flight = case.flight().ok().filter(|_| spec.group == Group::Flight);
-    let scene = motions.map(|motions| Scene::new(case.scenario, motions, flight));
+    let scene = motions.map(|motions| Scene::new(scenario, motions, flight));
     let is_reconstructed = motions.is_ok_and(|motions| motions.iter().any(Motion::is_reconstructed));
     let named = |requirement: &Requirement| {
-        let check = if spec.group == Group::Plan && case.is_planned_in_loop() {
-            spec.skip(PLANNED_IN_LOOP)
+        let check = if let Some(reason) = skipped {
+            spec.skip(reason)
         } else {
             let made = scene.as_ref().map_err(|missing| (*missing).clone());
             let made = made.and_then(|scene| check(spec, requirement, scene, is_reconstructed));
@@ -86,8 +105,8 @@ fn check(spec: &CheckSpec, requirement: &Requirement, scene: &Scene<'_>, is_reco
         Ok(formula) => formula,
         Err(error) => return Ok(spec.fail(format_args!("the formula cannot be evaluated: {error}"))),
     };
-    if let Some(signal) = formula.logged_signal().filter(|_| spec.group == Group::Plan) {
-        return Ok(spec.skip(format_args!("{signal} is known at the samples of a flight log only")));
+    if let Some(signal) = formula.logged_signal().filter(|_| !scene.is_logged()) {
+        return Ok(spec.skip(format_args!("{signal} is known at the samples of the simulator's flight log only")));
     }
     if is_reconstructed && formula.needs_velocities() {
         let reason = "the plan was reconstructed between its rows: its velocities are not known there";

@@ -8,6 +8,7 @@ mod external;
 mod falsifying;
 mod generating;
 mod in_ci;
+mod judging;
 mod listing;
 mod machine_faults;
 mod planning;

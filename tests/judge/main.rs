@@ -3,6 +3,8 @@
 mod between_samples;
 mod broken;
 mod clearances;
+#[path = "../../scenarios/tests/damage/mod.rs"]
+mod damage;
 mod dense_rows;
 #[path = "../edges/mod.rs"]
 mod edge_table;
@@ -11,6 +13,7 @@ mod fleet;
 mod geofences;
 mod goals;
 mod partial_plans;
+mod recorded;
 mod requirements;
 mod roundabout;
 mod rules;

@@ -1,12 +1,11 @@
 //! Damaged plan files are completed, flown and judged without a panic or a hang, and none passes wrongly.
 
-#[path = "../../scenarios/tests/damage/mod.rs"]
-mod damage;
-
 use harness::plan_source::plan_import::complete;
 use harness::verdict::{Outcome, is_flyable, judge_imported};
 use scenarios::plan_input::parse_csv;
 use scenarios::{Plan, Scenario};
+
+use crate::damage;
 
 const PAIR: &str = include_str!("../scenarios/pair.toml");
 const ROUNDS: usize = 3000;

@@ -18,6 +18,8 @@ pub(crate) struct FamilySpec {
     pub verdict_limits: AppliedLimits,
     /// Columns of a plan file.
     pub columns: &'static Columns,
+    /// Columns of the log of a flight flown elsewhere; `None` if it is not judged.
+    pub flight_columns: Option<&'static Columns>,
     /// The trajectory in a table whose columns have been checked and converted.
     pub import: fn(&ColumnTable) -> ImportedTrajectory,
     /// What simulator and judge do not support for this family. It is refused, so that nothing is ignored silently.

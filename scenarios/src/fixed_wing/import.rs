@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::{CSV_COLUMNS, Control, State};
 use crate::Family;
-use crate::plan_input::columns::Columns;
-use crate::plan_input::{ColumnTable, ImportedTrajectory};
+use crate::plan_input::columns::{Columns, Gaps};
+use crate::plan_input::{ColumnTable, ImportedTrajectory, flight_columns};
 
 const DEGREE: f64 = PI / 180.0;
 
@@ -18,12 +18,16 @@ pub(super) const COLUMNS: Columns = Columns {
     velocity: &[&["speed_mps", "heading_rad", "flight_path_rad"], &["vx_mps", "vy_mps", "vz_mps"]],
     controls: &["n_x", "n_y", "n_z"],
     optional: &[],
+    ignored: &[],
     converted: &[("heading_deg", "heading_rad", DEGREE), ("flight_path_deg", "flight_path_rad", DEGREE)],
     words: &[],
     arrays: &[],
     allows_discontinuity: false,
-    refuses_gaps: false,
+    gaps: Gaps::Judged,
 };
+
+/// Of a flight flown elsewhere.
+pub(super) const FLIGHT_COLUMNS: Columns = flight_columns(&COLUMNS);
 
 /// The planned motion of one aircraft as far as the file gives it: velocities and controls at every node, or not at all.
 #[derive(Clone, Debug, PartialEq)]

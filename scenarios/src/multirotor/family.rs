@@ -25,6 +25,7 @@ pub(crate) const FAMILY: FamilySpec = FamilySpec {
         switch_s: 0.02,
     },
     columns: &super::import::COLUMNS,
+    flight_columns: Some(&super::import::FLIGHT_COLUMNS),
     import: super::import::trajectory,
     unsupported,
 };

@@ -2,8 +2,8 @@
 
 use super::{CSV_COLUMNS, State, Trajectory};
 use crate::Family;
-use crate::plan_input::columns::Columns;
-use crate::plan_input::{ColumnTable, ImportedTrajectory};
+use crate::plan_input::columns::{Columns, Gaps};
+use crate::plan_input::{ColumnTable, ImportedTrajectory, flight_columns};
 
 /// Position and velocity; without the latter it is reconstructed.
 pub(super) const COLUMNS: Columns = Columns {
@@ -13,12 +13,16 @@ pub(super) const COLUMNS: Columns = Columns {
     velocity: &[&["vx_mps", "vy_mps", "vz_mps"]],
     controls: &[],
     optional: &[],
+    ignored: &[],
     converted: &[],
     words: &[],
     arrays: &[("position_m", &["x_m", "y_m", "z_m"]), ("velocity_mps", &["vx_mps", "vy_mps", "vz_mps"])],
     allows_discontinuity: true,
-    refuses_gaps: true,
+    gaps: Gaps::Refused,
 };
+
+/// Of a flight flown elsewhere.
+pub(super) const FLIGHT_COLUMNS: Columns = flight_columns(&COLUMNS);
 
 /// The planned motion of one multirotor by its positions alone.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::columns::Columns;
+use super::columns::{Columns, Gaps};
 use super::{ColumnTable, ImportedTrajectory, PlanDocument, PlanIssue, RowLocations, units};
 use crate::curve::Curve;
 use crate::{Issue, PlanStatus, Scenario, Vehicle, closest_name};
@@ -18,9 +18,12 @@ const MAX_INTERVALS: f64 = 20.0;
 const MAX_DURATIONS: f64 = 10.0;
 
 /// One trajectory per vehicle, in the order of the scenario, or all issues.
+///
+/// - `columns`: those of the kind of file
 pub(super) fn trajectories(
     document: &PlanDocument,
     scenario: &Scenario,
+    columns: &Columns,
 ) -> Result<Vec<ImportedTrajectory>, Vec<PlanIssue>> {
     let mut issues: Vec<PlanIssue> = other_scenario(document, scenario).into_iter().collect();
     if document.header.status == Some(PlanStatus::NoPlan) && document.tables.is_empty() && document.curves.is_empty() {
@@ -32,7 +35,7 @@ pub(super) fn trajectories(
         let table = document.tables.iter().find(|table| table.vehicle == vehicle.name);
         let curve = document.curves.iter().find(|curve| curve.vehicle == vehicle.name);
         let trajectory = match (table, curve) {
-            (Some(table), _) => trajectory(table, vehicle, scenario),
+            (Some(table), _) => trajectory(table, vehicle, scenario, columns),
             (None, Some(curve)) => of_curve(curve, vehicle, scenario),
             (None, None) => Err(vec![missing(vehicle)]),
         };
@@ -83,22 +86,22 @@ fn trajectory(
     table: &ColumnTable,
     vehicle: &Vehicle,
     scenario: &Scenario,
+    columns: &Columns,
 ) -> Result<ImportedTrajectory, Vec<PlanIssue>> {
     let table = &from_time_zero(table);
-    let spec = scenario.family().spec();
-    let mut issues = column_issues(table, spec.columns);
+    let mut issues = column_issues(table, columns);
     issues.extend(too_short(table));
     if issues.is_empty() {
         issues.extend(not_finite(table));
     }
     if issues.is_empty() {
         let max_end_s = MAX_DURATIONS * scenario.simulation.max_duration_s;
-        issues.extend(time_issue(table, spec.columns).or_else(|| too_long(table, max_end_s)));
+        issues.extend(time_issue(table, columns).or_else(|| too_long(table, max_end_s)));
     }
     if !issues.is_empty() {
         return Err(issues);
     }
-    let trajectory = (spec.import)(&converted(table, spec.columns));
+    let trajectory = (scenario.family().spec().import)(&converted(table, columns));
     let suspicions = units::suspicions(&trajectory, vehicle);
     let located = |(row, issue)| PlanIssue::new(table.locations.of(row), issue);
     if suspicions.is_empty() { Ok(trajectory) } else { Err(suspicions.into_iter().map(located).collect()) }
@@ -242,7 +245,10 @@ fn time_issue(table: &ColumnTable, columns: &Columns) -> Option<PlanIssue> {
             _ => return issue(row + 1, found, "rows in the order of time", "sort the rows of each vehicle by t_s"),
         }
     }
-    if columns.refuses_gaps { gap_issue(table, columns, &intervals_s) } else { None }
+    match columns.gaps {
+        Gaps::Judged => None,
+        Gaps::Refused | Gaps::RefusedAlways => gap_issue(table, columns, &intervals_s),
+    }
 }
 
 /// The first interval that is much longer than the others, and not a hover.
@@ -250,12 +256,18 @@ fn gap_issue(table: &ColumnTable, columns: &Columns, intervals_s: &[f64]) -> Opt
     let mut sorted: Vec<f64> = intervals_s.iter().copied().filter(|interval_s| *interval_s > 0.0).collect();
     sorted.sort_by(f64::total_cmp);
     let median_s = *sorted.get(sorted.len() / 2)?;
-    let is_gap = |row: &usize| intervals_s[*row] > MAX_INTERVALS * median_s && !is_hover(table, columns, *row);
+    let may_hover = |row| columns.gaps == Gaps::Refused && is_hover(table, columns, row);
+    let is_gap = |row: &usize| intervals_s[*row] > MAX_INTERVALS * median_s && !may_hover(*row);
     let gap = (0..intervals_s.len()).find(is_gap)?;
     let [from_s, to_s] = [table.times_s[gap], table.times_s[gap + 1]];
     let found = format!("a gap from {from_s} s to {to_s} s, where rows are {median_s:.3} s apart");
     let issue = Issue::new("t_s", found, "no interval longer than 20 times the median");
-    let issue = issue.remedy("add the missing rows, or resample the plan; two rows at rest at one place are a hover");
+    let issue = issue.remedy(match columns.gaps {
+        Gaps::RefusedAlways => "what the vehicle did meanwhile is not known: give a log without the gap",
+        Gaps::Refused | Gaps::Judged => {
+            "add the missing rows, or resample the plan; two rows at rest at one place are a hover"
+        }
+    });
     Some(PlanIssue::new(table.locations.of(gap + 1), of_vehicle(table, issue)))
 }
 

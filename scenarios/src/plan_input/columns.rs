@@ -17,6 +17,8 @@ pub struct Columns {
     pub controls: &'static [&'static str],
     /// Other columns that a file may have.
     pub optional: &'static [&'static str],
+    /// Columns that a file may have and that are not used, although their names resemble those of others.
+    pub ignored: &'static [&'static str],
     /// Columns in another unit: name, the column that it is converted to, and the factor.
     pub converted: &'static [(&'static str, &'static str, f64)],
     /// Columns of words: name, and the words for the numbers 0, 1, ...
@@ -25,9 +27,20 @@ pub struct Columns {
     pub arrays: &'static [(&'static str, &'static [&'static str])],
     /// Whether two successive rows may share a time, before and after a jump in velocity.
     pub allows_discontinuity: bool,
-    /// Whether the rows alone determine the motion between them, so that an interval much longer than the others is refused:
-    /// rows are missing. Otherwise the judge accounts for what may happen between two rows.
-    pub refuses_gaps: bool,
+    /// What an interval much longer than the others means.
+    pub gaps: Gaps,
+}
+
+/// What an interval between two rows means that is much longer than the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gaps {
+    /// Nothing: the judge accounts for what may happen between two rows.
+    Judged,
+    /// Rows are missing, unless the vehicle rests at one place from one row to the next: the rows alone determine the motion
+    /// between them.
+    Refused,
+    /// Rows are missing, also of a vehicle at rest: what a log does not show is not known.
+    RefusedAlways,
 }
 
 /// Name of the column with the vehicle's name.

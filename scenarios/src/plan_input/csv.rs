@@ -9,12 +9,19 @@ use super::{PlanDocument, PlanIssue, RowLocations, polynomial};
 use crate::{Issue, Scenario};
 
 /// Reads the text. The column `vehicle` is optional if the scenario has a single vehicle.
-pub(super) fn read(text: &str, scenario: &Scenario, map: &ColumnMap) -> Result<PlanDocument, Vec<PlanIssue>> {
+///
+/// - `known`: the columns of the kind of file
+pub(super) fn read(
+    text: &str,
+    scenario: &Scenario,
+    known: &'static Columns,
+    map: &ColumnMap,
+) -> Result<PlanDocument, Vec<PlanIssue>> {
     let layout = Layout::of(text)?;
     if polynomial::is_header(&layout.names) {
         return polynomial::read(&layout, scenario);
     }
-    let header = Header::read(&layout, scenario, map)?;
+    let header = Header::read(&layout, scenario, known, map)?;
     let mut document = PlanDocument::default();
     let mut issues = Vec::new();
     for record in layout.records() {
@@ -58,8 +65,12 @@ struct Header {
 }
 
 impl Header {
-    fn read(layout: &Layout, scenario: &Scenario, map: &ColumnMap) -> Result<Self, Vec<PlanIssue>> {
-        let known = super::columns_of(scenario);
+    fn read(
+        layout: &Layout,
+        scenario: &Scenario,
+        known: &'static Columns,
+        map: &ColumnMap,
+    ) -> Result<Self, Vec<PlanIssue>> {
         let place = format!(":{}", layout.header_line);
         let located = |issue: Issue| PlanIssue::new(place.clone(), issue);
         let theirs = layout.names.clone();

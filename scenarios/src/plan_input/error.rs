@@ -26,6 +26,22 @@ pub enum PlanError {
         /// The file.
         path: PathBuf,
     },
+    /// The extension of the file is not that of a flight log.
+    #[error("{}: a flight log is a table: .csv or .parquet (also .tsv, .txt or .tum)", path.display())]
+    #[diagnostic(help("rename the file if it has one of these formats"))]
+    FlightKind {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The flights of this family are not judged from logs.
+    #[error("{}: flights of a {family} cannot be judged from a log", path.display())]
+    #[diagnostic(help("positions and velocities of fixed wings and multirotors can: `harness judge --help`"))]
+    FlightFamily {
+        /// The file.
+        path: PathBuf,
+        /// The family.
+        family: crate::Family,
+    },
     /// A Parquet file, but the feature `parquet` is off.
     #[error("{}: this harness was built without Parquet support", path.display())]
     #[diagnostic(help("build it with `--features parquet` (on by default), or convert the file to CSV"))]
@@ -34,10 +50,12 @@ pub enum PlanError {
         path: PathBuf,
     },
     /// The content of the file is not a valid plan for the scenario.
-    #[error("{name} is not a valid plan for `{scenario}`: {count} {}", if *count == 1 { "error" } else { "errors" })]
+    #[error("{name} is not a valid {what} for `{scenario}`: {count} {}", if *count == 1 { "error" } else { "errors" })]
     Invalid {
         /// Name of the file, as the user gave it.
         name: String,
+        /// What it should be: a plan, or a flight.
+        what: &'static str,
         /// The scenario.
         scenario: String,
         /// Number of all issues.
@@ -70,13 +88,13 @@ impl PlanIssue {
 }
 
 impl PlanError {
-    pub(super) fn invalid(name: &str, scenario: &str, mut issues: Vec<PlanIssue>) -> Self {
+    pub(super) fn invalid(name: &str, what: &'static str, scenario: &str, mut issues: Vec<PlanIssue>) -> Self {
         let count = issues.len();
         issues.truncate(MAX_SHOWN_ISSUES);
         for issue in &mut issues {
             issue.place = format!("{name}{}", issue.place);
         }
-        Self::Invalid { name: name.to_owned(), scenario: scenario.to_owned(), count, issues }
+        Self::Invalid { name: name.to_owned(), what, scenario: scenario.to_owned(), count, issues }
     }
 
     /// One line per issue: `file:line: field: found ..., expected ...; remedy`.

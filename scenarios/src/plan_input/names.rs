@@ -4,7 +4,7 @@ use super::columns::{Columns, TIME, VEHICLE};
 use crate::{Issue, closest_name};
 
 /// Common names of columns, in lower case with underscores, by the name of the format. Lengths are in m, times in s.
-pub const ALIASES: [(&str, &[&str]); 8] = [
+pub const ALIASES: [(&str, &[&str]); 11] = [
     (VEHICLE, &["name", "vehicle_name", "drone", "uav", "robot", "agent"]),
     (TIME, &["t", "time", "times", "time_s", "timestamp", "timestamp_s", "sec", "seconds"]),
     ("x_m", &["x", "px", "p_x", "tx", "pos_x", "x_pos", "position_x", "pose_position_x", "east", "east_m"]),
@@ -13,6 +13,18 @@ pub const ALIASES: [(&str, &[&str]); 8] = [
     ("vx_mps", &["vx", "v_x", "vel_x", "x_vel", "velocity_x", "xdot", "x_dot", "dx", "vx_m_s"]),
     ("vy_mps", &["vy", "v_y", "vel_y", "y_vel", "velocity_y", "ydot", "y_dot", "dy", "vy_m_s"]),
     ("vz_mps", &["vz", "v_z", "vel_z", "z_vel", "velocity_z", "zdot", "z_dot", "dz", "vz_m_s"]),
+    (
+        "reference_x_m",
+        &["reference_x", "ref_x", "ref_x_m", "x_ref", "setpoint_x", "x_setpoint", "x_sp", "sp_x", "x_des", "desired_x"],
+    ),
+    (
+        "reference_y_m",
+        &["reference_y", "ref_y", "ref_y_m", "y_ref", "setpoint_y", "y_setpoint", "y_sp", "sp_y", "y_des", "desired_y"],
+    ),
+    (
+        "reference_z_m",
+        &["reference_z", "ref_z", "ref_z_m", "z_ref", "setpoint_z", "z_setpoint", "z_sp", "sp_z", "z_des", "desired_z"],
+    ),
 ];
 
 /// Units that may follow a name in brackets: the unit, the suffix of the columns that it measures, and its size in theirs.
@@ -103,6 +115,9 @@ impl ColumnMap {
         if let Some(entry) = self.entries.iter().find(|entry| is_named(name, &entry.theirs)) {
             let column = Meaning::Column(entry.ours.clone(), entry.factor);
             return Ok(if entry.ours.is_empty() { Meaning::Unused } else { column });
+        }
+        if known.ignored.contains(&name) {
+            return Ok(Meaning::Unused);
         }
         let names: Vec<&str> = known.names().into_iter().chain([TIME, VEHICLE]).collect();
         if names.contains(&name) {

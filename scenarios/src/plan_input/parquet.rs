@@ -16,7 +16,14 @@ use crate::{Issue, Scenario};
 const PANDAS_INDEX: &str = "__index_level";
 
 /// Reads the file. The column `vehicle` is optional if the scenario has a single vehicle.
-pub(super) fn read(file: File, scenario: &Scenario, map: &ColumnMap) -> Result<PlanDocument, Vec<PlanIssue>> {
+///
+/// - `known`: the columns of the kind of file
+pub(super) fn read(
+    file: File,
+    scenario: &Scenario,
+    known: &Columns,
+    map: &ColumnMap,
+) -> Result<PlanDocument, Vec<PlanIssue>> {
     let broken = |error: ParquetError| {
         let issue = Issue::new(
             "Parquet",
@@ -32,7 +39,6 @@ pub(super) fn read(file: File, scenario: &Scenario, map: &ColumnMap) -> Result<P
         let issue = Issue::new("columns", format!("two columns named `{twice}`"), "each name once");
         return Err(vec![PlanIssue::new("", issue.remedy("rename or remove one of them"))]);
     }
-    let known = super::columns_of(scenario);
     let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
     let missing = map.missing(&names);
     let meanings: Result<Vec<Meaning>, Issue> = names.iter().map(|name| map.meaning(name, known)).collect();

@@ -2,7 +2,7 @@
 
 use super::trajectory::DERIVED_FROM;
 use super::{AT_NODE, CSV_COLUMNS, Cable, Control, State, Trajectory};
-use crate::plan_input::columns::{Columns, without_vehicle_and_time};
+use crate::plan_input::columns::{Columns, Gaps, without_vehicle_and_time};
 use crate::plan_input::{ColumnTable, ImportedTrajectory};
 use crate::{Family, Interpolation};
 
@@ -15,6 +15,7 @@ pub(super) const COLUMNS: Columns = Columns {
     velocity: &[],
     controls: &[],
     optional: CSV_COLUMNS.split_at(DERIVED_FROM - 1).1,
+    ignored: &[],
     converted: &[],
     words: &[("cable", &["slack", "taut"]), (AT_NODE, &["no", "yes"])],
     arrays: &[
@@ -27,7 +28,7 @@ pub(super) const COLUMNS: Columns = Columns {
         ("thrust_n", &["thrust_1_n", "thrust_2_n", "thrust_3_n", "thrust_4_n"]),
     ],
     allows_discontinuity: true,
-    refuses_gaps: true,
+    gaps: Gaps::Refused,
 };
 
 pub(super) fn trajectory(table: &ColumnTable) -> ImportedTrajectory {

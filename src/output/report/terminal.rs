@@ -167,7 +167,8 @@ fn plan_line(report: &Report) -> String {
     let plan = &report.plan;
     let iterations = if plan.iterations > 0 { format!(", {} iterations", plan.iterations) } else { String::new() };
     let wall = if plan.wall_s > 0.0 { format!(" in {:.3} s on this machine", plan.wall_s) } else { String::new() };
-    let mut parts = vec![format!("plan: {}{iterations}{wall}", plan.status)];
+    let plain = if report.recorded { "log: flown elsewhere".to_owned() } else { format!("plan: {}", plan.status) };
+    let mut parts = vec![format!("{plain}{iterations}{wall}")];
     // A machine with a core for every vehicle is no slower than one computer per vehicle.
     if plan.distributed_s > 0.0 && plan.distributed_s < plan.wall_s {
         parts.push(format!("{:.3} s with one computer per vehicle", plan.distributed_s));

@@ -79,8 +79,22 @@ fn integrated(trajectory: &Trajectory) -> Result<(Motion, NodeError, NodeError),
         .filter_map(|(begin, knots)| knots.last().map(|end| defect(trajectory, [begin, begin + 1], end)));
     let defects = own.chain(window_starts(trajectory).flat_map(|begin| window_defects(trajectory, begin)));
     let largest = defects.reduce(NodeError::larger).ok_or(MissingEvidence::NoInterval)?;
-    let motion = Motion::new(&trajectory.vehicle, intervals.concat())?.sampled();
+    let motion = through(trajectory, &intervals)?;
     Ok((motion, largest, open_loop_error(trajectory)?))
+}
+
+/// The motion between the rows of a trajectory, restarted at each of them.
+///
+/// # Errors
+///
+/// The controls lead to values that cannot be judged.
+pub fn between_rows(trajectory: &Trajectory) -> Result<Motion, MissingEvidence> {
+    let intervals: Vec<Vec<Knot>> = (1..trajectory.times_s.len()).map(|end| interval(trajectory, end)).collect();
+    through(trajectory, &intervals)
+}
+
+fn through(trajectory: &Trajectory, intervals: &[Vec<Knot>]) -> Result<Motion, MissingEvidence> {
+    Ok(Motion::new(&trajectory.vehicle, intervals.concat())?.sampled())
 }
 
 /// The distance of the end of a motion from a node: the larger of |Δp| and |Δv| times the duration.

@@ -50,8 +50,10 @@ pub fn check_flown(
     })
 }
 
+/// The check of the vehicle that is fastest at its end.
+///
 /// - `end`: velocity, and time, s, at the end of a vehicle's plan
-fn check_fastest(
+pub fn check_fastest(
     spec: &CheckSpec,
     scenario: &Scenario,
     end: impl Fn(usize) -> Option<(EndVelocity, f64)>,

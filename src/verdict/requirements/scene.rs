@@ -66,6 +66,11 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Whether there is a log of the flight, for quantities that the motion does not show.
+    pub fn is_logged(&self) -> bool {
+        self.flight.is_some()
+    }
+
     /// The index of the body that a subject stands for.
     ///
     /// - `assigned`: the vehicle of every variable
