@@ -64,6 +64,7 @@ pub use judge::{judge, judge_imported, judge_recorded, judge_with};
 pub use missing_evidence::MissingEvidence;
 pub use motion::{Knot, KnotDefect, Motion};
 pub use provenance::{EndVelocity, GivenRows, Provenance, Reconstruction, RoundedRows, VehicleProvenance};
+pub use requirements::{RobustnessOverTime, robustness_over_time};
 pub use separation::at_nodes as separation_at_nodes;
 pub use tracking::{
     largest as largest_tracking_error, root_mean_square as root_mean_square_tracking_error, saturation,

@@ -31,6 +31,7 @@ mod map;
 pub mod multirotor;
 mod obstacles;
 mod paths;
+mod requirements;
 mod series;
 mod shape;
 pub mod slung_load;

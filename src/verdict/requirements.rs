@@ -10,6 +10,7 @@ mod explanation;
 mod grid;
 mod instance;
 mod interval;
+mod over_time;
 mod scene;
 mod signal;
 #[cfg(test)]
@@ -27,6 +28,8 @@ use crate::verdict::{Check, Status};
 use grid::Robustness;
 use instance::Instance;
 use scene::Scene;
+
+pub use over_time::{RobustnessOverTime, robustness_over_time};
 
 /// Inserts the checks of all requirements, in the order of a verdict.
 ///

@@ -1,6 +1,6 @@
 //! Requirements in the user's own words: each goes red, near misses pass, and the page of examples holds.
 
-use harness::verdict::{Check, Status, judge};
+use harness::verdict::{Check, FlownMotions, Status, judge, robustness_over_time};
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
 use scenarios::requirement::{AppliesTo, Requirement, SIGNALS};
@@ -196,6 +196,36 @@ fn via_points_are_passed_in_their_order_and_windows() {
     case.scenario.requirements.push(Requirement { name: "via-uav-2".into(), ..requirement("always speed > 1 m/s") });
     let issues = scenarios::validate(&case.scenario);
     assert!(issues.iter().any(|it| it.field == "requirements[0].name"), "{issues:?}");
+}
+
+/// What is shown of `always A` is A, of what holds for all vehicles the worst one, of what holds for some the best.
+#[test]
+fn robustness_is_shown_over_time() {
+    let mut case = Case::good();
+    case.scenario.requirements = [
+        "for all pairs a, b: always distance(a, b) > 150 m",
+        "for some a: always distance(a, point(0 m, 0 m, 400 m)) < 800 m",
+        "eventually [0 s, 5 s] altitude(uav-1) > 410 m",
+        "for all a: for some b: always distance(a, b) > 1 m",
+    ]
+    .into_iter()
+    .enumerate()
+    .map(|(index, formula)| Requirement { name: format!("r{index}"), ..requirement(formula) })
+    .collect();
+    let flight = case.flight.clone().expect("a flight");
+    let flown = FlownMotions::new(&case.scenario, &case.plan, &flight).expect("a flight of the plan");
+    let curves = robustness_over_time(&case.scenario, &flown.motions, &flight);
+    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+    assert_eq!(names, ["r0", "r1", "r2"], "no vehicle is the worst of the last one");
+    let expected: [fn(f64) -> f64; 3] = [|_| 50.0, |t_s| 800.0 - 35.0 * t_s, |_| -10.0];
+    for (curve, expected) in curves.iter().zip(expected) {
+        assert_eq!(curve.unit, "m");
+        assert!(curve.points.len() > 300 && curve.points[0].0 == 0.0, "{}", curve.points.len());
+        for (t_s, value) in &curve.points {
+            // Each point holds for an interval of 0.05 s.
+            assert!((value - expected(*t_s)).abs() < 4.0, "{}: {value} at {t_s} s", curve.name);
+        }
+    }
 }
 
 /// Straight and level: n_x is 0, n_z is 1.

@@ -2,7 +2,7 @@
 
 use scenarios::Scenario;
 
-use super::{Curve, PlotView, Scene, Series, colours};
+use super::{Curve, PlotView, Scene, Series, colours, requirements};
 use crate::metrics::over_time::{DistanceSample, separation_over_time};
 use crate::output::run::JudgedRun;
 use crate::verdict::{FlownMotions, Motion, is_flyable};
@@ -12,7 +12,7 @@ const STEP_S: f64 = 0.02;
 /// Largest number of points of a curve.
 const MAX_POINTS: usize = 4000;
 
-/// Adds separation and clearance of the fleet with their limits, and returns them.
+/// Adds separation and clearance of the fleet with their limits, and the robustness of requirements. Returns the distances.
 ///
 /// - `clearance_over_time`: smallest clearance of any of the motions, at steps of the given length, s
 pub(super) fn add(
@@ -20,7 +20,11 @@ pub(super) fn add(
     run: &JudgedRun<'_>,
     clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
 ) -> Distances {
-    let distances = Distances::new(run, clearance_over_time);
+    let Some(flown) = judged_motions(run) else { return Distances::default() };
+    let distances = Distances::new(run, &flown.motions, clearance_over_time);
+    if let Some(flight) = run.flight {
+        requirements::add(scene, run, &flown.motions, flight);
+    }
     let end_s = scene.end_s;
     let fleet = |group, title: &str, curve: &Curve| Series {
         title: title.to_owned(),
@@ -38,6 +42,12 @@ pub(super) fn add(
     distances
 }
 
+/// The flight while it is judged, if it can be.
+fn judged_motions<'a>(run: &JudgedRun<'a>) -> Option<FlownMotions<'a>> {
+    let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok())?;
+    FlownMotions::new(run.scenario, run.plan, flight).ok()
+}
+
 /// Smallest separation and clearance of the fleet over time, m. `None`: not limited, or not defined for this flight.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Distances {
@@ -48,14 +58,14 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    fn new(run: &JudgedRun<'_>, clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>) -> Self {
-        let flight = run.flight.filter(|_| is_flyable(run.scenario, run.plan).is_ok());
-        let Some(Ok(flown)) = flight.map(|flight| FlownMotions::new(run.scenario, run.plan, flight)) else {
-            return Self::default();
-        };
+    fn new(
+        run: &JudgedRun<'_>,
+        motions: &[Motion],
+        clearance_over_time: fn(&Scenario, &[Motion], f64) -> Vec<DistanceSample>,
+    ) -> Self {
         let rule = run.scenario.separation();
-        let separation = rule.map_or_else(Vec::new, |rule| separation_over_time(&flown.motions, rule.measure, STEP_S));
-        let clearance = clearance_over_time(run.scenario, &flown.motions, STEP_S);
+        let separation = rule.map_or_else(Vec::new, |rule| separation_over_time(motions, rule.measure, STEP_S));
+        let clearance = clearance_over_time(run.scenario, motions, STEP_S);
         Self {
             separation: with_worst(run, "flight.separation", &separation),
             clearance: with_worst(run, "flight.clearance", &clearance),

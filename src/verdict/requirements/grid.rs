@@ -42,7 +42,7 @@ pub struct Robustness {
 ///
 /// - `beat`: the smallest robustness known so far: bounds above it need not be refined
 pub fn robustness(instance: &Instance<'_>, beat: f64) -> Robustness {
-    let mut grid = Grid::new(instance);
+    let mut grid = Grid::new(instance, FIRST_CELLS);
     let mut evaluations = 0;
     loop {
         let clause = &instance.formula.body;
@@ -74,7 +74,7 @@ fn is_wide(bounds: Interval, tolerance: f64) -> bool {
 }
 
 /// Cells that cover the motion; the first one is its first instant.
-struct Grid<'a> {
+pub struct Grid<'a> {
     instance: &'a Instance<'a>,
     /// Beginnings of the cells, and the end of the last one, s.
     times_s: Vec<f64>,
@@ -91,13 +91,14 @@ struct Evaluated {
 }
 
 impl<'a> Grid<'a> {
-    fn new(instance: &'a Instance<'a>) -> Self {
+    /// - `cells`: how many at first, of equal length
+    pub fn new(instance: &'a Instance<'a>, cells: usize) -> Self {
         let [begin_s, end_s] = instance.lifetime_s;
         let time = |index: usize| {
-            let fraction = index as f64 / FIRST_CELLS as f64;
-            if index == FIRST_CELLS { end_s } else { begin_s + fraction * (end_s - begin_s) }
+            let fraction = index as f64 / cells as f64;
+            if index == cells { end_s } else { begin_s + fraction * (end_s - begin_s) }
         };
-        let times_s: Vec<f64> = std::iter::once(begin_s).chain((0..=FIRST_CELLS).map(time)).collect();
+        let times_s: Vec<f64> = std::iter::once(begin_s).chain((0..=cells).map(time)).collect();
         let mut grid = Self { instance, times_s, predicates: Vec::new(), irreducible: Vec::new() };
         for predicate in 0..instance.formula.predicates.len() {
             let bounds = (0..grid.cells()).map(|cell| grid.bound(predicate, cell));
@@ -106,6 +107,11 @@ impl<'a> Grid<'a> {
             grid.irreducible.push(widths);
         }
         grid
+    }
+
+    /// Bounds of a clause in every cell, by the beginning of the cell, s.
+    pub fn bounds_over_time(&self, clause: &Clause) -> Vec<(f64, Interval)> {
+        self.times_s.iter().copied().zip(self.evaluate(clause).values).skip(1).collect()
     }
 
     fn cells(&self) -> usize {

@@ -5,7 +5,7 @@ use scenarios::slung_load::{Cable, Model, Trajectory};
 use sim::slung_load::{Part, Parts, SlungLoadState};
 use sim::{Actuation, EventKind, Flight, LoadSample, Sample, VehicleLog};
 
-use super::super::{Channel, Channels, Curve, Plot, Scene, Series, StateSeries, colours, distance_m};
+use super::super::{Channel, Channels, Curve, Plot, Scene, Series, StateSeries, colours, distance_m, requirements};
 use crate::output::run::JudgedRun;
 use crate::verdict::is_flyable;
 use crate::verdict::slung_load::{FlownMotion, PlannedMotion, TENSION_WINDOW_S};
@@ -103,9 +103,11 @@ fn add_tension(scene: &mut Scene<'_>, run: &JudgedRun<'_>, log: &VehicleLog) {
     }
 }
 
-/// Distance of every part and of the envelope to the nearest obstacle; of the body to the ground too.
+/// Distance of every part and of the envelope to the nearest obstacle; of the body to the ground too. Then the robustness of
+/// requirements.
 fn add_distances(scene: &mut Scene<'_>, run: &JudgedRun<'_>, model: &Model, flight: &Flight) {
     let Ok(flown) = FlownMotion::new(flight) else { return };
+    requirements::add(scene, run, &flown.motions, flight);
     let (obstacles, parts) = (run.scenario.world.prism_obstacles(), Parts::new(model));
     let ground_m = run.scenario.world.ground_m.unwrap_or(f64::NEG_INFINITY);
     let stride = (DISTANCE_STEP_S / run.scenario.simulation.step_s).round().max(1.0) as usize;
