@@ -158,7 +158,7 @@ mod tests {
         fleet.fleet.separation_height_m = Some(30.0);
         assert_eq!(reason(&fleet), "");
         assert_eq!(fleet.horizontal_separation_m(), Some(100.0));
-        let first = fleet.vehicles[0].start.clone();
+        let first = fleet.vehicles[0].start;
         fleet.vehicles[1].start = Waypoint { z_m: first.z_m + 40.0, ..first };
         assert!(reason(&fleet).contains("start nearer to each other"), "{}", reason(&fleet));
         let mut crossing = load("multirotor/crossing-4.toml");

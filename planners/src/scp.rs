@@ -55,13 +55,12 @@ pub fn unsupported_reason(scenario: &Scenario) -> Option<String> {
 /// Two vehicles that begin or end nearer to each other than these planners keep them.
 fn above_each_other(scenario: &Scenario) -> Option<String> {
     let separation_m = scenario.horizontal_separation_m()?;
-    let ends: [(&str, fn(&Vehicle) -> &Waypoint); 2] = [("start", |it| &it.start), ("end", |it| &it.goal)];
+    let are_near = |a: &Waypoint, b: &Waypoint| (a.x_m - b.x_m).hypot(a.y_m - b.y_m) < separation_m;
     scenario.vehicles.iter().enumerate().find_map(|(later, vehicle)| {
         scenario.vehicles[..later].iter().find_map(|other| {
-            let (verb, _) = ends.iter().find(|(_, end)| {
-                let (a, b) = (end(vehicle), end(other));
-                (a.x_m - b.x_m).hypot(a.y_m - b.y_m) < separation_m
-            })?;
+            let ends =
+                [("start", are_near(&vehicle.start, &other.start)), ("end", are_near(&vehicle.goal, &other.goal))];
+            let (verb, _) = ends.into_iter().find(|(_, are_near)| *are_near)?;
             let [a, b] = [&other.name, &vehicle.name];
             Some(format!(
                 "it keeps vehicles {separation_m} m apart horizontally, and `{a}` and `{b}` {verb} nearer to each other"
