@@ -11,6 +11,7 @@ mod diverge;
 mod falsify;
 mod figures;
 mod generate;
+mod job_queue;
 mod list;
 #[cfg(feature = "parquet")]
 mod merge;
