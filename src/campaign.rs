@@ -17,5 +17,7 @@ pub mod probability;
 pub mod scenario_document;
 pub mod selftest;
 pub mod shrinking;
+#[cfg(feature = "parquet")]
+pub mod sweep_comparison;
 pub mod trial;
 pub mod typical_disturbances;

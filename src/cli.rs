@@ -11,6 +11,7 @@ mod diverge;
 mod falsify;
 mod figures;
 mod generate;
+mod job_queue;
 mod judge;
 mod list;
 #[cfg(feature = "parquet")]

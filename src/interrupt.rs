@@ -20,21 +20,22 @@ const STOP_TIMEOUT: Duration = Duration::from_secs(2);
 const MAX_NAMES: usize = 5;
 
 /// State of the running command.
-static RUN_STATE: Mutex<RunState> = Mutex::new(RunState {
-    incomplete: BTreeSet::new(),
-    process_groups: Vec::new(),
-    complete_jobs: Vec::new(),
-    open_jobs: Vec::new(),
-});
+static RUN_STATE: Mutex<RunState> =
+    Mutex::new(RunState { incomplete: BTreeSet::new(), process_groups: Vec::new(), jobs: Vec::new() });
 
 struct RunState {
     /// Files and folders that are of no use until they are complete.
     incomplete: BTreeSet<PathBuf>,
     /// Process groups that do not receive the signal themselves.
     process_groups: Vec<ProcessGroup>,
-    complete_jobs: Vec<String>,
-    /// The running job and those that have not been started.
-    open_jobs: Vec<String>,
+    jobs: Vec<(String, JobState)>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum JobState {
+    NotStarted,
+    Running,
+    Complete,
 }
 
 /// Installs the handler for ctrl-C and termination signals. Called once, by the program.
@@ -46,17 +47,22 @@ pub fn watch() {
 
 /// Sets the list of jobs, in order, for the summary. Replaces an earlier list.
 pub fn begin_jobs(jobs: impl IntoIterator<Item = String>) {
-    let mut state = lock();
-    state.complete_jobs.clear();
-    state.open_jobs = jobs.into_iter().collect();
+    lock().jobs = jobs.into_iter().map(|job| (job, JobState::NotStarted)).collect();
 }
 
-/// Marks the first open job as complete.
-pub fn complete_job() {
-    let mut state = lock();
-    if !state.open_jobs.is_empty() {
-        let job = state.open_jobs.remove(0);
-        state.complete_jobs.push(job);
+/// Marks the job of this index as running.
+pub fn start_job(index: usize) {
+    set_state(index, JobState::Running);
+}
+
+/// Marks the job of this index as complete.
+pub fn complete_job(index: usize) {
+    set_state(index, JobState::Complete);
+}
+
+fn set_state(index: usize, to: JobState) {
+    if let Some((_, state)) = lock().jobs.get_mut(index) {
+        *state = to;
     }
 }
 
@@ -119,28 +125,36 @@ fn stop() {
     for path in &state.incomplete {
         let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
     }
-    console::eprint(&interrupt_summary(&state.complete_jobs, &state.open_jobs));
+    console::eprint(&interrupt_summary(&state.jobs));
     std::process::exit(EXIT_CODE);
 }
 
 /// Which jobs are complete and which are not.
-fn interrupt_summary(complete: &[String], open: &[String]) -> String {
-    let total = complete.len() + open.len();
-    let Some((current, rest)) = open.split_first() else {
-        return "\nstopped: no incomplete files are left".to_owned();
+fn interrupt_summary(jobs: &[(String, JobState)]) -> String {
+    let names = |wanted: JobState| -> Vec<&str> {
+        jobs.iter().filter(|(_, state)| *state == wanted).map(|(name, _)| name.as_str()).collect()
     };
-    let done = if complete.is_empty() { String::new() } else { format!(": {}", first_names(complete)) };
-    let not_started = if rest.is_empty() { String::new() } else { format!("; not started: {}", first_names(rest)) };
-    format!(
-        "\nstopped: {} of {total} are complete{done}\n\
-         not complete: {current}; its folder may mix files from two runs{not_started}\n\
-         the summaries are still those of the previous run",
-        complete.len()
-    )
+    let [complete, running, waiting] = [JobState::Complete, JobState::Running, JobState::NotStarted].map(names);
+    if running.is_empty() && waiting.is_empty() {
+        return "\nstopped: no incomplete files are left".to_owned();
+    }
+    let mut lines = vec![format!("\nstopped: {} of {} are complete", complete.len(), jobs.len())];
+    if !complete.is_empty() {
+        lines[0] += &format!(": {}", first_names(&complete));
+    }
+    if !running.is_empty() {
+        let folders = if running.len() == 1 { "its folder" } else { "their folders" };
+        lines.push(format!("not complete: {}; {folders} may mix files from two runs", first_names(&running)));
+    }
+    if !waiting.is_empty() {
+        lines.push(format!("not started: {}", first_names(&waiting)));
+    }
+    lines.push("the summaries are still those of the previous run".to_owned());
+    lines.join("\n")
 }
 
 /// The first [`MAX_NAMES`] names, and the number of the others.
-fn first_names(names: &[String]) -> String {
+fn first_names(names: &[&str]) -> String {
     let (named, others) = names.split_at(names.len().min(MAX_NAMES));
     let more = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
     format!("{}{more}", named.join(", "))
@@ -152,17 +166,28 @@ fn lock() -> MutexGuard<'static, RunState> {
 
 #[cfg(test)]
 mod tests {
-    use super::interrupt_summary;
+    use super::{JobState, interrupt_summary};
 
     #[test]
     fn the_summary_lists_complete_and_incomplete_jobs() {
-        let jobs = ["a", "b", "c"].map(str::to_owned);
-        let text = interrupt_summary(&jobs[..1], &jobs[1..]);
-        assert!(text.contains("1 of 3 are complete: a\n"), "{text}");
-        assert!(text.contains("not complete: b; ") && text.contains("; not started: c\n"), "{text}");
-        let many: Vec<String> = (0..9).map(|number| number.to_string()).collect();
-        assert!(interrupt_summary(&[], &many).contains("not started: 1, 2, 3, 4, 5 and 3 more\n"));
-        assert!(interrupt_summary(&[], &jobs[..1]).contains("0 of 1 are complete\nnot complete: a;"));
-        assert!(interrupt_summary(&[], &[]).contains("no incomplete files"));
+        let jobs = |states: &[JobState]| -> Vec<(String, JobState)> {
+            states.iter().enumerate().map(|(index, state)| (format!("job-{index}"), *state)).collect()
+        };
+        let (done, runs, waits) = (JobState::Complete, JobState::Running, JobState::NotStarted);
+        let text = interrupt_summary(&jobs(&[done, runs, waits]));
+        assert!(text.contains("1 of 3 are complete: job-0\n"), "{text}");
+        assert!(
+            text.contains("not complete: job-1; its folder may") && text.contains("\nnot started: job-2\n"),
+            "{text}"
+        );
+        let text = interrupt_summary(&jobs(&[runs, done, runs]));
+        assert!(text.contains("1 of 3 are complete: job-1\nnot complete: job-0, job-2; their folders may"), "{text}");
+        assert!(
+            interrupt_summary(&jobs(&[waits; 9]))
+                .contains("not started: job-0, job-1, job-2, job-3, job-4 and 4 more\n")
+        );
+        for all in [&[][..], &[done, done]] {
+            assert!(interrupt_summary(&jobs(all)).contains("no incomplete files"));
+        }
     }
 }

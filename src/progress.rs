@@ -1,13 +1,22 @@
 //! Progress on standard error: a spinner on a terminal, plain lines elsewhere.
 
 use std::io::IsTerminal;
+use std::sync::LazyLock;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use scenarios::Iteration;
 
 use crate::console;
 use crate::jobs::Job;
+
+/// The spinners of all jobs that run.
+static SPINNERS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+
+/// Hides the spinners while something is printed.
+pub fn suspended<T>(print: impl FnOnce() -> T) -> T {
+    SPINNERS.suspend(print)
+}
 
 /// Progress of one job.
 pub struct Progress {
@@ -96,6 +105,7 @@ impl Progress {
     pub fn finish(self) {
         if let Display::Bar(bar) = self.display {
             bar.finish_and_clear();
+            SPINNERS.remove(&bar);
         }
     }
 
@@ -119,7 +129,7 @@ impl Progress {
 fn bar(prefix: String) -> ProgressBar {
     let style =
         ProgressStyle::with_template("{spinner} {prefix}: {wide_msg} {elapsed}").expect("the template is valid");
-    let bar = ProgressBar::new_spinner().with_style(style).with_prefix(prefix);
+    let bar = SPINNERS.add(ProgressBar::new_spinner()).with_style(style).with_prefix(prefix);
     bar.enable_steady_tick(Duration::from_millis(100));
     bar
 }

@@ -4,6 +4,8 @@ use clap::{Args, Subcommand};
 
 use super::session::Format;
 use crate::campaign::comparison::{self, Baseline, Entry, Scope, Snapshot};
+#[cfg(feature = "parquet")]
+use crate::campaign::sweep_comparison;
 use crate::console;
 use crate::error::{Error, Exit};
 use crate::output::page;
@@ -15,15 +17,18 @@ use crate::verdict::Outcome;
 ///
 /// Verdicts, check statuses, margins, flight times and tracking errors are compared, numbers within a tolerance. Planning
 /// times are reported but do not decide. The exit code is 1 if anything got worse by more than its tolerance.
+///
+/// Of two sweep.parquet, sample k of both is a pair: verdicts and margins are compared by sign tests, which find a difference
+/// in two sweeps of one system with a probability of 5 % at most.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out\n  harness compare out/main out/branch --html"
+    after_help = "Examples:\n  harness compare out/main out/branch\n  harness compare baseline.json out\n  harness compare out/main out/branch --html\n  harness compare old/forest/rhc/sweep.parquet new/forest/rhc/sweep.parquet"
 )]
 pub struct Compare {
-    /// The reference: a result folder, a report.json or a baseline file
+    /// The reference: a result folder, a report.json, a baseline file or a sweep.parquet
     #[arg(value_name = "OLD")]
     old: PathBuf,
-    /// The results to compare with it: a result folder, a report.json or a baseline file
+    /// The results to compare with it: a result folder, a report.json, a baseline file or a sweep.parquet
     #[arg(value_name = "NEW")]
     new: PathBuf,
     /// Write the report page NEW/index.html, with the old results beside the new ones; NEW must be a result folder
@@ -37,6 +42,9 @@ pub struct Compare {
 impl Compare {
     /// Compares and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
+        if [&self.old, &self.new].iter().all(|path| path.extension().is_some_and(|it| it == "parquet")) {
+            return self.sweeps();
+        }
         let (old, new) = (Snapshot::read(&self.old)?, Snapshot::read(&self.new)?);
         let compared = comparison::compare(&old, &new, Scope::Everything);
         if self.html {
@@ -48,6 +56,23 @@ impl Compare {
             Format::JsonLines => json_lines::print(&Event::Comparison { comparison: &compared })?,
         }
         Ok(if compared.is_good() { Exit::Passed } else { Exit::Failed })
+    }
+}
+
+impl Compare {
+    #[cfg(feature = "parquet")]
+    fn sweeps(&self) -> Result<Exit, Error> {
+        let compared = sweep_comparison::compare(&self.old, &self.new)?;
+        match self.format {
+            Format::Text => console::print(&sweep_comparison::text(&compared))?,
+            Format::JsonLines => json_lines::print(&Event::SweepComparison { comparison: &compared })?,
+        }
+        Ok(if compared.has_losses() { Exit::Failed } else { Exit::Passed })
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn sweeps(&self) -> Result<Exit, Error> {
+        Err(Error::results(&self.old, "this harness was built without the feature `parquet`".to_owned()))
     }
 }
 

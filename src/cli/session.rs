@@ -2,7 +2,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use scenarios::PlanningClock;
 
+use super::job_queue;
 use crate::campaign::comparison::{self, Comparison, Scope, Snapshot};
 use crate::console;
 use crate::error::{Error, Exit};
@@ -17,6 +19,8 @@ use crate::output::report::terminal::{self, Detail};
 use crate::output::report::{Links, Summary, comparison_table, github, json_lines, junit};
 use crate::pipeline;
 use crate::pipeline::{JobResult, Outputs};
+use crate::plan_source::PlanSource;
+use crate::progress;
 use crate::progress::Progress;
 use crate::report::Report;
 
@@ -48,7 +52,8 @@ pub struct Session {
     /// --baseline, if it is a folder]
     #[arg(long, value_name = "DIR")]
     ghost: Option<PathBuf>,
-    /// Number of worker threads [default: one per core]; results do not depend on it
+    /// Number of worker threads, and of scenarios that run side by side [default: one per core]; results do not depend on it,
+    /// planning times do. An external planner has the machine for itself
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Format of standard output
@@ -99,7 +104,7 @@ pub enum Format {
 }
 
 /// Carries out one job, with its results in a folder.
-pub type Execute<'a> = dyn Fn(&Job, &Outputs, &Path, &mut Progress) -> Result<JobResult, Error> + 'a;
+pub type Execute<'a> = dyn Fn(&Job, &Outputs, &Path, &mut Progress) -> Result<JobResult, Error> + Sync + 'a;
 
 /// Results so far.
 #[derive(Default)]
@@ -164,12 +169,14 @@ impl Session {
         interrupt::begin_jobs(
             jobs.runnable.iter().map(|job| format!("{} ({})", job.scenario.name, job.plan_source.name())),
         );
-        for (index, job) in jobs.runnable.into_iter().enumerate() {
-            let report = self.run_job(&job, &outputs, [index + 1, total], execute)?;
-            done.summary.add(&report);
-            done.reports.push(report);
-            done.jobs.push(job);
-        }
+        let work = |index: usize, job: &Job| self.run_job(job, &outputs, [index, total], execute);
+        job_queue::in_order(&jobs.runnable, rayon::current_num_threads(), uses_wall_clock, work, |_, result| {
+            done.summary.add(&result.report);
+            progress::suspended(|| self.show_result(&result))?;
+            done.reports.push(result.report);
+            Ok(())
+        })?;
+        done.jobs = jobs.runnable;
         self.finish(done, baseline.as_ref())
     }
 
@@ -177,18 +184,22 @@ impl Session {
         &self,
         job: &Job,
         outputs: &Outputs,
-        [number, total]: [usize; 2],
+        [index, total]: [usize; 2],
         execute: &Execute<'_>,
-    ) -> Result<Report, Error> {
-        let mut progress = Progress::new(job, number, total, self.quiet);
+    ) -> Result<JobResult, Error> {
+        interrupt::start_job(index);
+        let mut progress = Progress::new(job, index + 1, total, self.quiet);
         let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
-        let done = execute(job, outputs, &folder, &mut progress)?;
-        interrupt::complete_job();
+        let result = execute(job, outputs, &folder, &mut progress)?;
+        interrupt::complete_job(index);
         progress.finish();
+        Ok(result)
+    }
+
+    fn show_result(&self, result: &JobResult) -> Result<(), Error> {
         let detail = if self.verbose { Detail::All } else { Detail::Decisive };
-        self.show(&terminal::report(&done.report, done.log.as_deref(), detail))?;
-        self.event(&Event::Report { report: &done.report })?;
-        Ok(done.report)
+        self.show(&terminal::report(&result.report, result.log.as_deref(), detail))?;
+        self.event(&Event::Report { report: &result.report })
     }
 
     fn finish(&self, mut done: Completed, baseline: Option<&Snapshot>) -> Result<Exit, Error> {
@@ -260,6 +271,12 @@ impl Session {
     fn event(&self, event: &Event<'_>) -> Result<(), Error> {
         if self.quiet || self.format != Format::JsonLines { Ok(()) } else { json_lines::print(event) }
     }
+}
+
+/// Whether wall-clock time decides about a job: what runs beside it would change its result.
+fn uses_wall_clock(job: &Job) -> bool {
+    matches!(job.plan_source, PlanSource::External(_))
+        || job.scenario.simulation.planning.time == PlanningClock::Measured
 }
 
 /// The folders in a folder; none if it cannot be read.

@@ -81,7 +81,7 @@ pub struct Run<'a> {
 /// assert_eq!(fs::read_to_string(recording)?, "vehicle,t_s,z_m\n");
 /// # Ok::<(), Box<dyn Error>>(())
 /// ```
-pub trait Recorder {
+pub trait Recorder: Sync {
     /// Name of its file in a result folder.
     fn file_name(&self) -> &'static str;
 

@@ -6,7 +6,7 @@ use scenarios::fixed_wing::CSV_COLUMNS;
 use scenarios::{Family, Plan, check_names};
 use serde_json::Value;
 
-use crate::workplace::{PAIR, Workplace, code, stderr};
+use crate::workplace::{PAIR, Workplace, code, stderr, stdout};
 
 const FOLDER: &str = "out/pair/parallel-scp";
 
@@ -96,6 +96,32 @@ fn one_seed_gives_one_report_on_any_number_of_threads_and_another_seed_another()
     let other = report("c", &["--seed", "1"]);
     let tracking = |report: &Value| report["metrics"]["flight"]["tracking_max_m"].as_f64().unwrap();
     assert_ne!(tracking(&first.1), tracking(&other.1), "other gusts should lead to another flight");
+}
+
+/// Scenarios run side by side: reports, summaries and what is printed are those of one after the other.
+#[test]
+fn several_scenarios_give_the_same_results_in_the_same_order_on_any_number_of_threads() {
+    let names = ["a", "b", "c", "d", "e"];
+    let file = |name: &&str| {
+        (format!("{name}.toml"), disturbed_pair().replace("name = \"pair\"", &format!("name = \"{name}\"")))
+    };
+    let files: Vec<(String, String)> = names.iter().map(file).collect();
+    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let workplace = Workplace::new(&files);
+    let results = |out: &str, jobs: &str| {
+        let paths = files.iter().map(|(name, _)| *name);
+        let options = ["--record", "none", "--out", out, "--jobs", jobs, "--format", "json-lines"];
+        let output = workplace.harness(&["run"].into_iter().chain(paths).chain(options).collect::<Vec<_>>());
+        let lines = stdout(&output);
+        let lines = lines.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+        let said: Vec<String> =
+            lines.filter_map(|line| line["report"]["scenario"].as_str().map(str::to_owned)).collect();
+        let report = |name: &&str| reproducible(workplace.json(&format!("{out}/{name}/parallel-scp/report.json")));
+        (said, names.iter().map(report).collect::<Vec<_>>(), code(&output))
+    };
+    let one = results("one", "1");
+    assert_eq!(one.0, names, "one line per report");
+    assert_eq!(one, results("four", "4"));
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn in_every_phase_complete_results_stay_and_incomplete_ones_are_listed() {
     let workplace = Workplace::new(&[("a-pair.toml", &first), (name, &text)]);
     let phases = ["exchange-25 · fleet-scp: planning", "exchange-25 · fleet-scp: flying", "fleet-scp: judging"];
     for phase in phases {
-        let child = start(&workplace, &["run", "a-pair.toml", name, "--record", "none"]);
+        let child = start(&workplace, &["run", "a-pair.toml", name, "--record", "none", "-j", "1"]);
         let (code, said) = stopped_when(child, phase);
         assert_eq!(code, 130, "{phase}: {said}");
         assert!(said.contains("1 of 2 are complete: a-pair (parallel-scp)"), "{phase}: {said}");
@@ -70,6 +70,18 @@ fn in_every_phase_complete_results_stay_and_incomplete_ones_are_listed() {
         assert!(!workplace.path("out/exchange-25/fleet-scp/report.json").exists(), "{phase}");
         assert!(!workplace.path("out/summary.json").exists(), "{phase}");
     }
+}
+
+#[test]
+fn all_jobs_that_run_side_by_side_are_listed() {
+    let (name, text) = long_one();
+    let second = text.replace("name = \"exchange-25\"", "name = \"z-exchange\"");
+    let workplace = Workplace::new(&[(name, &text), ("z-exchange.toml", &second)]);
+    let child = start(&workplace, &["run", name, "z-exchange.toml", "--record", "none", "-j", "2"]);
+    let (code, said) = stopped_when(child, "exchange-25 · fleet-scp: flying");
+    assert_eq!(code, 130, "{said}");
+    assert!(said.contains("not complete: exchange-25 (fleet-scp), z-exchange (fleet-scp); their folders"), "{said}");
+    assert_no_partial_files(&workplace);
 }
 
 #[test]

@@ -165,3 +165,35 @@ fn samples_are_added_to_a_sweep_and_not_to_another_one() {
     assert!(code == 2 && said.contains("scenario or plan differs"), "{said}");
     assert_eq!(workplace.json(&format!("out/{FOLDER}/sweep.json")), added, "it was left as it was");
 }
+
+/// Sample k of both is a pair: a weaker tracker shows in few samples, and a sweep is equal to itself.
+#[test]
+fn two_sweeps_are_compared_pair_by_pair() {
+    let workplace = pair();
+    let sweep = |out: &str, text: &str, more: &[&str]| {
+        std::fs::write(workplace.path("pair.toml"), text).unwrap();
+        let output = workplace.harness(&[&["sweep", "pair.toml", "-n", "30", "-q", "-o", out], more].concat());
+        assert!(code(&output) < 2, "{}", stderr(&output));
+        format!("{out}/{FOLDER}/sweep.parquet")
+    };
+    let old = sweep("old", &shooting_pair(), &[]);
+    // A smaller limit of the tracking error: every margin of it shrinks by 1 m.
+    let tight = shooting_pair() + "\n[verdict]\ntracking_max_m = 4.0\n";
+    let new = sweep("new", &tight, &["--wind", "5", "--mass", "3", "--noise", "0.5", "--start", "0.5"]);
+    let compare = |a: &str, b: &str| {
+        let output = workplace.harness(&["compare", a, b]);
+        (code(&output), stdout(&output) + &stderr(&output).replace("\n  │ ", " "))
+    };
+    let (exit, said) = compare(&old, &old);
+    assert!(exit == 0 && said.contains("30 pairs compared: 0 worse, 0 better"), "{said}");
+    let (exit, said) = compare(&old, &new);
+    assert!(exit == 2 && said.contains("its dispersions differ"), "{said}");
+    let same = sweep("same", &shooting_pair(), &["--wind", "5", "--mass", "3", "--noise", "0.5", "--start", "0.5"]);
+    let (exit, said) = compare(&same, &new);
+    assert!(
+        exit == 1 && said.contains("worse") && said.contains("flight.tracking_max") && said.contains("-1.000"),
+        "{said}"
+    );
+    let (exit, said) = compare(&new, &same);
+    assert!(exit == 0 && said.contains("better") && said.contains("+1.000"), "{said}");
+}

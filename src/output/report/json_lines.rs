@@ -34,6 +34,12 @@ pub enum Event<'a> {
         /// Every difference.
         comparison: &'a crate::campaign::comparison::Comparison,
     },
+    /// A comparison of two sweeps.
+    #[cfg(feature = "parquet")]
+    SweepComparison {
+        /// The verdict and every check.
+        comparison: &'a crate::campaign::sweep_comparison::SweepComparison,
+    },
 }
 
 /// Prints one line.
