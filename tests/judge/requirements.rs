@@ -276,6 +276,17 @@ fn a_failure_says_why() {
     assert_eq!(planned.unit, "m");
 }
 
+/// 400 m high at 35 m/s: the one that is nearer to keeping the formula decides.
+#[test]
+fn a_failed_implication_says_what_is_demanded() {
+    let [planned, _] = checks("always (altitude(uav-1) > 399 m implies speed(uav-1) < 30 m/s)");
+    let why = planned.reason.expect("a reason");
+    assert!(why.contains("`altitude(uav-1) > 399 m` holds by 1"), "{why}");
+    assert!(why.contains("and there `speed(uav-1) < 30 m/s` is demanded"), "{why}");
+    let [planned, _] = checks("always (altitude(uav-1) > 390 m implies speed(uav-1) < 30 m/s)");
+    assert!(planned.reason.expect("a reason").contains("`speed(uav-1) < 30 m/s` decides, short by 5"));
+}
+
 #[test]
 fn signals_of_the_log_are_checked_in_flight_only() {
     let [planned, flown] = checks("always airspeed < 34 m/s");

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use scenarios::requirement::{Requirement, Term};
+use scenarios::requirement::{Clause, Formula, Requirement, Term};
 
 use crate::number_format::quantity;
 use crate::verdict::requirements::grid::Robustness;
@@ -30,7 +30,37 @@ pub fn explain(requirement: &Requirement, instance: &Instance<'_>, robustness: &
     let who = (!variables.is_empty()).then(|| format!("where {}", variables.join(" and ")));
     let facts: Vec<String> = [format!("at {at_s:.2} s")].into_iter().chain(who).chain(values).collect();
     let short = quantity(-robustness.bounds.min, decisive.unit);
-    format!("{}: {}: `{}` decides, short by {short}", requirement.formula, facts.join(", "), text(&decisive.span))
+    let decision = match demanded(&formula.body, robustness.predicate).and_then(|clause| span(clause, formula)) {
+        Some(demanded) => {
+            let premise = text(&decisive.span);
+            format!("`{premise}` holds by {short}, and there `{}` is demanded", text(&demanded))
+        }
+        None => format!("`{}` decides, short by {short}", text(&decisive.span)),
+    };
+    format!("{}: {}: {decision}", requirement.formula, facts.join(", "))
+}
+
+/// What an implication demands, if the predicate is its premise.
+fn demanded(clause: &Clause, predicate: usize) -> Option<&Clause> {
+    match clause {
+        Clause::Or(premise, conclusion) => match &**premise {
+            Clause::Not(inner) if matches!(**inner, Clause::Predicate(index) if index == predicate) => Some(conclusion),
+            _ => demanded(premise, predicate).or_else(|| demanded(conclusion, predicate)),
+        },
+        Clause::And(a, b) | Clause::Until(_, a, b) => demanded(a, predicate).or_else(|| demanded(b, predicate)),
+        Clause::Not(a) | Clause::Always(_, a) | Clause::Eventually(_, a) => demanded(a, predicate),
+        Clause::Predicate(_) => None,
+    }
+}
+
+/// From the first to the last predicate of a clause, in bytes of the formula; `None` if it looks into the future, whose operator is
+/// not part of that.
+fn span(clause: &Clause, formula: &Formula) -> Option<Range<usize>> {
+    match clause {
+        Clause::Predicate(index) => Some(formula.predicates[*index].span.clone()),
+        Clause::And(a, b) | Clause::Or(a, b) => Some(span(a, formula)?.start..span(b, formula)?.end),
+        Clause::Not(_) | Clause::Always(..) | Clause::Eventually(..) | Clause::Until(..) => None,
+    }
 }
 
 fn value(instance: &Instance<'_>, side: &Term, at_s: f64, (unit, unit_size): (&'static str, f64)) -> String {
