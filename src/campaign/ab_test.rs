@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::campaign::distribution::RandomField;
 use crate::campaign::probability::RandomSpace;
-use crate::campaign::probability::splitting::{self, Point, RunSettings};
+use crate::campaign::probability::splitting::{self, Point};
 use crate::campaign::trial::{TestSystem, Trial, has_several_quantities};
 use sign_test::SignTest;
 
@@ -106,18 +106,10 @@ struct Measured {
 ///
 /// - `progress`: is called with the number of pairs so far
 pub fn run(a: &Contender<'_>, b: &Contender<'_>, options: &Options, progress: &mut dyn FnMut(usize)) -> AbTest {
-    let settings = RunSettings {
-        dimension: a.space.dimension(),
-        varies_seed: true,
-        particles: 0,
-        moves: 0,
-        max_flights: 0,
-        max_hazard: 0.0,
-    };
     let pair = |number: usize| {
         let mut random = scenarios::stream(options.seed, &format!("pair/{number}"));
         (0..splitting::REJECTED_PER_PARTICLE).find_map(|_| {
-            let point = splitting::draw(&settings, &mut random);
+            let point = splitting::draw(a.space.dimension(), true, &mut random);
             let (a, b) = rayon::join(|| a.measure(&point), || b.measure(&point));
             Some([a?, b?])
         })

@@ -271,7 +271,7 @@ fn by_draws(settings: &RunSettings, score: &Score<'_>, options: &Options, progre
     let one = |number: usize| {
         let mut random = scenarios::stream(options.seed, &format!("probability/draw/{number}"));
         let draw = |_| {
-            let point = splitting::draw(settings, &mut random);
+            let point = splitting::draw(settings.dimension, settings.varies_seed, &mut random);
             score(&point).map(|score| (score, point))
         };
         let drawn = (0..splitting::REJECTED_PER_PARTICLE).find_map(draw)?;

@@ -110,9 +110,12 @@ pub fn run(settings: &RunSettings, mut random: ChaCha8Rng, score: &Score<'_>, fl
 }
 
 /// One draw of the inputs.
-pub fn draw(settings: &RunSettings, random: &mut ChaCha8Rng) -> Point {
-    let normals = (0..settings.dimension).map(|_| StandardNormal.sample(random)).collect();
-    Point { normals, seed: settings.varies_seed.then(|| random.random_range(0..=MAX_SEED)) }
+///
+/// - `dimension`: number of inputs
+/// - `varies_seed`: whether a seed is drawn, too
+pub fn draw(dimension: usize, varies_seed: bool, random: &mut ChaCha8Rng) -> Point {
+    let normals = (0..dimension).map(|_| StandardNormal.sample(random)).collect();
+    Point { normals, seed: varies_seed.then(|| random.random_range(0..=MAX_SEED)) }
 }
 
 fn empty() -> Run {
@@ -139,7 +142,7 @@ impl Population<'_> {
                 return false;
             }
             attempts -= 1;
-            let point = draw(self.settings, random);
+            let point = draw(self.settings.dimension, self.settings.varies_seed, random);
             if let Some(score) = self.fly(&point) {
                 self.particles.push((score, point));
             }
@@ -210,7 +213,7 @@ impl Population<'_> {
     fn proposal(&self, from: &Point, random: &mut ChaCha8Rng) -> (Point, bool) {
         let kind = if self.settings.varies_seed { random.random_range(0..3) } else { 0 };
         let (draws_seed, moves_inputs) = (kind > 0, kind < 2);
-        let fresh = draw(self.settings, random);
+        let fresh = draw(self.settings.dimension, self.settings.varies_seed, random);
         let keep = (1.0 - self.step * self.step).sqrt();
         let pairs = from.normals.iter().zip(&fresh.normals);
         let normals = pairs.map(|(old, new)| if moves_inputs { keep * old + self.step * new } else { *old }).collect();
