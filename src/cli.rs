@@ -12,6 +12,7 @@ mod figures;
 mod generate;
 mod judge;
 mod list;
+mod log_options;
 #[cfg(feature = "parquet")]
 mod merge;
 mod new;
