@@ -14,6 +14,7 @@ mod generate;
 mod job_queue;
 mod judge;
 mod list;
+mod log_options;
 #[cfg(feature = "parquet")]
 mod merge;
 mod new;

@@ -56,6 +56,18 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plan(#[from] PlanError),
+    /// A log of ROS 2 or PX4 cannot be read.
+    #[cfg(feature = "mcap")]
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Log(#[from] crate::plan_source::logs::LogError),
+    /// An MCAP file, but the feature `mcap` is off.
+    #[error("{}: this harness was built without MCAP support", path.display())]
+    #[diagnostic(help("build it with `--features mcap` (on by default), or convert the file to CSV"))]
+    McapNotBuilt {
+        /// The file.
+        path: PathBuf,
+    },
     /// Tags and names match no scenario.
     #[error("no scenario matches {options}")]
     #[diagnostic(help("`harness list` shows names and tags"))]

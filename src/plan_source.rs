@@ -10,6 +10,8 @@ use scenarios::{Iteration, Scenario};
 pub mod external;
 mod guidance;
 pub mod in_loop;
+#[cfg(feature = "mcap")]
+pub mod logs;
 pub mod plan_import;
 
 use self::external::ExternalPlanner;

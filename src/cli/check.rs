@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenarios::plan_input;
 use scenarios::plan_input::names::ColumnMap;
 
+use super::log_options::LogOptions;
 use super::run::plain_name;
 use super::session::Session;
 use crate::console;
@@ -24,12 +24,15 @@ pub struct Check {
     /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// The plan: a table (.csv, .tsv, .txt, .tum, .parquet), polynomial pieces (.csv), or a .json file
+    /// The plan: a table (.csv, .tsv, .txt, .tum, .parquet), polynomial pieces (.csv), a .json file, or an MCAP
+    /// file or ROS 2 bag (.mcap), or a log of PX4 (.ulg)
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
     /// Names of columns that are not understood: 'theirs=ours, theirs[unit]=ours'
     #[arg(long, value_name = "MAP", value_parser = column_map, default_value = "", hide_default_value = true)]
     columns: ColumnMap,
+    #[command(flatten)]
+    log: LogOptions,
     /// Name of the results, in place of a planner's [default: the name of the plan file]
     #[arg(short = 'p', long = "planner", value_name = "NAME")]
     name: Option<String>,
@@ -45,6 +48,7 @@ Examples:
   harness check scenarios/fixed-wing/rendezvous-1.toml --plan my-plan.csv
   harness check scenarios/multirotor/trap.toml --plan pieces.csv
   harness check scenarios/multirotor/trap.toml --plan log.txt --columns 'when[ms]=t_s, alt[ft]=z_m'
+  harness check scenarios/multirotor/trap.toml --plan bag.mcap --topic /plan
   harness check scenarios/fixed-wing/rendezvous-7.toml \\
       --plan out/rendezvous-7/parallel-scp/plan.json
 
@@ -82,6 +86,9 @@ numbers in a row without a header are the TUM format.
 Polynomial pieces of multirotors and fixed wings: duration,x^0,x^1,...,y^0,...,z^0,... as written
 by uav_trajectories and Crazyswarm. Bezier curves and B-splines are given in JSON.
 
+Messages of MCAP files: see `harness judge --help`; a nav_msgs/Path with stamps, or a
+trajectory_msgs/MultiDOFJointTrajectory, is a plan in one message.
+
 A JSON file is a plan.json of `harness run`, or these columns as arrays in every trajectory.
 docs/plans.md describes all formats.";
 
@@ -101,7 +108,9 @@ impl Check {
                 "note: `{given}` cannot name a folder of results, or is a planner: it is `{name}` here"
             ));
         }
-        let (header, tracks) = plan_input::read_with(&self.plan, &scenario, &self.columns)
+        let (header, tracks) = self
+            .log
+            .read_plan(&self.plan, &scenario, &self.columns)
             .inspect_err(|_| self.session.retract(Some([scenario.name.as_str(), name.as_str()])))?;
         let seed = scenario.simulation.seed;
         let answer = plan_import::complete(&scenario, header, tracks, &name, seed);

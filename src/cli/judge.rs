@@ -1,10 +1,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenarios::plan_input;
 use scenarios::plan_input::names::ColumnMap;
 
 use super::check::column_map;
+use super::log_options::LogOptions;
 use super::run::plain_name;
 use super::session::Session;
 use crate::console;
@@ -26,12 +26,18 @@ pub struct JudgeCommand {
     /// The scenario file
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
-    /// The log of the flight: a table (.csv, .tsv, .txt, .tum, .parquet)
+    /// The log of the flight: a table (.csv, .tsv, .txt, .tum, .parquet), an MCAP file
+    /// or ROS 2 bag (.mcap), or a log of PX4 (.ulg)
     #[arg(long, value_name = "FILE")]
     flight: PathBuf,
     /// Names of columns that are not understood: 'theirs=ours, theirs[unit]=ours'
     #[arg(long, value_name = "MAP", value_parser = column_map, default_value = "", hide_default_value = true)]
     columns: ColumnMap,
+    #[command(flatten)]
+    log: LogOptions,
+    /// Topic of the setpoints in an MCAP or ULog file; of several vehicles VEHICLE=TOPIC, once for each
+    #[arg(long, value_name = "[VEHICLE=]TOPIC")]
+    setpoint_topic: Vec<String>,
     /// Name of the results, in place of a planner's [default: the name of the log]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
@@ -47,6 +53,12 @@ Examples:
   harness run --name rendezvous-1 --record parquet
   harness judge scenarios/fixed-wing/rendezvous-1.toml \\
       --flight out/rendezvous-1/fleet-scp/flight.parquet
+  harness judge scenarios/multirotor/trap.toml --flight bag.mcap --topic /odom \\
+      --setpoint-topic /setpoint
+  harness judge scenarios/multirotor/trap.toml --flight log.ulg \\
+      --setpoint-topic trajectory_setpoint
+  harness judge scenarios/multirotor/trap.toml --flight bag.mcap --topic /state \\
+      --field x=pos.east --field y=pos.north --field z=-pos.down
 
 Columns, of fixed wings and multirotors; x points east, y north, z up:
   vehicle                          name in the scenario; optional if there is only one vehicle
@@ -59,6 +71,12 @@ Columns, of fixed wings and multirotors; x points east, y north, z up:
                                    where the vehicle was told to be; without them tracking is not
                                    judged
 Other names and units in brackets are understood as by `harness check`.
+
+Messages of MCAP files: nav_msgs/Odometry and Path, geometry_msgs/PoseStamped,
+trajectory_msgs/MultiDOFJointTrajectory, px4_msgs/VehicleLocalPosition and TrajectorySetpoint
+(north, east, down is converted), any other by --field. Topics of ULog files:
+vehicle_local_position (the default), trajectory_setpoint, any other by --field. Times count from
+the first stamp.
 
 What is judged: separation, clearance, crashes, map, geofences, altitude, speed, acceleration or
 load factors, goal, rest, arrival, duration, tracking, and the requirements of the scenario. The
@@ -76,7 +94,9 @@ impl JudgeCommand {
                 "note: `{given}` cannot name a folder of results, or is a planner: it is `{name}` here"
             ));
         }
-        let rows = plan_input::read_flight(&self.flight, &scenario, &self.columns)
+        let rows = self
+            .log
+            .read_flight(&self.flight, &scenario, &self.columns, &self.setpoint_topic)
             .inspect_err(|_| self.session.retract(Some([scenario.name.as_str(), name.as_str()])))?;
         let (log, setpoints) = plan_import::complete_flight(&scenario, rows, &name);
         let (seed, plan_source) = (scenario.simulation.seed, PlanSource::Imported(Box::new(log.clone())));

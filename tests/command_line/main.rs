@@ -1,5 +1,7 @@
 //! The command line from end to end: what a user types, sees and finds on disk.
 
+#[cfg(feature = "mcap")]
+mod bags;
 mod benchmarks;
 mod checking;
 mod comparing;

@@ -1,5 +1,7 @@
 //! The judge on hand-made plans and flights: wrong ones fail, near misses pass.
 
+#[cfg(feature = "mcap")]
+mod bags;
 mod between_samples;
 mod broken;
 mod clearances;

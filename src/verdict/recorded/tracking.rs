@@ -79,7 +79,14 @@ fn check_worst(
             worst = Some((bounds_m, at_s, motion.vehicle()));
         }
     }
-    let Some(([lower_m, upper_m], at_s, vehicle)) = worst else { return spec.skip(NO_SETPOINTS) };
+    let Some(([lower_m, upper_m], at_s, vehicle)) = worst else {
+        let are_given = log.setpoints.iter().any(Option::is_some);
+        return if are_given {
+            spec.fail("no setpoint is given for any time of the flight")
+        } else {
+            spec.skip(NO_SETPOINTS)
+        };
+    };
     let measured = at_s.into_iter().fold(Measurement::bounds(lower_m, upper_m).with(vehicle), Measurement::at);
     let check = spec.at_most(measured, limit_m);
     match unknown {
