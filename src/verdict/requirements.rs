@@ -112,7 +112,7 @@ fn check(spec: &CheckSpec, requirement: &Requirement, scene: &Scene<'_>, is_reco
         return Ok(spec.skip(format_args!("{signal} is known at the samples of the simulator's flight log only")));
     }
     if is_reconstructed && formula.needs_velocities() {
-        let reason = "the plan was reconstructed between its rows: its velocities are not known there";
+        let reason = "the motion is known at its rows only: its velocities between them are not bounded";
         return Ok(Check { status: Status::Undecided, ..spec.skip(reason) });
     }
     let Some(decisive) = smallest(&formula, scene) else {

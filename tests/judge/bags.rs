@@ -107,3 +107,79 @@ fn damaged_logs_are_judged_without_a_panic_and_those_that_pass_still_end_at_the_
     }
     assert!(passed > 10 && failed > 10, "{passed} passed, {failed} failed");
 }
+
+/// The messages of a file, written again with checksums.
+fn with_checksums(bytes: &[u8]) -> Vec<u8> {
+    let mut writer = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a writer");
+    for message in mcap::MessageStream::new(bytes).expect("a file") {
+        writer.write(&message.expect("a message")).expect("written");
+    }
+    writer.finish().expect("finished");
+    writer.into_inner().into_inner()
+}
+
+#[test]
+fn what_a_checksum_does_not_confirm_is_refused() {
+    let (scenario, bytes) = (hoverer(), with_checksums(PX4));
+    assert_eq!(judged(&bytes, &scenario, &selection()).expect("a log").outcome, Outcome::Pass);
+    for at in (bytes.len() / 8..bytes.len() / 2).step_by(37) {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 4;
+        assert!(judged(&damaged, &scenario, &selection()).is_err(), "byte {at} of {}", bytes.len());
+    }
+}
+
+/// A length that no file has is an error, not an attempt to reserve memory for it.
+#[test]
+fn a_length_beyond_all_reason_is_refused() {
+    let scenario = hoverer();
+    for at in (0..PX4.len() - 8).step_by(11) {
+        let mut damaged = PX4.to_vec();
+        damaged[at..at + 8].copy_from_slice(&(u64::MAX / 3).to_le_bytes());
+        drop(judged(&damaged, &scenario, &selection()));
+    }
+}
+
+const POSE: &str = "std_msgs/Header header\ngeometry_msgs/Pose pose\n================================================================================
+MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n================================================================================
+MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n================================================================================
+MSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n================================================================================
+MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n================================================================================
+MSG: geometry_msgs/Quaternion\nfloat64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1";
+
+/// A pose in CDR, at the start of the hoverer.
+fn pose(second: i32, frame: &str) -> Vec<u8> {
+    let mut body: Vec<u8> = [second.to_le_bytes(), 0_i32.to_le_bytes()].concat();
+    body.extend((frame.len() as u32 + 1).to_le_bytes());
+    body.extend(frame.as_bytes());
+    body.push(0);
+    body.resize(body.len().next_multiple_of(8), 0);
+    body.extend([0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 1.0_f64].iter().flat_map(|it| it.to_le_bytes()));
+    [vec![0, 1, 0, 0], body].concat()
+}
+
+#[test]
+fn a_topic_in_two_frames_is_refused() {
+    let log = |frames: &[&str]| {
+        let mut writer = mcap::Writer::new(std::io::Cursor::new(Vec::new())).expect("a writer");
+        let schema = writer.add_schema("geometry_msgs/msg/PoseStamped", "ros2msg", POSE.as_bytes()).expect("a schema");
+        let channel =
+            writer.add_channel(schema, "/pose", "cdr", &std::collections::BTreeMap::new()).expect("a channel");
+        for (number, frame) in frames.iter().enumerate() {
+            let time_ns = number as u64 * 1_000_000_000;
+            let header = mcap::records::MessageHeader {
+                channel_id: channel,
+                sequence: 0,
+                log_time: time_ns,
+                publish_time: time_ns,
+            };
+            writer.write_to_known_channel(&header, &pose(number as i32, frame)).expect("written");
+        }
+        writer.finish().expect("finished");
+        let selection = Selection { topics: vec![Topic::parse("/pose")], setpoints: Vec::new(), fields: Vec::new() };
+        judged(&writer.into_inner().into_inner(), &hoverer(), &selection)
+    };
+    assert!(log(&["map", "map", "map"]).is_ok());
+    let mixed = log(&["map", "map", "odom_ned"]).expect_err("two frames");
+    assert!(mixed.contains("odom_ned") && mixed.contains("frame map"), "{mixed}");
+}

@@ -23,3 +23,4 @@ mod simulated;
 mod solids;
 mod sparse_rows;
 mod submitted;
+mod via_points;

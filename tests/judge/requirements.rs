@@ -4,15 +4,15 @@ use harness::verdict::{Check, FlownMotions, Status, judge, robustness_over_time}
 use scenarios::in_loop::Node;
 use scenarios::multirotor::Trajectory;
 use scenarios::requirement::{AppliesTo, Requirement, SIGNALS};
-use scenarios::{Cylinder, Geofence, GeofenceKind, Plan, Range, Scenario, Sphere, ViaPoint};
+use scenarios::{Cylinder, Geofence, GeofenceKind, Plan, Scenario, Sphere};
 
-use crate::fleet::{Case, check};
+use crate::fleet::{Case, check, factors};
 use crate::solids::terrain;
 
 const HOVERER: &str = include_str!("../scenarios/hoverer.toml");
 const PAGE: &str = include_str!("../../docs/requirements.md");
 
-fn requirement(formula: &str) -> Requirement {
+pub fn requirement(formula: &str) -> Requirement {
     Requirement {
         name: "r".into(),
         formula: formula.into(),
@@ -166,38 +166,6 @@ fn obstacles_of_any_shape_have_names() {
     }
 }
 
-/// The first aircraft flies along y = 0 at 400 m and 35 m/s.
-#[test]
-fn via_points_are_passed_in_their_order_and_windows() {
-    let via = |x_m: f64, y_m: f64, window_s| ViaPoint { x_m, y_m, z_m: 400.0, radius_m: 10.0, window_s };
-    let [near, far] = [via(100.0, 4.0, None), via(300.0, 0.0, None)];
-    for (points, robustness_m) in [
-        (vec![near, far], Some(6.0)),
-        (vec![far, near], None),
-        (vec![via(100.0, 12.0, None)], Some(-2.0)),
-        (vec![via(100.0, 4.0, Some(Range::new(2.0, 4.0)))], Some(6.0)),
-        (vec![via(100.0, 4.0, Some(Range::new(5.0, 9.0)))], None),
-    ] {
-        let mut case = Case::good();
-        case.scenario.vehicles[0].via = points;
-        let verdict = case.judge();
-        for name in ["plan.requirement.via-uav-1", "flight.requirement.via-uav-1"] {
-            let check = check(&verdict, name);
-            let is_passed = robustness_m.is_some_and(|it| it > 0.0);
-            assert_eq!(check.status, if is_passed { Status::Pass } else { Status::Fail }, "{check:?}");
-            if let Some(robustness_m) = robustness_m {
-                // A second in a window counts like a metre.
-                assert!((check.value.unwrap() - robustness_m).abs() < 5.2, "{check:?}");
-            }
-        }
-    }
-    let mut case = Case::good();
-    case.scenario.vehicles[1].via = vec![via(100.0, 200.0, None)];
-    case.scenario.requirements.push(Requirement { name: "via-uav-2".into(), ..requirement("always speed > 1 m/s") });
-    let issues = scenarios::validate(&case.scenario);
-    assert!(issues.iter().any(|it| it.field == "requirements[0].name"), "{issues:?}");
-}
-
 /// What is shown of `always A` is A, of what holds for all vehicles the worst one, of what holds for some the best.
 #[test]
 fn robustness_is_shown_over_time() {
@@ -294,6 +262,18 @@ fn signals_of_the_log_are_checked_in_flight_only() {
     assert!((flown.value.unwrap() + 1.0).abs() < 1e-9, "{flown:?}");
     let [_, flown] = checks("always (bank < 1 deg and tracking_error < 0.1 m and wind_speed < 0.1 m/s)");
     assert_eq!(flown.status, Status::Pass, "{flown:?}");
+}
+
+/// A load factor of one sample: the report names its instant and its value.
+#[test]
+fn the_worst_sample_is_named() {
+    let mut case = Case::good();
+    factors(&mut case.samples(1)[1234]).control.n_y = 0.3;
+    case.scenario.requirements.push(requirement("always abs(load_factor_y) < 0.1"));
+    let flown = check(&case.judge(), "flight.requirement.r");
+    assert!((flown.value.unwrap() + 0.2).abs() < 1e-9 && (flown.at_s.unwrap() - 12.345).abs() < 0.006, "{flown:?}");
+    let why = flown.reason.expect("a reason");
+    assert!(why.contains("abs(load_factor_y) is 0.3"), "{why}");
 }
 
 #[test]

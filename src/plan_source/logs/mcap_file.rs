@@ -3,12 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use mcap::{Channel, MessageStream};
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{Channel, McapResult, MessageStream};
 
 use super::cdr::Value;
 use super::message::{KNOWN, Layout, Row, RowError};
 use super::ros2msg::Definitions;
 use super::{LogError, not_understood};
+
+/// The largest record or chunk that is read, bytes: the lengths in a damaged file may be any number.
+const MAX_RECORD_BYTES: usize = 1 << 28;
 
 /// An MCAP file in memory.
 pub struct File<'a> {
@@ -50,8 +54,13 @@ impl File<'_> {
                 none => none.insert(TopicReader::new(self, &message.channel, fields)?),
             };
             let value = reader.decode(&message.data, count)?;
-            if remarks.is_empty() {
-                remarks.push(reader.layout.remark(&topic, &value));
+            let remark = reader.layout.remark(&topic, &value);
+            match remarks.first() {
+                Some(first) if *first != remark && !reader.layout.is_whole() => {
+                    return Err(reader.mixed(count, &remark, first));
+                }
+                Some(_) => {}
+                None => remarks.push(remark),
             }
             let found = reader.rows(&value, i128::from(message.log_time), count)?;
             if reader.layout.is_whole() {
@@ -68,7 +77,26 @@ impl File<'_> {
     }
 
     fn messages(&self) -> Result<MessageStream<'_>, LogError> {
-        MessageStream::new(self.bytes).map_err(|error| self.not_mcap(&error))
+        self.check().and_then(|()| MessageStream::new(self.bytes)).map_err(|error| self.not_mcap(&error))
+    }
+
+    /// Reads the whole file once, with its checksums and within the largest length of a record, before its messages are believed.
+    fn check(&self) -> McapResult<()> {
+        let options = LinearReaderOptions::default()
+            .with_prevalidate_chunk_crcs(true)
+            .with_validate_data_section_crc(true)
+            .with_validate_summary_section_crc(true)
+            .with_record_length_limit(MAX_RECORD_BYTES);
+        let (mut reader, mut rest) = (LinearReader::new_with_options(options), self.bytes);
+        while let Some(event) = reader.next_event() {
+            if let LinearReadEvent::ReadRequest(wanted) = event? {
+                let (next, after) = rest.split_at(wanted.min(rest.len()));
+                reader.insert(next.len()).copy_from_slice(next);
+                reader.notify_read(next.len());
+                rest = after;
+            }
+        }
+        Ok(())
     }
 
     fn not_mcap(&self, error: &mcap::McapError) -> LogError {
@@ -149,6 +177,12 @@ impl<'a> TopicReader<'a> {
             let remedy = "the file is damaged, or its definition is not that of its messages";
             not_understood(self.path, &self.place(number), &error.to_string(), &expected, remedy)
         })
+    }
+
+    /// Messages of one topic in two frames.
+    fn mixed(&self, number: usize, found: &str, first: &str) -> LogError {
+        let remedy = "record the topics of different frames apart, or transform them to one frame";
+        not_understood(self.path, &self.place(number), found, &format!("as in the first message: {first}"), remedy)
     }
 
     fn place(&self, number: usize) -> String {

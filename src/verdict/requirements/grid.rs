@@ -248,9 +248,14 @@ impl<'a> Grid<'a> {
             }
             Clause::Always(window, a) | Clause::Eventually(window, a) => {
                 let cells = Windows::new(&self.times_s, *window).possible(cell);
-                let values = cells.clone().map(|cell| (cell, end(&parts[0].values[cell])));
+                let values = cells.clone().map(|cell| (cell, parts[0].values[cell]));
                 let sign = if matches!(clause, Clause::Always(..)) { 1.0 } else { -1.0 };
-                let found = values.min_by(|(_, a), (_, b)| (sign * a).total_cmp(&(sign * b)));
+                // Of several with the same bound, the one that is known best: a sampled signal jumps where two cells meet.
+                let other = |value: &Interval| if is_lower { value.max } else { value.min };
+                let by = |of: &dyn Fn(&Interval) -> f64, a: &Interval, b: &Interval| {
+                    (sign * of(a)).total_cmp(&(sign * of(b)))
+                };
+                let found = values.min_by(|(_, a), (_, b)| by(&end, a, b).then_with(|| by(&other, a, b)));
                 follow(0, a, found.map_or(cell, |(cell, _)| cell))
             }
             Clause::Until(window, a, b) => {
