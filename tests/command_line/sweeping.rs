@@ -159,6 +159,8 @@ fn samples_are_added_to_a_sweep_and_not_to_another_one() {
         let (code, said) = sweep(&[&["-n", "5", "--resume"][..], &other].concat());
         assert!(code == 2 && said.contains(wanted), "{said}");
     }
+    let (code, said) = sweep(&["-n", "4", "--resume"]);
+    assert!(code == 2 && said.contains("it holds 5 samples, and 4 are asked for"), "{said}");
     let moved = shooting_pair().replace("goal = { x_m = 1000, y_m = 100,", "goal = { x_m = 1000, y_m = 101,");
     std::fs::write(workplace.path("pair.toml"), moved).unwrap();
     let (code, said) = sweep(&["-n", "5", "--resume"]);

@@ -42,7 +42,7 @@ pub fn fingerprint(experiment: &Experiment<'_>) -> String {
 ///
 /// # Errors
 ///
-/// [`Error::Samples`] if a table in the folder cannot be read or belongs to another sweep.
+/// [`Error::Samples`] if a table in the folder cannot be read, belongs to another sweep, or holds more samples.
 pub fn known_samples(folder: &Path, sweep: &Sweep) -> Result<Vec<Sample>, Error> {
     let mut known = BTreeMap::new();
     for name in [TABLE, CHECKPOINT] {
@@ -55,6 +55,13 @@ pub fn known_samples(folder: &Path, sweep: &Sweep) -> Result<Vec<Sample>, Error>
         if let Some(property) = merge::difference(sweep, &same_size) {
             let reason =
                 format!("{property} differs from that of the sweep to be resumed: leave out --resume to begin anew");
+            return Err(Error::Samples { path, reason });
+        }
+        let flown = samples.iter().map(|sample| sample.number + 1).max().unwrap_or(0);
+        if flown > sweep.samples {
+            let asked = sweep.samples;
+            let reason =
+                format!("it holds {flown} samples, and {asked} are asked for: --resume adds samples and removes none");
             return Err(Error::Samples { path, reason });
         }
         known.extend(samples.into_iter().map(|sample| (sample.number, sample)));

@@ -42,7 +42,7 @@ impl File<'_> {
     pub fn rows(&self, topic: Option<&str>, fields: &[(String, String)]) -> Result<TopicRows, LogError> {
         let topic = topic.map_or_else(|| self.only_topic(), |topic| Ok(topic.to_owned()))?;
         let mut reader: Option<TopicReader<'_>> = None;
-        let (mut rows, mut remarks, mut count) = (Vec::new(), Vec::new(), 0);
+        let (mut rows, mut remarks, mut count) = (Vec::new(), Vec::<String>::new(), 0);
         for message in self.messages()? {
             let message = message.map_err(|error| self.not_mcap(&error))?;
             if message.channel.topic != topic {
