@@ -136,7 +136,9 @@ fn lower_tail(u: f64) -> f64 {
 
 /// The z in [α, β] of which the truncated normal distribution has Φ(u) below it:
 ///
-///     Φ(z) = Φ(α) + Φ(u) (Φ(β) - Φ(α))
+/// ```text
+/// Φ(z) = Φ(α) + Φ(u) (Φ(β) - Φ(α))
+/// ```
 ///
 /// It is solved in the tail that is smaller at z, so that nothing cancels.
 fn truncated(u: f64, [alpha, beta]: [f64; 2]) -> f64 {
