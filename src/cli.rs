@@ -3,6 +3,7 @@
 mod ab_test;
 mod bench;
 mod bench_suite;
+mod campaign_args;
 mod check;
 mod compare;
 mod completions;

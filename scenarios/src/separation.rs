@@ -91,8 +91,8 @@ impl SeparationMeasure {
         }
     }
 
-    /// Factors of the three coordinates that make the measure a distance in space, each at most 1. Of a cylinder they only
-    /// make a smaller one.
+    /// Factors of the three coordinates, each at most 1, with which the measure is the length of the relative position; of a
+    /// cylinder, whose measure is no length, one that is not larger.
     pub fn scale(self) -> [f64; 3] {
         match self {
             Self::Horizontal | Self::Cylinder { .. } => [1.0, 1.0, 0.0],
@@ -180,6 +180,20 @@ impl Scenario {
         }
     }
 
+    /// The rules of the fleet with the shape and the size of the separation filled in: a named volume as its cylinder.
+    pub fn resolved_fleet(&self) -> FleetRules {
+        let mut fleet = self.fleet.clone();
+        if let Some(volume) = fleet.separation_volume.take() {
+            let [radius_m, height_m] = volume.size_m();
+            fleet.separation_shape = Some(SeparationShape::Cylinder);
+            (fleet.separation_m, fleet.separation_height_m) = (Some(radius_m), Some(height_m));
+        }
+        if fleet.separation_m.is_some() {
+            fleet.separation_shape = fleet.separation_shape.or(Some(self.default_separation_shape()));
+        }
+        fleet
+    }
+
     /// The shape where the file names none.
     fn default_separation_shape(&self) -> SeparationShape {
         let hovers = |name: &str| self.models.get(name).is_some_and(|model| model.family().hovers());
@@ -246,6 +260,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn resolved_rules_name_shape_and_size() {
+        let mut scenario = crate::load("shipped:rendezvous-2".as_ref()).expect("a shipped scenario");
+        let rule = |scenario: &Scenario| {
+            let fleet = scenario.resolved_fleet();
+            assert_eq!(fleet.separation(SeparationShape::Sphere), scenario.separation());
+            (fleet.separation_m, fleet.separation_shape, fleet.separation_height_m, fleet.separation_volume)
+        };
+        assert_eq!(rule(&scenario), (Some(100.0), Some(SeparationShape::Horizontal), None, None));
+        scenario.fleet = FleetRules { separation_volume: Some(SeparationVolume::Nmac), ..FleetRules::default() };
+        assert_eq!(rule(&scenario), (Some(152.4), Some(SeparationShape::Cylinder), Some(30.48), None));
+        scenario.fleet = FleetRules::default();
+        assert_eq!(rule(&scenario), (None, None, None, None));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use scenarios::{LimitField, Scenario, check_spec};
 use serde::Serialize;
 
 use crate::campaign::scenario_document::ScenarioDocument;
+use crate::jobs::Job;
 use crate::plan_source::PlanSource;
 use crate::verdict::compare::is_smaller;
 use crate::verdict::{Check, Outcome, Status, Verdict};
@@ -23,6 +24,15 @@ pub struct TestSystem<'a> {
     pub seed: u64,
     /// The check that is asked; `None` for whichever fails.
     pub check: Option<&'a str>,
+}
+
+impl<'a> TestSystem<'a> {
+    /// The system of a job.
+    ///
+    /// - `check`: the one that is asked; `None` for whichever fails
+    pub fn new(job: &'a Job, first_plan: Option<&'a FirstPlan>, check: Option<&'a str>) -> Self {
+        Self { source: &job.plan_source, first_plan, seed: job.seed, check }
+    }
 }
 
 /// The plan that is made before the flight of a scenario as it is. Trials that differ in disturbances alone, which planners do

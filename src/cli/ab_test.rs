@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::campaign_args::{CampaignArgs, OutOfRange, number_if};
 use super::run::PlannerArgs;
-use super::session::start_threads;
 use super::shrink;
 use crate::campaign::ab_test::{self, AbTest, Contender, Options, Outcome};
 use crate::campaign::distribution::RandomField;
@@ -52,15 +52,8 @@ pub struct AbTestCommand {
     seed: u64,
     #[command(flatten)]
     planners: PlannerArgs,
-    /// Folder for the result
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Number of worker threads [default: one per core]; results do not depend on it
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    /// Print errors only
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    campaign: CampaignArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -79,16 +72,16 @@ Example of a result:
 impl AbTestCommand {
     /// Flies, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
-        start_threads(self.jobs)?;
+        self.campaign.start_threads()?;
         let [job_a, job_b] = self.jobs()?;
         let found = self.test(&job_a, &job_b)?;
         if found.without_margin == [found.pairs; 2] {
             return Err(Error::NothingJudged { file: self.file_of_b().to_owned(), why: counts(&found) });
         }
-        let folder = self.out.join(&job_b.scenario.name).join(job_b.plan_source.name());
+        let folder = self.campaign.folder_of(&job_b);
         output::create_folder(&folder)?;
         output::write_json(&folder.join("ab-test.json"), &found)?;
-        if !self.quiet {
+        if !self.campaign.quiet {
             console::print(&text(&found))?;
             console::print(&format!("results in {}", folder.display()))?;
         }
@@ -127,18 +120,13 @@ impl AbTestCommand {
             let space = RandomSpace::new(&documents[side], &self.fields, true)
                 .map_err(|field| Error::NoNumber { file: file.to_owned(), field: field.to_string() })?;
             shrink::require_check(&jobs[side].scenario, file, self.check.as_deref())?;
-            let system = TestSystem {
-                source: &jobs[side].plan_source,
-                first_plan: plans[side].as_ref(),
-                seed: jobs[side].seed,
-                check: self.check.as_deref(),
-            };
+            let system = TestSystem::new(jobs[side], plans[side].as_ref(), self.check.as_deref());
             Ok(Contender { space, system })
         };
         let (a, b) = (contender(0)?, contender(1)?);
         let pairs = self.pairs as usize;
         let options = Options { alpha: self.alpha, tolerance: self.tolerance, pairs, seed: self.seed };
-        let mut progress = Progress::new(job_b, 1, 1, self.quiet);
+        let mut progress = Progress::new(job_b, 1, 1, self.campaign.quiet);
         let found = ab_test::run(&a, &b, &options, &mut |done| progress.compared(done, pairs));
         progress.finish();
         Ok(found)
@@ -183,17 +171,10 @@ fn counts(found: &AbTest) -> String {
     format!("failed of {pairs}: A {a}, B {b}{none}")
 }
 
-/// Why a number on the command line is refused.
-#[derive(Debug, thiserror::Error)]
-#[error("expected {0}")]
-struct OutOfRange(&'static str);
-
 fn alpha(text: &str) -> Result<f64, OutOfRange> {
-    let value = text.parse::<f64>().ok().filter(|alpha| *alpha >= 1e-9 && *alpha <= 0.5);
-    value.ok_or(OutOfRange("a probability from 1e-9 to 0.5"))
+    number_if(text, |alpha| (1e-9..=0.5).contains(&alpha), "a probability from 1e-9 to 0.5")
 }
 
 fn tolerance(text: &str) -> Result<f64, OutOfRange> {
-    let value = text.parse::<f64>().ok().filter(|margin| *margin >= 0.0 && margin.is_finite());
-    value.ok_or(OutOfRange("a difference >= 0, in the unit of the margin"))
+    number_if(text, |margin| margin >= 0.0 && margin.is_finite(), "a difference >= 0, in the unit of the margin")
 }

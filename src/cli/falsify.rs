@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::campaign_args::CampaignArgs;
 use super::run::PlannerArgs;
-use super::session::start_threads;
 use super::shrink;
 use crate::campaign::falsification::{self, Falsification, FoundFailure, Method, SearchOptions, Space, VariedField};
 use crate::campaign::scenario_document::ScenarioDocument;
@@ -48,15 +48,8 @@ pub struct FalsifyCommand {
     shrink: bool,
     #[command(flatten)]
     planners: PlannerArgs,
-    /// Folder for the results
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Number of worker threads [default: one per core]; results do not depend on it
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    /// Print errors only
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    campaign: CampaignArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -77,25 +70,20 @@ Results, in out/<scenario>/<planner>/:
 impl FalsifyCommand {
     /// Searches, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
-        start_threads(self.jobs)?;
+        self.campaign.start_threads()?;
         let job = &jobs::load_one(&self.scenario, &self.planners.sources()?, None)?;
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
         let space = Space::new(&document, &self.fields)
             .map_err(|field| Error::NoNumber { file: self.scenario.clone(), field: field.to_string() })?;
         shrink::require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
         let first_plan = FirstPlan::of(&document, &job.plan_source, job.seed);
-        let system = TestSystem {
-            source: &job.plan_source,
-            first_plan: first_plan.as_ref(),
-            seed: job.seed,
-            check: self.check.as_deref(),
-        };
+        let system = TestSystem::new(job, first_plan.as_ref(), self.check.as_deref());
         let found = self.search(job, &space, &system);
-        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
+        let folder = self.campaign.folder_of(job);
         output::create_folder(&folder)?;
         output::write_json(&folder.join("falsify.json"), &found)?;
         self.write_failures(job, &space, &system, &found, &folder.join("failures"))?;
-        if !self.quiet {
+        if !self.campaign.quiet {
             console::print(&self.text(&found))?;
             console::print(&format!("results in {}", folder.display()))?;
         }
@@ -107,7 +95,7 @@ impl FalsifyCommand {
 
     fn search(&self, job: &Job, space: &Space<'_>, system: &TestSystem<'_>) -> Falsification {
         let flights = self.flights as usize;
-        let mut progress = Progress::new(job, 1, 1, self.quiet);
+        let mut progress = Progress::new(job, 1, 1, self.campaign.quiet);
         let options = SearchOptions { flights, method: self.method, seed: self.seed };
         let mut flown = 0;
         let found = falsification::search(space, system, options, &mut |done| {
@@ -133,7 +121,7 @@ impl FalsifyCommand {
             let document = space.document(&failure.values);
             shrink::write(&document.renamed(&name), &name, &headline(failure), folder)?;
             if self.shrink {
-                let mut progress = Progress::new(job, index + 1, found.failures.len(), self.quiet);
+                let mut progress = Progress::new(job, index + 1, found.failures.len(), self.campaign.quiet);
                 let shrunk = shrink::shrunk(&document, &failure.finding, system, self.flights, &mut progress);
                 progress.finish();
                 let name = format!("{name}-small");

@@ -94,6 +94,11 @@ impl JudgeCommand {
                 "note: `{given}` cannot name a folder of results, or is a planner: it is `{name}` here"
             ));
         }
+        let without_effect = self.session.simulation_options();
+        if !without_effect.is_empty() {
+            let options = without_effect.join(", ");
+            console::eprint(&format!("note: {options}: no effect on a flight that was flown elsewhere"));
+        }
         let rows = self
             .log
             .read_flight(&self.flight, &scenario, &self.columns, &self.setpoint_topic)

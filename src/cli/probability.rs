@@ -3,8 +3,8 @@ use std::sync::Mutex;
 
 use clap::Args;
 
+use super::campaign_args::{CampaignArgs, OutOfRange, number_if};
 use super::run::PlannerArgs;
-use super::session::start_threads;
 use super::shrink;
 use crate::campaign::distribution::RandomField;
 use crate::campaign::probability::{self, Decision, FailureProbability, Likeliest, Method, Options, RandomSpace};
@@ -65,15 +65,8 @@ pub struct ProbabilityCommand {
     seed: u64,
     #[command(flatten)]
     planners: PlannerArgs,
-    /// Folder for the results
-    #[arg(short, long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Number of worker threads [default: one per core]; results do not depend on it
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    /// Print errors only
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    campaign: CampaignArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -99,28 +92,23 @@ docs/probability.md says how the interval is made, and when it can be trusted.";
 impl ProbabilityCommand {
     /// Estimates, writes and prints.
     pub fn execute(&self) -> Result<Exit, Error> {
-        start_threads(self.jobs)?;
+        self.campaign.start_threads()?;
         let job = &jobs::load_one(&self.scenario, &self.planners.sources()?, None)?;
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
         let space = RandomSpace::new(&document, &self.fields, self.any_seed)
             .map_err(|field| Error::NoNumber { file: self.scenario.clone(), field: field.to_string() })?;
         shrink::require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
         let first_plan = FirstPlan::of(&document, &job.plan_source, job.seed);
-        let system = TestSystem {
-            source: &job.plan_source,
-            first_plan: first_plan.as_ref(),
-            seed: job.seed,
-            check: self.check.as_deref(),
-        };
+        let system = TestSystem::new(job, first_plan.as_ref(), self.check.as_deref());
         let found = self.estimate(job, &space, &system);
         if found.flights == found.no_plan + found.unanswered {
             return Err(Error::NothingJudged { file: self.scenario.clone(), why: show::counts(&found) });
         }
-        let folder = self.out.join(&job.scenario.name).join(job.plan_source.name());
+        let folder = self.campaign.folder_of(job);
         output::create_folder(&folder)?;
         output::write_json(&folder.join("probability.json"), &found)?;
         write_likeliest(&space, found.likeliest.as_ref(), &folder.join("failures"))?;
-        if !self.quiet {
+        if !self.campaign.quiet {
             console::print(&show::text(&found))?;
             console::print(&format!("results in {}", folder.display()))?;
         }
@@ -141,7 +129,7 @@ impl ProbabilityCommand {
             moves: self.moves.into(),
             seed: self.seed,
         };
-        let progress = Mutex::new(Progress::new(job, 1, 1, self.quiet));
+        let progress = Mutex::new(Progress::new(job, 1, 1, self.campaign.quiet));
         let found = probability::estimate(space, system, &options, &|flights, reached| {
             if let Ok(mut progress) = progress.lock() {
                 progress.reached(flights, options.flights, reached);
@@ -163,17 +151,10 @@ fn write_likeliest(space: &RandomSpace<'_>, found: Option<&Likeliest>, folder: &
     shrink::write(&document, &name, &comment, folder).map(|_| ())
 }
 
-/// Why a number on the command line is refused.
-#[derive(Debug, thiserror::Error)]
-#[error("expected {0}")]
-struct OutOfRange(&'static str);
-
 fn chance(text: &str) -> Result<f64, OutOfRange> {
-    let value = text.parse::<f64>().ok().filter(|p| *p > 0.0 && *p < 1.0);
-    value.ok_or(OutOfRange("a probability above 0 and below 1, as 1e-6"))
+    number_if(text, |p| p > 0.0 && p < 1.0, "a probability above 0 and below 1, as 1e-6")
 }
 
 fn confidence(text: &str) -> Result<f64, OutOfRange> {
-    let value = text.parse::<f64>().ok().filter(|percent| *percent >= 50.0 && *percent < 100.0);
-    value.ok_or(OutOfRange("a percentage from 50 to below 100"))
+    number_if(text, |percent| (50.0..100.0).contains(&percent), "a percentage from 50 to below 100")
 }

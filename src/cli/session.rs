@@ -141,6 +141,17 @@ impl Session {
         }
     }
 
+    /// The options given that are about simulated flights.
+    pub fn simulation_options(&self) -> Vec<&'static str> {
+        let given = [
+            ("--second-integrator", self.second_integrator == SecondIntegrator::Full),
+            ("--waterfall", self.waterfall),
+            ("--tum", self.tum),
+            ("--ghost", self.ghost.is_some()),
+        ];
+        given.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name).collect()
+    }
+
     /// Runs all valid jobs, reports the others, and writes the summaries.
     pub fn run(&self, jobs: Jobs) -> Result<Exit, Error> {
         self.run_by(jobs, &pipeline::run)

@@ -55,12 +55,7 @@ impl ShrinkCommand {
         let document = ScenarioDocument::of(&job.source).planned_by(&job.plan_source);
         require_check(&job.scenario, &self.scenario, self.check.as_deref())?;
         let first_plan = FirstPlan::of(&document, &job.plan_source, job.seed);
-        let system = TestSystem {
-            source: &job.plan_source,
-            first_plan: first_plan.as_ref(),
-            seed: job.seed,
-            check: self.check.as_deref(),
-        };
+        let system = TestSystem::new(job, first_plan.as_ref(), self.check.as_deref());
         let mut progress = Progress::new(job, 1, 1, self.quiet);
         let finding = match system.try_out(&document) {
             Trial::Judged(finding) if finding.fails => finding,

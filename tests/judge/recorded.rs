@@ -196,6 +196,20 @@ fn speeds_through_moving_air_are_not_known_from_speeds_over_ground() {
     assert_eq!((check(&found, "flight.state_limits").status, found.outcome), (Status::Undecided, Outcome::Fail));
 }
 
+/// A steady flight over ground, whose load factors depend on the air that it flies through.
+#[test]
+fn load_factors_in_moving_air_are_not_known_from_the_motion_over_ground() {
+    let mut scenario = pair();
+    let log = fleet(|_, _| [0.0; 3], [30.0, 30.0]);
+    assert_eq!(check(&verdict(&log, &scenario), "flight.control_limits").status, Status::Pass);
+    scenario.simulation.wind = Some(scenarios::Wind { mean_mps: [0.0, 8.0, 0.0], gusts: None, pulses: Vec::new() });
+    let found = verdict(&log, &scenario);
+    for name in ["flight.control_limits", "flight.state_limits"] {
+        assert_eq!(check(&found, name).status, Status::Undecided, "{name}");
+    }
+    assert_eq!(found.outcome, Outcome::Fail);
+}
+
 #[test]
 fn requirements_are_asked_of_the_flight_alone() {
     let text = |formula: &str, applies: &str| {

@@ -270,7 +270,7 @@ impl Problem {
             let mut problem = self.clone();
             let first = problem.phases.first_mut().filter(|phase| phase.mode == CableMode::OnGround)?;
             let Duration::Free { min_s, guess_s, max_s } = first.duration else { return None };
-            let moved_s = (fraction * total_s).clamp(min_s, max_s);
+            let moved_s = (fraction * total_s).min(max_s).max(min_s);
             first.duration = Duration::Free { min_s, guess_s: moved_s, max_s };
             if let Some(Phase { duration: Duration::Free { guess_s: last_s, .. }, .. }) = problem.phases.last_mut() {
                 *last_s = (*last_s + guess_s - moved_s).max(min_s);

@@ -47,7 +47,7 @@ pub(crate) const fn flight_columns(plan: &Columns) -> Columns {
 }
 
 /// Reads the log of a flight of `scenario` from a table: text (`.csv`, `.tsv`, `.txt`, `.tum`) or (with the feature `parquet`)
-/// `.parquet`. Columns of controls are not used: whoever flew elsewhere need not have flown as commanded.
+/// `.parquet`. Columns of controls are not used: they are commands, which an actuator need not have followed.
 ///
 /// # Errors
 ///

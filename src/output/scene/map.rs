@@ -1,4 +1,4 @@
-//! What a scenario fixes in space: the map with its ground grid, gates, geofences, starts and goals.
+//! What a scenario fixes in space: the map with its ground grid, gates, geofences, starts, goals and via-points.
 
 use scenarios::{GeofenceKind, Map, Range, Scenario, Window, World};
 
@@ -20,6 +20,7 @@ pub(super) fn add(scene: &mut Scene<'_>, scenario: &Scenario) {
     add_gates(scene, &scenario.world);
     add_geofences(scene, &scenario.world);
     add_ends(scene, scenario);
+    add_via_points(scene, scenario);
 }
 
 fn add_map(scene: &mut Scene<'_>, map: &Map) {
@@ -120,6 +121,23 @@ fn add_ends(scene: &mut Scene<'_>, scenario: &Scenario) {
         are_labels_shown: is_roomy(scenario),
     };
     scene.add_item(&["ends", "goals"], goals);
+}
+
+/// The balls of via-points, numbered in their order.
+fn add_via_points(scene: &mut Scene<'_>, scenario: &Scenario) {
+    let count = scenario.vehicles.len();
+    for (index, vehicle) in scenario.vehicles.iter().enumerate() {
+        for (number, via) in (1..).zip(&vehicle.via) {
+            let ball = Points {
+                positions_m: vec![via.position_m()],
+                paints: vec![Paint::translucent(colours::vehicle(index, count), 0.7)],
+                radius: Radius::World(via.radius_m),
+                labels: vec![format!("{} via {number}", vehicle.name)],
+                are_labels_shown: false,
+            };
+            scene.add_item(&["via", &vehicle.name, &number.to_string()], ball);
+        }
+    }
 }
 
 /// Is there room for a label at every goal when the whole map is in view?

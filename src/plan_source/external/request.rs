@@ -25,7 +25,7 @@ pub(super) fn document(scenario: &Scenario, seed: u64, time_limit_s: f64) -> Val
         "gravity_mps2": GRAVITY_MPS2,
         "world": world(&scenario.world),
         "vehicles": scenario.vehicles.iter().map(|vehicle| describe(scenario, vehicle)).collect::<Vec<_>>(),
-        "fleet": scenario.fleet,
+        "fleet": scenario.resolved_fleet(),
         "verdict": scenario.limits(),
         "envelope_m": scenario.verdict.envelope_m,
         "max_duration_s": scenario.simulation.max_duration_s,

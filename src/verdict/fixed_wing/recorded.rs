@@ -37,7 +37,8 @@ const CHECKS: &CheckTable<fn(&CheckSpec, &Log<'_>) -> CheckResult> = &[
         let rows = until(it.case.log.rows, it.case.mission_end_s());
         let mut check = limits::check_planned_controls(spec, it.case.log.scenario, &rows)?;
         it.case.log.provenance.mark_controls_undecided(&mut check);
-        Ok(check)
+        // Load factors are along and across the velocity through the air.
+        Ok(without_wind(it.case.log.scenario, check))
     }),
 ];
 

@@ -10,6 +10,8 @@
 
 mod windows;
 
+use std::ops::Range;
+
 use scenarios::requirement::Clause;
 
 use crate::verdict::requirements::instance::Instance;
@@ -248,26 +250,34 @@ impl<'a> Grid<'a> {
             }
             Clause::Always(window, a) | Clause::Eventually(window, a) => {
                 let cells = Windows::new(&self.times_s, *window).possible(cell);
-                let values = cells.clone().map(|cell| (cell, parts[0].values[cell]));
-                let sign = if matches!(clause, Clause::Always(..)) { 1.0 } else { -1.0 };
-                // Of several with the same bound, the one that is known best: a sampled signal jumps where two cells meet.
-                let other = |value: &Interval| if is_lower { value.max } else { value.min };
-                let by = |of: &dyn Fn(&Interval) -> f64, a: &Interval, b: &Interval| {
-                    (sign * of(a)).total_cmp(&(sign * of(b)))
-                };
-                let found = values.min_by(|(_, a), (_, b)| by(&end, a, b).then_with(|| by(&other, a, b)));
-                follow(0, a, found.map_or(cell, |(cell, _)| cell))
+                let is_smallest = matches!(clause, Clause::Always(..));
+                let found = extreme_cell(cells, &parts[0].values, is_lower, is_smallest);
+                follow(0, a, found.unwrap_or(cell))
             }
             Clause::Until(window, a, b) => {
                 let cells = Windows::new(&self.times_s, *window).possible(cell);
-                let best = cells.max_by(|&c, &d| end(&parts[1].values[c]).total_cmp(&end(&parts[1].values[d])));
-                let until = best.unwrap_or(cell);
-                let weakest = (cell..=until)
-                    .min_by(|&c, &d| end(&parts[0].values[c]).total_cmp(&end(&parts[0].values[d])))
-                    .unwrap_or(cell);
+                let until = extreme_cell(cells, &parts[1].values, is_lower, false).unwrap_or(cell);
+                let weakest = extreme_cell(cell..until + 1, &parts[0].values, is_lower, true).unwrap_or(cell);
                 let is_first = end(&parts[0].values[weakest]) < end(&parts[1].values[until]);
                 if is_first { follow(0, a, weakest) } else { follow(1, b, until) }
             }
         }
     }
+}
+
+/// The cell with the smallest or the largest bound. Of several that share it, the one that is known best: a sampled signal jumps
+/// where two cells meet, and only one of them holds the sample.
+///
+/// - `is_lower`: which of the two bounds
+fn extreme_cell(mut cells: Range<usize>, values: &[Interval], is_lower: bool, is_smallest: bool) -> Option<usize> {
+    let key = |cell: usize| {
+        let Interval { min, max } = values[cell];
+        let [bound, other] = if is_lower { [min, max] } else { [max, min] };
+        if is_smallest { [bound, other] } else { [-bound, -other] }
+    };
+    let first = cells.next()?;
+    Some(cells.fold(first, |best, cell| {
+        let ([a, other_a], [b, other_b]) = (key(cell), key(best));
+        if a.total_cmp(&b).then(other_a.total_cmp(&other_b)).is_lt() { cell } else { best }
+    }))
 }

@@ -41,7 +41,7 @@ fn kinked([begin_m, after_m, before_m, end_m]: &[f64; 4], duration_s: f64) -> Op
     let velocities_mps = [after_m - begin_m, end_m - before_m].map(|leg_m| leg_m * 3.0 / duration_s);
     let [slow_mps, fast_mps] = [velocities_mps[0].min(velocities_mps[1]), velocities_mps[0].max(velocities_mps[1])];
     let jump_mps = fast_mps - slow_mps;
-    if jump_mps <= IMPACT_MPS2 * duration_s {
+    if !jump_mps.is_finite() || jump_mps <= IMPACT_MPS2 * duration_s {
         return None;
     }
     // Where the two lines meet, or the end from which they do not.
@@ -77,8 +77,10 @@ mod tests {
     }
 
     #[test]
-    fn a_smooth_motion_has_no_kink_and_what_is_not_finite_neither() {
+    fn neither_a_smooth_motion_nor_one_that_is_not_finite_has_a_kink() {
         assert_eq!(kinked(&points([0.0, 0.0], [0.0012, 0.4]), 0.01), None);
-        assert_eq!(kinked(&points([0.0, f64::NAN], [0.0012, 1.2]), 0.01), None);
+        for broken in [f64::NAN, f64::INFINITY] {
+            assert_eq!(kinked(&points([0.0, broken], [0.0012, 1.2]), 0.01), None);
+        }
     }
 }

@@ -146,7 +146,8 @@ impl<'a> LogReplay<'a> {
 
 /// What remains of a difference between replay and log if the ground may have raised the load by up to `most`.
 fn without_support(difference: Vector3<f64>, most: f64) -> Vector3<f64> {
-    let raised = (-difference.z).clamp(0.0, most);
+    // clamp() panics where a damaged log makes `most` NaN or negative.
+    let raised = (-difference.z).max(0.0).min(most.max(0.0));
     difference + Vector3::z() * raised
 }
 
@@ -229,6 +230,10 @@ mod tests {
             assert!(is(defect_m(-0.05, 0.0, 0.01), 0.05 * WINDOW_S));
             assert!(is(defect_m(0.05, 0.1, 0.01), 0.1 * WINDOW_S));
             assert!(defect_m(f64::NAN, 0.0, 0.01).is_nan());
+            // Times of a damaged log.
+            for supported_s in [f64::NAN, -0.01] {
+                assert!(is(defect_m(0.05, 0.0, supported_s), 0.05 * WINDOW_S));
+            }
         });
     }
 
